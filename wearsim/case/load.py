@@ -1,0 +1,102 @@
+"""Reading a case: from a file or a mapping, with overrides, to a complete Case."""
+
+import copy
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from wearsim.case.messages import Faults
+from wearsim.case.model import Case
+from wearsim.case.resolve import resolve
+from wearsim.case.schema import CaseTables
+from wearsim.errors import CaseError, Fault
+
+
+def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str] = ()) -> Case:
+    """Return the case of an input file or of a mapping with the same tables.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A TOML file, or its tables as dictionaries (paths in it are then relative to the
+        working directory).
+    overrides : sequence of str
+        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    Case
+        Complete: every default filled in and named under ``assumptions``.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input, with file and line.
+
+    Examples
+    --------
+    >>> case = load_case({
+    ...     "format_version": 1,
+    ...     "chain": {"designation": "16B-1"},
+    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+    ...     "load": {"power_kW": 3, "speed_rpm": 100},
+    ...     "wear": {"condition": "hardened, oiled"},
+    ... })
+    >>> case.cycles_per_hour
+    6000.0
+    """
+    if isinstance(source, Mapping):
+        name, text, folder = "case", "", Path()
+        data = copy.deepcopy(dict(source))
+    else:
+        path = Path(source)
+        name, folder = path.stem, path.parent
+        text, data = _read(path)
+    file = "case" if isinstance(source, Mapping) else str(source)
+    faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
+    for item in overrides:
+        _override(data, item)
+    try:
+        tables = CaseTables.model_validate(data)
+    except ValidationError as error:
+        faults.add_validation(error, CaseTables)
+        faults.check()
+        raise
+    return resolve(tables, name, folder, faults)
+
+
+def _read(path: Path) -> tuple[str, dict[str, Any]]:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
+    except UnicodeDecodeError:
+        raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
+    try:
+        return text, tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"\(at line (\d+), column \d+\)", str(error))
+        line = int(place.group(1)) if place else text.count("\n") + 1
+        raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
+
+
+def _override(data: dict[str, Any], item: str) -> None:
+    key, equals, raw = item.partition("=")
+    key, raw = key.strip(), raw.strip()
+    if not equals or not key:
+        raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
+    try:
+        value = tomllib.loads(f"value = {raw}")["value"]
+    except tomllib.TOMLDecodeError:
+        value = raw
+    *tables, last = key.split(".")
+    place: Any = data
+    for table in tables:
+        place = place.setdefault(table, {})
+        if not isinstance(place, dict):
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
+    place[last] = value

@@ -1,0 +1,200 @@
+"""Faults of an input file: where each key stands and what is wrong with it, in plain words."""
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from wearsim.errors import CaseError, Fault
+
+_MARK = "\x00wearsim\x00"
+_MOST_SHOWN = 20
+
+
+class Faults:
+    """What is wrong with one input, collected in one pass.
+
+    Parameters
+    ----------
+    file : str
+        Name of the input for the messages.
+    text : str
+        Its text, empty where it does not come from a file.
+    overrides : iterable of str
+        Dotted keys that were set on the command line.
+    """
+
+    def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
+        self.file = file
+        self.text = text
+        self.overrides = set(overrides)
+        self._found: list[Fault] = []
+
+    @property
+    def count(self) -> int:
+        """Number of faults found so far."""
+        return len(self._found)
+
+    def add(self, key: str, message: str) -> None:
+        """Add a fault of a key.
+
+        Parameters
+        ----------
+        key : str
+            Dotted key.
+        message : str
+            What must hold, what it is, what to do.
+        """
+        if key in self.overrides:
+            self._found.append(Fault(message, "", f"--set {key}"))
+        else:
+            self._found.append(Fault(message, key, self.file, line_of(self.text, key)))
+
+    def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
+        """Add everything that pydantic found.
+
+        Parameters
+        ----------
+        error : pydantic.ValidationError
+            What it raised.
+        model : type
+            The model it was raised for, whose keys are proposed for unknown ones.
+        """
+        names = known_keys(model)
+        for entry in error.errors(include_url=False):
+            key = ".".join(str(part) for part in entry["loc"])
+            if entry["type"] == "conflicts":
+                for name, message in entry["ctx"]["faults"]:
+                    self.add(f"{key}.{name}", message)
+                continue
+            self.add(key, _message(dict(entry), key, names))
+
+    def check(self) -> None:
+        """Raise if anything was found.
+
+        Raises
+        ------
+        CaseError
+            With all faults in the order of their lines, at most twenty and a count.
+        """
+        if not self._found:
+            return
+        ordered = sorted(self._found, key=lambda fault: (fault.line == 0, fault.line))
+        shown = ordered[:_MOST_SHOWN]
+        if len(ordered) > len(shown):
+            shown.append(Fault(f"and {len(ordered) - len(shown)} more", "", self.file))
+        raise CaseError(shown)
+
+
+def known_keys(model: type[BaseModel]) -> list[str]:
+    """Return the dotted names of all tables and keys of a model.
+
+    Parameters
+    ----------
+    model : type
+        A pydantic model.
+
+    Returns
+    -------
+    list of str
+        In the order of the model.
+    """
+    names = []
+    for name, field in model.model_fields.items():
+        names.append(name)
+        inner = field.annotation
+        candidates = [inner, *getattr(inner, "__args__", ())]
+        for candidate in candidates:
+            if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+                names += [f"{name}.{below}" for below in known_keys(candidate)]
+    return names
+
+
+def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
+    kind, got = entry["type"], entry["input"]
+    if kind == "extra_forbidden":
+        return f"unknown key{_similar(key, names)}"
+    if kind == "missing":
+        what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
+        return f"this {what} is required and missing"
+    text = str(entry["msg"]).removeprefix("Value error, ")
+    text = text.replace("Input should be", "must be").replace("a valid dictionary", "a table")
+    if isinstance(got, Mapping):
+        return f"{text} (got a table)"
+    hint = ""
+    if kind == "literal_error" and isinstance(got, str):
+        allowed = [part.strip("' ") for part in str(entry["ctx"]["expected"]).split(" or ")]
+        allowed = [word.strip("' ") for part in allowed for word in part.split(",")]
+        close = difflib.get_close_matches(got, allowed, n=1, cutoff=0.5)
+        hint = f"; did you mean {close[0]!r}?" if close else ""
+    return f"{text} (got {_shown(got)}){hint}"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _similar(key: str, names: list[str]) -> str:
+    """Name the keys like an unknown one: of its own table first, then the same word elsewhere."""
+    table, _, last = key.rpartition(".")
+    siblings = {
+        name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table
+    }
+    close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
+    if close:
+        return f"; did you mean '{close[0]}'?"
+    everywhere = {name.rpartition(".")[2]: name for name in names}
+    close = difflib.get_close_matches(last, everywhere, n=1, cutoff=0.6)
+    return f"; did you mean '{everywhere[close[0]]}'?" if close else ""
+
+
+def line_of(text: str, key: str) -> int:
+    """Return the line of a key in a TOML text.
+
+    Parameters
+    ----------
+    text : str
+        A valid TOML document, or nothing.
+    key : str
+        Dotted key; where it is not there, the line of the first key of its table counts.
+
+    Returns
+    -------
+    int
+        Line from 1; 0 where neither key nor table is in the text.
+    """
+    if not text:
+        return 0
+    parts = key.split(".")
+    line = _line_of_value(text, parts)
+    while not line and len(parts) > 1:
+        parts = parts[:-1]
+        line = _line_of_value(text, parts)
+    return line
+
+
+def _line_of_value(text: str, parts: list[str]) -> int:
+    import tomlkit
+
+    place: Any = tomlkit.parse(text)
+    for part in parts[:-1]:
+        place = place.get(part) if isinstance(place, Mapping) else None
+    if not isinstance(place, Mapping) or parts[-1] not in place:
+        return 0
+    value = place[parts[-1]]
+    if isinstance(value, Mapping) and value:
+        lines = [_line_of_value(text, [*parts, name]) for name in value]
+        return min((line for line in lines if line), default=0)
+    document: Any = tomlkit.parse(text)
+    place = document
+    for part in parts[:-1]:
+        place = place[part]
+    place[parts[-1]] = _MARK
+    dumped = tomlkit.dumps(document)
+    marked = tomlkit.item(_MARK).as_string()
+    before, found, _ = dumped.partition(marked)
+    return before.count("\n") + 1 if found else 0

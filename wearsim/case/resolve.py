@@ -1,0 +1,280 @@
+"""From the tables as given to a complete case: defaults, checks across tables, geometry."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+from wearsim.case.drive import resolve_prescribed, resolve_strand
+from wearsim.case.messages import Faults
+from wearsim.case.model import Case, PrescribedDrive, RunInput, StrandDrive, WearInput
+from wearsim.case.schema import CaseTables, ChainTable, MaterialTable, WearTable
+from wearsim.catalogue.tables import Chain, chains, materials, wear_conditions
+from wearsim.contact.hertz import contact_modulus
+
+DEFAULT_BAND = 3.0
+"""Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
+
+_PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
+
+
+class Resolution:
+    """A case while it is being completed: what was given, found, taken and doubted.
+
+    Parameters
+    ----------
+    tables : CaseTables
+        The validated input.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+    """
+
+    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
+        self.tables = tables
+        self.folder = folder
+        self.faults = faults
+        self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
+        self.files: list[Path] = []
+        self.assumptions: list[str] = []
+        self.warnings: list[str] = []
+
+    def take(self, key: str, value: float | int | str, why: str) -> None:
+        """Record a default that the case takes.
+
+        Parameters
+        ----------
+        key : str
+            Dotted key.
+        value : float, int or str
+            Its value.
+        why : str
+            Where it comes from.
+        """
+        place = self.inputs
+        *tables, last = key.split(".")
+        for table in tables:
+            place = place.setdefault(table, {})
+        place[last] = value
+        shown = f"{value:.6g}" if isinstance(value, float) else value
+        self.assumptions.append(f"{key} = {shown} ({why})")
+
+    def path(self, key: str, name: str) -> Path:
+        """Return the place of a file that the case names.
+
+        Parameters
+        ----------
+        key : str
+            Key that names it.
+        name : str
+            Path, relative to the case file.
+
+        Returns
+        -------
+        pathlib.Path
+            The file.
+        """
+        path = self.folder / name
+        self.files.append(path)
+        return path
+
+
+def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:
+    """Complete a case.
+
+    Parameters
+    ----------
+    tables : CaseTables
+        The validated input.
+    name : str
+        Of the case.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Case
+        Complete.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong.
+    """
+    case = Resolution(tables, folder, faults)
+    for table, key, value in _taken_defaults(tables):
+        case.assumptions.append(f"{table}.{key} = {value} (default)")
+    chain = _chain(case, tables.chain)
+    modulus = _modulus(case)
+    wear = _wear(case, tables.wear)
+    drive: StrandDrive | PrescribedDrive | None
+    if tables.mechanism.kind == "prescribed":
+        drive = resolve_prescribed(case, wear)
+    else:
+        drive = resolve_strand(case, chain)
+    critical_depth = _critical_depth(case, drive)
+    if tables.stop.min_tip_land_mm is not None:
+        _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
+    run = _run(case)
+    faults.check()
+    assert drive is not None
+    return Case(
+        name=name,
+        title=tables.title or name,
+        inputs=case.inputs,
+        files=tuple(case.files),
+        chain=chain,
+        drive=drive,
+        modulus=modulus,
+        speed_rpm=tables.load.speed_rpm,
+        engaged_every=tables.sprocket.engaged_every if tables.sprocket else 1,
+        wear=wear,
+        critical_depth=critical_depth,
+        min_tip_land=tables.stop.min_tip_land_mm or 0.0,
+        run=run,
+        assumptions=tuple(case.assumptions),
+        warnings=tuple(case.warnings),
+    )
+
+
+def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
+    """Defaults of the schema itself that matter for the life and were not given."""
+    taken: list[tuple[str, str, object]] = []
+    wanted = {
+        "mechanism": ("kind", "roller_slip_fraction"),
+        "wear": ("law",),
+        "run": ("method", "life_tolerance", "horizon_hours"),
+        "sprocket": ("nodes", "back_flank"),
+    }
+    for table, keys in wanted.items():
+        model = getattr(tables, table)
+        if model is not None:
+            taken += [
+                (table, key, getattr(model, key)) for key in keys if key not in model.model_fields_set
+            ]
+    return taken
+
+
+def _chain(case: Resolution, table: ChainTable) -> Chain:
+    if table.designation is None:
+        assert table.pitch_mm and table.roller_diameter_mm and table.inner_width_mm
+        return Chain("", table.pitch_mm, table.roller_diameter_mm, table.inner_width_mm)
+    chain = chains()[table.designation]
+    if chain.flag:
+        case.warnings.append(f"chain {chain.designation}: {chain.flag}")
+    return chain
+
+
+def _modulus(case: Resolution) -> float:
+    (e1, nu1), (e2, nu2) = (_material(case, body) for body in ("sprocket", "roller"))
+    return contact_modulus((e1, e2), (nu1, nu2))
+
+
+def _material(case: Resolution, body: str) -> tuple[float, float]:
+    table: MaterialTable = getattr(case.tables.material, body)
+    if table.name is not None:
+        known = materials()[table.name]
+        return known.youngs_modulus, known.poissons_ratio
+    steel, modulus, ratio = materials()["steel"], table.youngs_modulus_MPa, table.poissons_ratio
+    if modulus is None:
+        modulus = steel.youngs_modulus
+        case.take(f"material.{body}.youngs_modulus_MPa", modulus, "steel, default")
+    if ratio is None:
+        ratio = steel.poissons_ratio
+        case.take(f"material.{body}.poissons_ratio", ratio, "steel, default")
+    return modulus, ratio
+
+
+def _wear(case: Resolution, table: WearTable) -> WearInput:
+    if table.condition is not None:
+        return _condition(case, table, table.condition)
+    coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
+    assert coefficient is not None
+    low, high = _PLAUSIBLE_WEAR_RATE
+    if table.law == "archard" and not low <= coefficient <= high:
+        case.warnings.append(
+            f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
+            "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
+        )
+    case.assumptions.append("the constants of the wear law are the user's")
+    factor = _band_factor(case, table)
+    return WearInput(
+        law=table.law,
+        coefficient=coefficient,
+        pressure_exponent=table.pressure_exponent or 1.0,
+        hardness=table.hardness_MPa or 1.0,
+        reference_speed=table.reference_speed_mm_per_s or 1.0,
+        speed_exponent=table.speed_exponent or 0.0,
+        low=1.0 / factor,
+        high=factor,
+        band=f"factor {factor:g} to either side",
+    )
+
+
+def _band_factor(case: Resolution, table: WearTable) -> float:
+    if table.band_factor is not None:
+        return table.band_factor
+    case.take(
+        "wear.band_factor",
+        DEFAULT_BAND,
+        "the coefficient is the user's; a tooth life is only as good as it, factor 3 to 10",
+    )
+    return DEFAULT_BAND
+
+
+def _condition(case: Resolution, table: WearTable, name: str) -> WearInput:
+    condition = wear_conditions()[name]
+    typical = condition.typical
+    low, high = condition.low / typical, condition.high / typical
+    band = f"{name!r}: {condition.source}"
+    if table.band_factor is not None:
+        low, high = 1.0 / table.band_factor, table.band_factor
+        band = f"factor {table.band_factor:g} to either side"
+    case.assumptions.append(
+        f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
+        f"(wear condition {name!r})"
+    )
+    return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
+
+
+def _critical_depth(case: Resolution, drive: StrandDrive | PrescribedDrive | None) -> float:
+    given = case.tables.stop.critical_depth_mm
+    if given is not None:
+        return given
+    if isinstance(drive, StrandDrive):
+        depth = float(f"{0.1 * drive.tooth.pitch_line_thickness:.4g}")
+        if depth > 0.0:
+            case.take(
+                "stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line"
+            )
+            return depth
+    if isinstance(drive, PrescribedDrive):
+        case.faults.add(
+            "stop.critical_depth_mm", "required: a table of loads has no tooth to derive it from"
+        )
+    return math.nan
+
+
+def _check_tip_land(
+    case: Resolution, drive: StrandDrive | PrescribedDrive | None, min_tip_land: float
+) -> None:
+    key = "stop.min_tip_land_mm"
+    if isinstance(drive, PrescribedDrive):
+        case.faults.add(key, "a table of loads has no tooth and no tip: remove this key")
+    elif drive is not None and drive.tooth.tip_land <= min_tip_land:
+        case.faults.add(
+            key,
+            f"must be below the tip land of the new tooth, {drive.tooth.tip_land:.4g} mm "
+            f"(got {min_tip_land:g})",
+        )
+
+
+def _run(case: Resolution) -> RunInput:
+    table = case.tables.run
+    if table.method == "per_cycle" and table.cycles_per_update is None:
+        case.take("run.cycles_per_update", 1, "every cycle")
+    return RunInput(
+        table.method, table.cycles_per_update or 1, table.life_tolerance, table.horizon_hours
+    )

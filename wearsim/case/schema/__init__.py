@@ -1,0 +1,42 @@
+"""The whole input file, one module a table."""
+
+from typing import Literal
+
+from wearsim.case.schema.chain import ChainTable
+from wearsim.case.schema.load import LoadTable
+from wearsim.case.schema.material import MaterialsTable, MaterialTable
+from wearsim.case.schema.mechanism import MechanismTable
+from wearsim.case.schema.run import RunTable
+from wearsim.case.schema.sprocket import SprocketTable
+from wearsim.case.schema.stop import StopTable
+from wearsim.case.schema.table import Table
+from wearsim.case.schema.wear import WearTable
+
+__all__ = [
+    "CaseTables",
+    "ChainTable",
+    "LoadTable",
+    "MaterialTable",
+    "MaterialsTable",
+    "MechanismTable",
+    "RunTable",
+    "SprocketTable",
+    "StopTable",
+    "Table",
+    "WearTable",
+]
+
+
+class CaseTables(Table):
+    """The tables of an input file as they were given."""
+
+    format_version: Literal[1]
+    title: str = ""
+    chain: ChainTable
+    sprocket: SprocketTable | None = None
+    mechanism: MechanismTable = MechanismTable()
+    material: MaterialsTable = MaterialsTable()
+    load: LoadTable
+    wear: WearTable
+    stop: StopTable = StopTable()
+    run: RunTable = RunTable()

@@ -1,0 +1,43 @@
+"""The table [chain]."""
+
+from pydantic import field_validator
+
+from wearsim.case.schema.table import Table, known
+from wearsim.case.units import Positive
+from wearsim.catalogue.tables import chains
+
+
+class ChainTable(Table):
+    """A chain of the catalogue by its designation, or one of one's own by its dimensions."""
+
+    designation: str | None = None
+    pitch_mm: Positive | None = None
+    roller_diameter_mm: Positive | None = None
+    inner_width_mm: Positive | None = None
+
+    @field_validator("designation")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(value, dict(chains()), "chain in the catalogue", "wearsim list chains")
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        own = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
+        given = [key for key in own if getattr(self, key) is not None]
+        if self.designation is not None:
+            return [(key, "a designation gives this already: remove one of both") for key in given]
+        missing = [key for key in own if key not in given]
+        if missing:
+            message = (
+                "give a designation, or pitch_mm, roller_diameter_mm and inner_width_mm "
+                f"(missing: {', '.join(missing)})"
+            )
+            return [(missing[0], message)]
+        assert self.roller_diameter_mm and self.pitch_mm
+        if not self.roller_diameter_mm < self.pitch_mm:
+            message = (
+                f"the roller must be smaller than the pitch of {self.pitch_mm:g} mm "
+                f"(got {self.roller_diameter_mm:g})"
+            )
+            return [("roller_diameter_mm", message)]
+        return []

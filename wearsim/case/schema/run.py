@@ -1,0 +1,24 @@
+"""The table [run]."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wearsim.case.schema.table import Table
+from wearsim.case.units import Positive, PositiveNumber
+
+
+class RunTable(Table):
+    """How the life is calculated."""
+
+    method: Literal["advance", "per_cycle"] = "advance"
+    cycles_per_update: Annotated[int, Field(ge=1)] | None = None
+    life_tolerance: Annotated[PositiveNumber, Field(ge=1e-6, le=0.1)] = 1e-3
+    horizon_hours: Positive = 50000.0
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.cycles_per_update is None or self.method == "per_cycle":
+            return []
+        message = "belongs to method = 'per_cycle': remove it or change the method"
+        return [("cycles_per_update", message)]

@@ -1,0 +1,69 @@
+"""The table [wear]."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator
+
+from wearsim.case.schema.table import Table, known
+from wearsim.case.units import Number, Positive, PositiveNumber
+from wearsim.catalogue.tables import wear_conditions
+
+_KEYS = {
+    "archard": ("specific_wear_rate_mm2_per_N",),
+    "power": ("coefficient", "pressure_exponent"),
+    "drozdov": (
+        "coefficient",
+        "pressure_exponent",
+        "hardness_MPa",
+        "reference_speed_mm_per_s",
+        "speed_exponent",
+    ),
+}
+
+
+class WearTable(Table):
+    """The wear law and its coefficient."""
+
+    law: Literal["archard", "power", "drozdov"] = "archard"
+    condition: str | None = None
+    specific_wear_rate_mm2_per_N: Positive | None = None
+    coefficient: PositiveNumber | None = None
+    pressure_exponent: PositiveNumber | None = None
+    hardness_MPa: Positive | None = None
+    reference_speed_mm_per_s: Positive | None = None
+    speed_exponent: Number | None = None
+    band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+
+    @field_validator("condition")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(
+            value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions"
+        )
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        wanted = _KEYS[self.law]
+        every = dict.fromkeys(key for keys in _KEYS.values() for key in keys)
+        given = [key for key in every if getattr(self, key) is not None]
+        found = [
+            (key, f"does not belong to law = {self.law!r}: remove it")
+            for key in given
+            if key not in wanted
+        ]
+        if self.condition is None:
+            alternative = " (or condition)" if self.law == "archard" else ""
+            found += [
+                (key, f"law = {self.law!r} needs this key{alternative}")
+                for key in wanted
+                if key not in given
+            ]
+        elif self.law != "archard" or given:
+            found.append(
+                (
+                    "condition",
+                    "a condition gives the specific wear rate of law = 'archard': remove it or the "
+                    "coefficient",
+                )
+            )
+        return found

@@ -1,0 +1,200 @@
+"""The CSV files that a case names, checked to the row."""
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from wearsim.case.messages import Faults
+from wearsim.catalogue.tables import nearest
+from wearsim.geometry.profile import Vector
+
+_MOST_ROWS = 200_000
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedTable:
+    """Load and sliding along a flank.
+
+    Parameters
+    ----------
+    arc_length, load_per_width, flank_curvature : numpy.ndarray
+        Columns of the file [mm, N/mm, 1/mm].
+    slip_ratio : numpy.ndarray or None
+        |v_s|/v_t, where the file gives it.
+    sliding_distance : numpy.ndarray or None
+        Path [mm], where the file gives it.
+    sliding_speed : numpy.ndarray or None
+        Sliding speed [mm/s], where the file gives it.
+    """
+
+    arc_length: Vector
+    load_per_width: Vector
+    flank_curvature: Vector
+    slip_ratio: Vector | None
+    sliding_distance: Vector | None
+    sliding_speed: Vector | None
+
+
+def read_columns(
+    path: Path, required: tuple[str, ...], optional: tuple[str, ...], key: str, faults: Faults
+) -> dict[str, Vector]:
+    """Read a CSV file of numbers and report every bad cell.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file.
+    required, optional : tuple of str
+        Names of columns; any other is a fault.
+    key : str
+        Key of the case that names the file, for the faults.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    dict
+        Column by name; empty where there was a fault.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            lines = [row for row in csv.reader(file)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
+        return {}
+    names = [name.strip() for name in lines[0]] if lines else []
+    before = faults.count
+    for name in required:
+        if name not in names:
+            faults.add(key, f"{path.name}:1: column {name!r} is missing{nearest(name, names)}")
+    for name in names:
+        if name not in required + optional:
+            hint = nearest(name, list(required + optional))
+            faults.add(key, f"{path.name}:1: unknown column {name!r}{hint}")
+    if len(set(names)) != len(names):
+        faults.add(key, f"{path.name}:1: every column may stand there once only")
+    values = _cells(path, names, lines[1:], key, faults)
+    if faults.count > before:
+        return {}
+    table = np.array(values, dtype=float).reshape(-1, len(names))
+    return {name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)}
+
+
+def _cells(
+    path: Path, names: list[str], lines: list[list[str]], key: str, faults: Faults
+) -> list[list[float]]:
+    values: list[list[float]] = []
+    if len(lines) > _MOST_ROWS:
+        faults.add(key, f"{path.name}: at most {_MOST_ROWS} rows, has {len(lines)}")
+        return values
+    for number, line in enumerate(lines, start=2):
+        if not line:
+            continue
+        if len(line) != len(names):
+            faults.add(
+                key, f"{path.name}:{number}: needs {len(names)} values, has {len(line)}"
+            )
+            continue
+        row = []
+        for name, cell in zip(names, line, strict=True):
+            try:
+                row.append(float(cell))
+            except ValueError:
+                row.append(math.nan)
+            if not math.isfinite(row[-1]):
+                faults.add(
+                    key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})"
+                )
+        values.append(row)
+    return values
+
+
+def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
+    """Read the points of a flank, from root to tip.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file with the columns x_mm, y_mm.
+    key : str
+        Key of the case that names the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    tuple of numpy.ndarray or None
+        x and y [mm]; None where there was a fault.
+    """
+    columns = read_columns(path, ("x_mm", "y_mm"), (), key, faults)
+    if not columns:
+        return None
+    x, y = columns["x_mm"], columns["y_mm"]
+    if x.size < 11:
+        faults.add(key, f"{path.name}: a flank needs at least 11 points, has {x.size}")
+        return None
+    same = np.flatnonzero(np.hypot(np.diff(x), np.diff(y)) == 0.0)
+    for index in same:
+        faults.add(key, f"{path.name}:{index + 3}: the point repeats the one before: remove it")
+    radius = np.hypot(x, y)
+    if radius[0] > radius[-1]:
+        faults.add(
+            key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them"
+        )
+        return None
+    return None if same.size else (x, y)
+
+
+def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | None:
+    """Read load and sliding along a flank.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file; columns in the documentation of the key ``mechanism.table_file``.
+    key : str
+        Key of the case that names the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    PrescribedTable or None
+        None where there was a fault.
+    """
+    required = ("arc_length_mm", "load_per_width_N_per_mm", "flank_curvature_per_mm")
+    optional = ("slip_ratio", "sliding_distance_mm", "sliding_speed_mm_per_s")
+    columns = read_columns(path, required, optional, key, faults)
+    if not columns:
+        return None
+    before = faults.count
+    arc = columns["arc_length_mm"]
+    if arc.size < 5:
+        faults.add(key, f"{path.name}: needs at least 5 rows, has {arc.size}")
+    for index in np.flatnonzero(np.diff(arc) <= 0.0):
+        faults.add(key, f"{path.name}:{index + 3}: arc_length_mm must increase from row to row")
+    for name in ("load_per_width_N_per_mm", *optional):
+        if name in columns:
+            for index in np.flatnonzero(columns[name] < 0.0):
+                faults.add(key, f"{path.name}:{index + 2}: {name} must not be negative")
+    given = [name for name in optional[:2] if name in columns]
+    if len(given) != 1:
+        faults.add(
+            key,
+            f"{path.name}:1: exactly one of the columns slip_ratio and sliding_distance_mm must be "
+            f"there, found {len(given)}",
+        )
+    if faults.count > before:
+        return None
+    return PrescribedTable(
+        arc,
+        columns["load_per_width_N_per_mm"],
+        columns["flank_curvature_per_mm"],
+        columns.get("slip_ratio"),
+        columns.get("sliding_distance_mm"),
+        columns.get("sliding_speed_mm_per_s"),
+    )

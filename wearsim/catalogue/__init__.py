@@ -1,0 +1,1 @@
+"""Tables that come with wearsim; every number has its source beside it."""

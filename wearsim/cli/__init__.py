@@ -1,0 +1,5 @@
+"""The command line: arguments, exit codes and printing only."""
+
+from wearsim.cli.main import main
+
+__all__ = ["main"]

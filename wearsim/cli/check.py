@@ -1,0 +1,32 @@
+"""``wearsim check``: everything about a case that can be found without a run."""
+
+import json
+from pathlib import Path
+
+import click
+
+from wearsim.cli.standard import load_cases, overrides, standard
+
+
+@click.command(short_help="Is a case complete, and can it run?")
+@click.argument("cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE...")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@overrides
+@standard
+def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
+    """Check each CASE (.toml): keys, files, feasible geometry; say what it takes for granted."""
+    for path, case in zip(cases, load_cases(cases, settings, as_json), strict=True):
+        if as_json:
+            content = {
+                "schema_version": 1,
+                "case": case.name,
+                "assumptions": list(case.assumptions),
+                "warnings": list(case.warnings),
+            }
+            click.echo(json.dumps(content, ensure_ascii=False))
+            continue
+        click.echo(f"{path}: ok")
+        for text in case.assumptions:
+            click.echo(f"  assumes  {text}")
+        for text in case.warnings:
+            click.echo(f"  warning  {text}")

@@ -1,0 +1,51 @@
+"""``wearsim compare``: several lives side by side, with pictures."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.cli.standard import load_cases, overrides, standard, warn
+from wearsim.errors import OutputError
+
+if TYPE_CHECKING:
+    from wearsim.result import WearResult
+
+
+@click.command(short_help="Several lives side by side: tables and pictures.")
+@click.argument(
+    "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE_OR_RUN..."
+)
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
+@click.option("--force", is_flag=True, help="Replace the folder.")
+@overrides
+@standard
+def compare(sources: tuple[Path, ...], out: Path, force: bool, settings: tuple[str, ...]) -> None:
+    """Compare cases (.toml, run now) and runs (folders of life --out).
+
+    The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
+    pressure and sliding along them, and of depth against hours.
+    """
+    from wearsim.output import check_free
+
+    check_free(out, force)
+    results = _results(sources, settings)
+    from wearsim.report.compare import save_comparison
+
+    summary = save_comparison(results, out, force)
+    click.echo(summary)
+    warn(f"written to {out}")
+
+
+def _results(sources: tuple[Path, ...], settings: tuple[str, ...]) -> "list[WearResult]":
+    from wearsim.result import WearResult
+    from wearsim.simulation import simulate
+
+    for path in sources:
+        if not path.is_dir() and path.suffix != ".toml":
+            raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
+    if settings and any(path.is_dir() for path in sources):
+        raise click.UsageError("--set changes cases, it cannot change the folder of a run")
+    cases = iter(load_cases([path for path in sources if not path.is_dir()], settings, False))
+    runs = {path: WearResult.load(path) for path in sources if path.is_dir()}
+    return [runs[path] if path.is_dir() else simulate(next(cases)) for path in sources]

@@ -1,0 +1,135 @@
+"""``wearsim life``: the life of one or several cases."""
+
+import json
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.cli.standard import (
+    FAILED,
+    NOT_MET,
+    SOME_FAILED,
+    error_json,
+    load_cases,
+    overrides,
+    standard,
+    warn,
+)
+from wearsim.errors import WearsimError
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.result import WearResult
+
+
+@click.command(short_help="The life of a drive in hours.")
+@click.argument("cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE...")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for result, history and flank.")
+@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@click.option(
+    "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
+    help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
+)  # fmt: skip
+@click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
+@overrides
+@standard
+def life(
+    cases: tuple[Path, ...], out: Path | None, force: bool, as_json: bool,
+    require_hours: float | None, strict: bool, settings: tuple[str, ...],
+) -> int:  # fmt: skip
+    """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
+
+    With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
+    flank.csv; for several cases, DIR/<file stem> does.
+    """
+    loaded = load_cases(cases, settings, as_json)
+    if require_hours is not None:
+        loaded = [_with_horizon(case, require_hours) for case in loaded]
+    folders = _folders(cases, out, force)
+    failed, missed = 0, False
+    for path, case, folder in zip(cases, loaded, folders, strict=True):
+        try:
+            result = _run(case, folder, force)
+        except WearsimError as error:
+            if len(loaded) == 1 and not as_json:
+                raise
+            failed += 1
+            _show_failure(path, error, as_json)
+            continue
+        _show(result, path, as_json)
+        missed = missed or _missed(result, require_hours, strict)
+    if failed:
+        return FAILED if failed == len(loaded) else SOME_FAILED
+    return NOT_MET if missed else 0
+
+
+def _with_horizon(case: "Case", hours: float) -> "Case":
+    horizon = max(hours, case.run.horizon_hours)
+    run = {**case.inputs["run"], "horizon_hours": horizon}
+    return replace(
+        case, run=replace(case.run, horizon_hours=horizon), inputs={**case.inputs, "run": run}
+    )
+
+
+def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Path | None]:
+    from wearsim.output import check_free
+
+    if out is None:
+        return [None] * len(cases)
+    if len(cases) == 1:
+        check_free(out, force)
+        return [out]
+    twice = [stem for stem, count in Counter(path.stem for path in cases).items() if count > 1]
+    if twice:
+        raise click.UsageError(
+            f"--out: several cases need different file names, {', '.join(twice)} comes twice"
+        )
+    folders: list[Path | None] = []
+    for path in cases:
+        check_free(out / path.stem, force)
+        folders.append(out / path.stem)
+    return folders
+
+
+def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
+    from wearsim.simulation import simulate
+
+    result = simulate(case)
+    if folder is not None:
+        result.save(folder, force)
+    return result
+
+
+def _show(result: "WearResult", path: Path, as_json: bool) -> None:
+    if as_json:
+        click.echo(json.dumps(result.summary(), ensure_ascii=False, allow_nan=False))
+        for text in result.warnings:
+            warn(f"{path}: warning: {text}")
+    else:
+        from wearsim.report.answer import answer
+
+        click.echo(answer(result, str(path)))
+
+
+def _show_failure(path: Path, error: WearsimError, as_json: bool) -> None:
+    if as_json:
+        click.echo(error_json(path.stem, error))
+    click.echo(f"{path}: {error}", err=True)
+
+
+def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> bool:
+    from wearsim.result import Life
+
+    missed = False
+    if require_hours is not None and isinstance(result.life, Life):
+        missed = result.life.hours < require_hours
+        if missed:
+            warn(f"{result.case}: life {result.life.hours:.6g} h is below {require_hours:g} h")
+    if strict and result.warnings:
+        warn(f"{result.case}: {len(result.warnings)} warning(s) and --strict")
+        missed = True
+    return missed

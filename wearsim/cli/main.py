@@ -1,0 +1,82 @@
+"""The command ``wearsim`` and what its exit codes mean."""
+
+import os
+import sys
+import traceback
+
+import click
+
+import wearsim
+from wearsim.cli.check import check
+from wearsim.cli.compare import compare
+from wearsim.cli.init import init
+from wearsim.cli.life import life
+from wearsim.cli.list import list_table
+from wearsim.cli.profile import profile
+from wearsim.cli.schema import schema
+from wearsim.cli.standard import exit_code, standard
+from wearsim.errors import WearsimError
+
+_EXAMPLES = """\b
+How long will this sprocket live?
+  wearsim init > drive.toml          a commented case to start from
+  wearsim check drive.toml           is it complete, and can it run?
+  wearsim life drive.toml            the life in hours
+  wearsim compare drive.toml other.toml --out reports/first
+
+\b
+Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
+4 --require-hours or --strict not met, 5 some of several cases failed,
+130 interrupted, 141 closed pipe.
+"""
+
+
+@click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(wearsim.__version__, prog_name="wearsim")
+@standard
+def wearsim_command() -> None:
+    """Group of all commands."""
+
+
+for _command in (life, check, profile, compare, init, schema, list_table):
+    wearsim_command.add_command(_command)
+
+
+def main() -> None:
+    """Run the command line and exit with its code."""
+    try:
+        code = wearsim_command.main(prog_name="wearsim", standalone_mode=False)
+        sys.stdout.flush()
+        sys.exit(code if isinstance(code, int) else 0)
+    except click.exceptions.Exit as done:
+        sys.exit(done.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted: nothing half-written is left; run the same command again", err=True)
+        sys.exit(130)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(141)
+    except WearsimError as error:
+        _show(error)
+        sys.exit(exit_code(error))
+    except Exception as error:
+        click.echo(f"wearsim: this is a bug in wearsim: {type(error).__name__}: {error}", err=True)
+        if _debug():
+            traceback.print_exc()
+        else:
+            click.echo("run again with --debug to see where, and report it", err=True)
+        sys.exit(1)
+
+
+def _debug() -> bool:
+    return "--debug" in sys.argv
+
+
+def _show(error: WearsimError) -> None:
+    if _debug():
+        traceback.print_exc()
+    else:
+        click.echo(str(error), err=True)

@@ -1,0 +1,32 @@
+"""``wearsim profile``: the working flank of a case as points."""
+
+from pathlib import Path
+
+import click
+
+from wearsim.cli.standard import load_cases, overrides, standard
+
+
+@click.command(short_help="The working flank as a CSV file of points.")
+@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.option(
+    "--out", type=click.Path(path_type=Path, allow_dash=True), default="-", show_default=True,
+    help="New CSV file; - is stdout.",
+)  # fmt: skip
+@click.option("--force", is_flag=True, help="Replace the file.")
+@overrides
+@standard
+def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> None:
+    """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
+    from wearsim.output import check_free, write_file
+
+    if str(out) != "-":
+        check_free(out, force)
+    (loaded,) = load_cases([case], settings, as_json=False)
+    from wearsim.report.profile import profile_table
+
+    text = profile_table(loaded).to_csv(index=False)
+    if str(out) == "-":
+        click.echo(text, nl=False)
+    else:
+        write_file(out, text, force)

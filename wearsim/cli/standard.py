@@ -1,0 +1,160 @@
+"""What commands share: options, exit codes and the form of a failed case."""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from wearsim.errors import (
+    CaseError,
+    Fault,
+    GeometryError,
+    OutputError,
+    WearsimError,
+)
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+BAD_INPUT, FAILED, NOT_MET, SOME_FAILED = 2, 3, 4, 5
+
+
+def standard(function: Function) -> Function:
+    """Add ``-q`` and ``--debug``, which every command takes.
+
+    Parameters
+    ----------
+    function : callable
+        Command to be.
+
+    Returns
+    -------
+    callable
+        The same with two more options.
+    """
+
+    def quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
+        if value:
+            context.find_root().meta["wearsim.quiet"] = True
+
+    function = click.option(
+        "-q", "--quiet", is_flag=True, expose_value=False, callback=quiet,
+        help="Print no warnings and no progress on stderr.",
+    )(function)  # fmt: skip
+    return click.option(
+        "--debug", is_flag=True, expose_value=False, help="Show the traceback of an error."
+    )(function)
+
+
+def overrides(function: Function) -> Function:
+    """Add ``--set``, which every command that takes a CASE takes.
+
+    Parameters
+    ----------
+    function : callable
+        Command to be.
+
+    Returns
+    -------
+    callable
+        The same with one more option.
+    """
+    return click.option(
+        "--set", "settings", multiple=True, metavar="TABLE.KEY=VALUE",
+        help="Override a key of the case; VALUE is TOML, else a string. Repeatable.",
+    )(function)  # fmt: skip
+
+
+def warn(text: str) -> None:
+    """Print a note on stderr unless ``-q`` was given.
+
+    Parameters
+    ----------
+    text : str
+        The note.
+    """
+    if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
+        click.echo(text, err=True)
+
+
+def exit_code(error: WearsimError) -> int:
+    """Return the exit code of an error.
+
+    Parameters
+    ----------
+    error : WearsimError
+        The error.
+
+    Returns
+    -------
+    int
+        2 for bad input, 3 for a calculation that failed.
+    """
+    inputs = (CaseError, GeometryError, OutputError)
+    return BAD_INPUT if isinstance(error, inputs) else FAILED
+
+
+def error_json(case: str, error: WearsimError) -> str:
+    """Return a failed case as one line of JSON.
+
+    Parameters
+    ----------
+    case : str
+        Name of the case.
+    error : WearsimError
+        What went wrong.
+
+    Returns
+    -------
+    str
+        With the file, line and key of the first fault.
+    """
+    first = error.faults[0] if isinstance(error, CaseError) else Fault(str(error))
+    content = {
+        "kind": type(error).__name__,
+        "message": str(error),
+        "file": first.file or None,
+        "line": first.line or None,
+        "key": first.key or None,
+    }
+    return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
+
+
+def load_cases(
+    paths: Sequence[Path], settings: Sequence[str], as_json: bool
+) -> "list[Case]":
+    """Load all cases before the first one runs; report all faults of all of them.
+
+    Parameters
+    ----------
+    paths : sequence of pathlib.Path
+        Input files.
+    settings : sequence of str
+        Overrides.
+    as_json : bool
+        Print a faulty case as JSON on stdout.
+
+    Returns
+    -------
+    list of Case
+        In the order of the paths.
+    """
+    from wearsim.case.load import load_case
+
+    cases, failed = [], False
+    for path in paths:
+        try:
+            cases.append(load_case(path, settings))
+        except (CaseError, GeometryError) as error:
+            failed = True
+            if as_json:
+                click.echo(error_json(path.stem, error))
+            click.echo(str(error), err=True)
+    if failed:
+        raise click.exceptions.Exit(BAD_INPUT)
+    return cases
+

@@ -1,0 +1,1 @@
+"""What a mechanism and the wear engine both speak of: Hertz line contact and the engagement."""

@@ -1,0 +1,165 @@
+"""The seam between mechanisms and the wear engine: a contact, and one passage through it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.flank import flank_frame
+
+
+class Kind(Enum):
+    """How a contact meets the points of a worn flank."""
+
+    TRAVELLING = "travelling"
+    """The whole contact ellipse sweeps every point; slip is the ratio |v_s|/v_t."""
+
+    LOCAL = "local"
+    """Slip is the path [mm] a point slides under the local peak pressure."""
+
+
+@dataclass(frozen=True)
+class Engagement:
+    """One passage of a flank through contact, as arrays over its phases (points of the flank).
+
+    Parameters
+    ----------
+    kind : Kind
+        What ``slip`` means.
+    arc_length : numpy.ndarray
+        Where on the flank [mm].
+    load_per_width : numpy.ndarray
+        Normal load [N/mm]; zero where there is no contact.
+    per_cycle : numpy.ndarray
+        How often in one cycle.
+    slip : numpy.ndarray
+        Slip ratio, or path [mm] for a local contact.
+    sliding_speed : numpy.ndarray
+        Sliding speed [mm/s], nan where it is not known.
+    relative_curvature : numpy.ndarray
+        Sum of the signed curvatures of flank and roller [1/mm].
+    """
+
+    kind: Kind
+    arc_length: Vector
+    load_per_width: Vector
+    per_cycle: Vector
+    slip: Vector
+    sliding_speed: Vector
+    relative_curvature: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """A flank and the compiled function that says how it is touched as it wears.
+
+    Parameters
+    ----------
+    kind : Kind
+        How the contact meets the points.
+    kernel : callable
+        Compiled function of the signature ``kernels.signatures.CONTACT``.
+    constants : numpy.ndarray
+        Numbers handed to it.
+    columns : numpy.ndarray
+        Rows of values per point handed to it, shape (rows, points).
+    profile : Profile
+        The unworn flank.
+    arc_length : numpy.ndarray
+        Arc length of the unworn points [mm].
+    roller_radius : float
+        Radius of the mate [mm].
+    modulus : float
+        Contact modulus E* [MPa].
+    slip_curvature_exponent : float
+        d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0.
+    """
+
+    kind: Kind
+    kernel: Callable[..., None]
+    constants: Vector
+    columns: Vector
+    profile: Profile
+    arc_length: Vector
+    roller_radius: float
+    modulus: float
+    slip_curvature_exponent: float
+
+    def coarsened(self) -> "Contact":
+        """Return the same contact on about every second point.
+
+        Returns
+        -------
+        Contact
+            Both ends are kept.
+        """
+        points = self.profile.x.size
+        keep = np.unique(np.linspace(0, points - 1, max(3, (points + 1) // 2)).round().astype(int))
+        columns = self.columns
+        if columns.shape[1] == points:
+            columns = np.ascontiguousarray(columns[:, keep])
+        return replace(
+            self,
+            profile=Profile(self.profile.x[keep], self.profile.y[keep]),
+            arc_length=self.arc_length[keep],
+            columns=columns,
+        )
+
+    def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
+        """Return the engagement of a worn flank.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm].
+        depth : numpy.ndarray
+            Material removed along the normal [mm].
+
+        Returns
+        -------
+        Engagement
+            Every point of the flank once per cycle.
+        """
+        frame, touch = np.empty((4, x.size)), np.empty((4, x.size))
+        flank_frame(x, y, *frame)
+        self.kernel(x, y, *frame[:3], depth, self.constants, self.columns, *touch)
+        load, slip, speed, relative = touch
+        return Engagement(
+            self.kind, self.arc_length, load, np.ones(x.size), slip, speed, relative
+        )
+
+
+class Mechanism(Protocol):
+    """What touches a flank, where, how hard and with how much slip."""
+
+    @property
+    def contact(self) -> Contact:
+        """The flank and its contact."""
+
+    def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
+        """Return the contact ratio of a worn flank.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm].
+
+        Returns
+        -------
+        float
+            Mean number of rollers in contact by geometry; nan where it has no meaning.
+        """
+
+    def assumptions(self) -> "list[str]":
+        """Return what this picture takes for granted, one sentence each.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+
+

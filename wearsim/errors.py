@@ -1,0 +1,67 @@
+"""What can go wrong, by kind; every class is also the matching builtin."""
+
+from dataclasses import dataclass
+
+
+class WearsimError(Exception):
+    """Base of every error that a user of wearsim can cause or meet."""
+
+
+class GeometryError(WearsimError, ValueError):
+    """A shape that cannot exist or cannot run: infeasible flank, self-crossing profile."""
+
+
+class ContactError(WearsimError, ArithmeticError):
+    """A contact outside the theory that describes it: conforming or vanished."""
+
+
+class ConvergenceError(WearsimError, RuntimeError):
+    """A calculation that would report a wrong life if it went on."""
+
+
+class OutputError(WearsimError, OSError):
+    """A place that results cannot be written to or read from."""
+
+
+class LimitNotReachedError(WearsimError, ValueError):
+    """A life was asked for, but the run ended before any limit was met."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing wrong with an input.
+
+    Parameters
+    ----------
+    message : str
+        What must hold, what was found and what to do.
+    key : str
+        Dotted key, empty where the fault is of a whole file.
+    file : str
+        File the key stands in, or ``--set`` for an override.
+    line : int
+        Line of the key, 0 where there is none.
+    """
+
+    message: str
+    key: str = ""
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}" if self.line else self.file
+        return ": ".join(part for part in (place, self.key, self.message) if part)
+
+
+class CaseError(WearsimError, ValueError):
+    """Everything wrong with an input, found in one pass.
+
+    Parameters
+    ----------
+    faults : sequence of Fault
+        At least one; kept in the order in which they are shown.
+    """
+
+    def __init__(self, faults: "list[Fault] | tuple[Fault, ...]") -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))

@@ -1,0 +1,1 @@
+"""Shapes only, no load: profiles, the evolute flank, teeth and wheels."""

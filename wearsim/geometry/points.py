@@ -1,0 +1,104 @@
+"""A flank from measured or drawn points, through a smoothing spline."""
+
+import math
+
+import numpy as np
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.profile import Profile, Vector
+
+
+def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile:
+    """Return a smooth flank through points that are known only within a noise.
+
+    Curvature is a second difference: 0.1 um of noise on 200 points makes it meaningless
+    (its error is sqrt(6) noise / spacing^2). A quintic spline over the chord length
+    with as few knots as leave residuals of the noise's size replaces the points.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray
+        Points from root to tip [mm], at least 11.
+    noise : float
+        Standard deviation of each coordinate [mm]; 0 interpolates.
+    nodes : int
+        Points of the result, at equal steps of arc length.
+
+    Returns
+    -------
+    Profile
+        The smooth flank.
+
+    Raises
+    ------
+    GeometryError
+        The flank crosses itself.
+    """
+    from scipy.interpolate import make_splprep
+
+    chord = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    # Both coordinates are fitted together: 2 n squared residuals of noise^2 each.
+    allowed = 2.0 * x.size * noise**2
+    spline, _ = make_splprep([x, y], u=chord, k=5, s=allowed)
+    fine = np.linspace(0.0, chord[-1], 20 * nodes + 1)
+    speed = np.hypot(*spline.derivative()(fine))
+    arc = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
+    at = np.interp(np.linspace(0.0, arc[-1], nodes), arc, fine)
+    profile = Profile(*spline(at))
+    profile.check_simple("points")
+    return profile
+
+
+def working_side(profile: Profile) -> Profile:
+    """Return a flank on the left of the gap, as the mechanisms expect it.
+
+    Parameters
+    ----------
+    profile : Profile
+        A flank from root to tip, on either side of the gap's centre line.
+
+    Returns
+    -------
+    Profile
+        The flank itself, or its mirror image where it bounds the gap on the right.
+    """
+    if float(profile.x.mean()) <= 0.0:
+        return profile
+    return Profile(-profile.x, profile.y)
+
+
+def contact_range(profile: Profile, height: float, roller_radius: float) -> tuple[float, float]:
+    """Return where along the strand the roller touches the two ends of a flank.
+
+    Parameters
+    ----------
+    profile : Profile
+        The flank, root to tip.
+    height : float
+        Height of the line of roller centres above the axis [mm].
+    roller_radius : float
+        Radius of the roller [mm].
+
+    Returns
+    -------
+    tuple of float
+        Distance before the pole line at the root end and at the tip end [mm].
+
+    Raises
+    ------
+    GeometryError
+        A roller on the strand does not reach one of the ends.
+    """
+    distances = []
+    for end, name in ((0, "root"), (-1, "tip")):
+        centre_x = profile.x[end] + roller_radius * profile.normal_x[end]
+        centre_y = profile.y[end] + roller_radius * profile.normal_y[end]
+        inside = centre_x**2 + centre_y**2 - height**2
+        if not inside > 0.0:
+            raise GeometryError(
+                f"points: a roller on the strand must reach the {name} end of the flank, but passes "
+                f"{math.sqrt(height**2 - inside) - height:.3g} mm outside its centre: check "
+                "evolute_offset_mm, or cut the flank there"
+            )
+        distances.append(math.sqrt(inside))
+    return distances[0], distances[1]

@@ -1,0 +1,215 @@
+"""A flank as a row of points, with its normals and signed curvature."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from wearsim.errors import GeometryError
+from wearsim.kernels.flank import flank_frame
+
+Vector = NDArray[np.float64]
+
+
+def _vector(values: ArrayLike) -> Vector:
+    array = np.array(values, dtype=float)
+    array.setflags(write=False)
+    return array
+
+
+def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> float:
+    """Return the area between two flanks, by the shoelace formula.
+
+    Parameters
+    ----------
+    x_before, y_before : numpy.ndarray
+        Points of the flank before, root to tip [mm].
+    x, y : numpy.ndarray
+        Points of the flank after, root to tip [mm].
+
+    Returns
+    -------
+    float
+        Area [mm2], positive where material was removed.
+
+    Examples
+    --------
+    A flank along +y with the gap on its right recedes by 0.5 mm over 2 mm:
+
+    >>> import numpy as np
+    >>> y = np.array([0.0, 1.0, 2.0])
+    >>> area_between(0.0 * y, y, 0.0 * y - 0.5, y)
+    1.0
+    """
+    u = np.concatenate([x_before - x_before[0], (x - x_before[0])[::-1]])
+    v = np.concatenate([y_before - y_before[0], (y - y_before[0])[::-1]])
+    return 0.5 * float(np.dot(u, np.roll(v, -1)) - np.dot(v, np.roll(u, -1)))
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Points of a flank from root to tip, with what follows from them.
+
+    Parameters
+    ----------
+    x, y : array_like
+        Coordinates in the sprocket's frame [mm], at least three points, no two
+        successive ones equal; the gap lies to the right of the direction of travel.
+
+    Attributes
+    ----------
+    normal_x, normal_y : numpy.ndarray
+        Unit normal into the gap, of the circle through a point and its neighbours (at
+        the ends of the parabola through the three end points).
+    curvature : numpy.ndarray
+        Signed curvature [1/mm], positive where the flank is convex.
+
+    Raises
+    ------
+    GeometryError
+        Too few points, a value that is not finite, or two successive points that coincide.
+
+    Examples
+    --------
+    Three points of a circle of radius 5 mm around the origin, run through
+    counterclockwise so that the material is inside:
+
+    >>> profile = Profile([5.0, 3.0, 0.0], [0.0, 4.0, 5.0])
+    >>> float(round(profile.curvature[1], 12))
+    0.2
+    """
+
+    x: Vector
+    y: Vector
+    normal_x: Vector = field(init=False)
+    normal_y: Vector = field(init=False)
+    curvature: Vector = field(init=False)
+
+    def __post_init__(self) -> None:
+        x, y = _vector(self.x), _vector(self.y)
+        if x.ndim != 1 or x.shape != y.shape or x.size < 3:
+            raise GeometryError(
+                f"profile: needs at least three points with as many x as y, got {x.shape} x and "
+                f"{y.shape} y: give one x and one y for every point"
+            )
+        if not (np.isfinite(x).all() and np.isfinite(y).all()):
+            raise GeometryError("profile: every coordinate must be finite: remove nan and inf")
+        gaps = np.hypot(np.diff(x), np.diff(y))
+        if not gaps.min() > 0.0:
+            raise GeometryError(
+                f"profile: successive points must differ, points {gaps.argmin() + 1} and "
+                f"{gaps.argmin() + 2} coincide: remove one"
+            )
+        frame = np.empty((4, x.size))
+        flank_frame(x.copy(), y.copy(), *frame)
+        values = (x, y, *(_vector(row) for row in frame[:3]))
+        for name, value in zip(("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True):
+            object.__setattr__(self, name, value)
+
+    @property
+    def arc_length(self) -> Vector:
+        """Length along the points from the first one [mm], each chord taken as its circle's arc."""
+        chord = np.hypot(np.diff(self.x), np.diff(self.y))
+        mean = 0.5 * (self.curvature[1:] + self.curvature[:-1])
+        return np.concatenate([[0.0], np.cumsum(chord * (1.0 + (mean * chord) ** 2 / 24.0))])
+
+    def recede(self, depth: ArrayLike) -> "Profile":
+        """Return the profile with every point moved against its normal.
+
+        Parameters
+        ----------
+        depth : array_like
+            Material removed along the normal [mm], one value or one per point.
+
+        Returns
+        -------
+        Profile
+            The new flank, with as many points.
+        """
+        return Profile(self.x - depth * self.normal_x, self.y - depth * self.normal_y)
+
+    def mirrored(self) -> "Profile":
+        """Return the mirror image on the gap's centre line, run from tip to root.
+
+        Returns
+        -------
+        Profile
+            Points (-x, y) in reverse order, so that the gap stays on the right.
+        """
+        return Profile(-self.x[::-1], self.y[::-1])
+
+    def rotated(self, angle: float) -> "Profile":
+        """Return the profile turned counterclockwise about the origin.
+
+        Parameters
+        ----------
+        angle : float
+            Angle [rad].
+
+        Returns
+        -------
+        Profile
+            The turned flank.
+        """
+        cosine, sine = np.cos(angle), np.sin(angle)
+        return Profile(self.x * cosine - self.y * sine, self.x * sine + self.y * cosine)
+
+    def area_from(self, other: "Profile") -> float:
+        """Return the area between this flank and another, by the shoelace formula.
+
+        Parameters
+        ----------
+        other : Profile
+            The flank before; need not have as many points.
+
+        Returns
+        -------
+        float
+            Area [mm2], positive where this flank lies behind the other (material removed).
+        """
+        return area_between(other.x, other.y, self.x, self.y)
+
+    def regridded(self, nodes: int) -> "Profile":
+        """Return the same flank on points at equal arc length, conserving removed area.
+
+        A cubic spline carries the points over; a uniform shift along the normals then
+        closes the area between old and new flank.
+
+        Parameters
+        ----------
+        nodes : int
+            Number of points, at least three.
+
+        Returns
+        -------
+        Profile
+            The new points; the shoelace area to the old flank is below 1e-12 of length squared.
+        """
+        from scipy.interpolate import CubicSpline
+
+        arc = self.arc_length
+        spline = CubicSpline(arc, np.column_stack([self.x, self.y]))
+        new = Profile(*spline(np.linspace(0.0, arc[-1], nodes)).T)
+        for _ in range(4):
+            new = new.recede(-new.area_from(self) / arc[-1])
+        return new
+
+    def check_simple(self, what: str) -> None:
+        """Raise where the flank crosses itself.
+
+        Parameters
+        ----------
+        what : str
+            Name of the flank for the message.
+
+        Raises
+        ------
+        GeometryError
+            The line through the points crosses or touches itself.
+        """
+        if not shapely.LineString(np.column_stack([self.x, self.y])).is_simple:
+            raise GeometryError(
+                f"{what}: the flank must not cross itself, but it does: check the order of the "
+                "points, or stop at a smaller depth"
+            )

@@ -1,0 +1,16 @@
+"""Types shared by the kernels; CONTACT is the seam between a mechanism and the wear loops."""
+
+from numba import float64, int64, types, void
+
+VECTOR = float64[::1]
+TABLE = float64[:, ::1]
+
+# x, y, normal_x, normal_y, curvature, depth, constants, columns
+#   -> load_per_width, slip, sliding_speed, relative_curvature
+# A mechanism may also overwrite the normals: they are the direction a point recedes in.
+CONTACT = void(
+    VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, VECTOR, VECTOR, VECTOR, VECTOR
+)
+CONTACT_FUNCTION = types.FunctionType(CONTACT)
+
+__all__ = ["CONTACT", "CONTACT_FUNCTION", "TABLE", "VECTOR", "float64", "int64", "void"]

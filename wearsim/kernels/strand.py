@@ -1,0 +1,51 @@
+"""Contact of a worn flank with the rollers of a straight strand (a pin rack)."""
+
+import math
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import CONTACT
+
+
+@kernel(CONTACT)
+def strand_contact(  # type: ignore[no-untyped-def]
+    x, y, normal_x, normal_y, curvature, depth, constants, columns, load, slip, speed, relative
+):
+    """Write load per width, slip ratio, sliding speed and relative curvature at every point.
+
+    The roller centre is one roller radius off the point along the normal and must lie
+    on the strand's line; its distance before the pole line, the pressure angle and the
+    slip ratio follow without an angle being formed (the distance stands in ``speed`` and
+    the cosine in ``relative`` until both are replaced at the end). A point that the line does not
+    reach, or outside the stretch that carries load, has load zero.
+
+    ``constants``: line height, roller radius, pull per face width, end and start of the
+    load along the strand, 1/overlap, slip fraction, angular speed.
+    """
+    height, radius, pull, x_min, x_max = (
+        constants[0],
+        constants[1],
+        constants[2],
+        constants[3],
+        constants[4],
+    )
+    per_overlap, fraction, omega = constants[5], constants[6], constants[7]
+    n = x.size
+    for j in range(n):
+        cx, cy = x[j] + radius * normal_x[j], y[j] + radius * normal_y[j]
+        inside = cx * cx + cy * cy - height * height
+        speed[j] = math.sqrt(inside) if inside > 0.0 else 0.0
+    for j in range(n):
+        cx, cy = x[j] + radius * normal_x[j], y[j] + radius * normal_y[j]
+        across = normal_x[j] * cy - normal_y[j] * cx
+        along = normal_x[j] * cx + normal_y[j] * cy
+        relative[j] = (across * height - along * speed[j]) / (cx * cx + cy * cy)
+    for j in range(n):
+        share = min(1.0, min(x_max - speed[j], speed[j] - x_min) * per_overlap)
+        load[j] = pull * share / relative[j] if share > 0.0 else 0.0
+    for j in range(n):
+        rolling = 1.0 + radius * relative[j] / speed[j]
+        slip[j] = fraction * rolling * (1.0 + radius * curvature[j]) if load[j] > 0.0 else 0.0
+    for j in range(n):
+        speed[j] = fraction * omega * (speed[j] / relative[j] + radius) if load[j] > 0.0 else 0.0
+    for j in range(n):
+        relative[j] = 1.0 / radius + curvature[j]

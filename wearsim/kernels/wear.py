@@ -1,0 +1,122 @@
+"""Hertz pressure, depth per cycle and the loop over loading cycles."""
+
+import math
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
+
+RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED = 0, 1, 2, 3, 4
+
+
+@kernel(void(VECTOR, float64))
+def _raise_to(values, exponent):  # type: ignore[no-untyped-def]
+    """Raise every value to a power in place; the common exponents without a logarithm."""
+    if exponent == 0.0:
+        values[:] = 1.0
+    elif exponent == 0.5:
+        for j in range(values.size):
+            values[j] = math.sqrt(values[j])
+    elif exponent != 1.0:
+        for j in range(values.size):
+            values[j] = values[j] ** exponent
+
+
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
+def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # type: ignore[no-untyped-def]
+    """Write the Hertz pressure and the depth worn off in one cycle at every point.
+
+    ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
+    depth = factor pressure^a load^b slip speed^n, zero where the load is zero.
+    """
+    n = load.size
+    for j in range(n):
+        pressure[j] = math.sqrt(load[j] * relative[j] * (modulus / math.pi))
+    if law[1] == 0.0:
+        depth[:] = law[0]
+    else:
+        depth[:] = pressure
+        _raise_to(depth, law[1])
+        for j in range(n):
+            depth[j] *= law[0]
+    if law[2] != 0.0:
+        for j in range(n):
+            depth[j] *= load[j]
+    if law[3] != 0.0:
+        for j in range(n):
+            depth[j] *= speed[j] ** law[3] if speed[j] > 0.0 else 0.0
+    for j in range(n):
+        depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
+
+
+@kernel(int64(VECTOR, VECTOR))
+def conforming_points(load, relative):  # type: ignore[no-untyped-def]
+    """Count the loaded points whose flank conforms to the roller (or is not a number)."""
+    count = 0
+    for j in range(load.size):
+        count += 1 if load[j] > 0.0 and not relative[j] > 0.0 else 0
+    return count
+
+
+@kernel(int64(VECTOR, VECTOR, VECTOR, float64))
+def unstable_points(depth, spacing_squared, relative, diffusion):  # type: ignore[no-untyped-def]
+    """Count the points that recede by more than spacing^2 relative / (2 diffusion) at once."""
+    count = 0
+    for j in range(depth.size):
+        count += 1 if 2.0 * diffusion * depth[j] > spacing_squared[j] * relative[j] else 0
+    return count
+
+
+@kernel(
+    int64(
+        CONTACT_FUNCTION, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE,
+        float64, VECTOR, float64, float64, float64, int64, VECTOR,
+    )
+)  # fmt: skip
+def run_cycles(  # type: ignore[no-untyped-def]
+    contact, x, y, depth, constants, columns, work,
+    modulus, law, diffusion, cycles_per_update, critical_depth, updates, done,
+):  # fmt: skip
+    """Wear the flank update by update, equations (10) to (12), in place.
+
+    Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
+    worn points and moves each along its normal. It stops before an update that the
+    stability limit forbids or that Hertz cannot describe, and after the update that
+    reaches the critical depth. ``done[0]`` counts the updates made; ``work`` holds
+    normals, curvature, squared spacing, load, slip, speed, relative curvature,
+    pressure and the depth of the last update.
+    """
+    normal_x, normal_y, curvature, spacing_squared = work[0], work[1], work[2], work[3]
+    load, slip, speed, relative = work[4], work[5], work[6], work[7]
+    pressure, step = work[8], work[9]
+    n = x.size
+    done[0] = 0.0
+    for update in range(updates):
+        flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared)
+        contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
+                load, slip, speed, relative)  # fmt: skip
+        wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
+        if conforming_points(load, relative) > 0:
+            return CONFORMING
+        worn = 0
+        for j in range(n):
+            step[j] *= cycles_per_update
+        for j in range(n):
+            worn += 1 if step[j] > 0.0 else 0
+        if worn == 0:
+            return VANISHED
+        if diffusion > 0.0 and unstable_points(step, spacing_squared, relative, diffusion) > 0:
+            return UNSTABLE
+        for j in range(n):
+            x[j] -= step[j] * normal_x[j]
+        for j in range(n):
+            y[j] -= step[j] * normal_y[j]
+        for j in range(n):
+            depth[j] += step[j]
+        done[0] = update + 1
+        reached = 0
+        for j in range(n):
+            reached += 1 if depth[j] >= critical_depth else 0
+        if reached > 0:
+            return DEPTH_REACHED
+    return RUNNING

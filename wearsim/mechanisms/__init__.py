@@ -1,0 +1,1 @@
+"""What touches a flank, where, how hard and with how much slip; no wear, no time."""

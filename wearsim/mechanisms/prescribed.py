@@ -1,0 +1,125 @@
+"""Load and sliding along a flank as the user gives them, from his own run or measurement."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.contact.engagement import Contact, Kind
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.prescribed import prescribed_contact
+
+
+def flank_from_curvature(arc_length: Vector, curvature: Vector) -> Profile:
+    """Return the flank whose signed curvature is given along its arc, starting at (0, 0).
+
+    The direction is integrated by the trapezoidal rule and the points by the chord of
+    each arc; the flank starts along -x, so that its normal points to +y at the start.
+
+    Parameters
+    ----------
+    arc_length : numpy.ndarray
+        Increasing [mm].
+    curvature : numpy.ndarray
+        Convex positive [1/mm].
+
+    Returns
+    -------
+    Profile
+        The points.
+    """
+    step = np.diff(arc_length)
+    turn = 0.5 * (curvature[1:] + curvature[:-1]) * step
+    direction = np.pi + np.concatenate([[0.0], np.cumsum(turn)])
+    middle = 0.5 * (direction[1:] + direction[:-1])
+    chord = step * np.sinc(turn / (2.0 * np.pi))
+    x = np.concatenate([[0.0], np.cumsum(chord * np.cos(middle))])
+    y = np.concatenate([[0.0], np.cumsum(chord * np.sin(middle))])
+    return Profile(x, y)
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedMechanism:
+    """A contact whose load, sliding and initial curvature are given per point.
+
+    Parameters
+    ----------
+    kind : Kind
+        TRAVELLING where slip is the ratio |v_s|/v_t, LOCAL where it is a path [mm].
+    arc_length : numpy.ndarray
+        Increasing [mm].
+    load_per_width : numpy.ndarray
+        Normal load [N/mm].
+    slip : numpy.ndarray
+        Slip ratio or path [mm].
+    sliding_speed : numpy.ndarray
+        Sliding speed [mm/s], nan where it is not given.
+    flank_curvature : numpy.ndarray
+        Of the unworn flank, convex positive [1/mm]; the end rows keep it as they wear.
+    roller_radius : float
+        Radius of the mate [mm].
+    modulus : float
+        Contact modulus E* [MPa].
+    """
+
+    kind: Kind
+    arc_length: Vector
+    load_per_width: Vector
+    slip: Vector
+    sliding_speed: Vector
+    flank_curvature: Vector
+    roller_radius: float
+    modulus: float
+
+    @cached_property
+    def contact(self) -> Contact:
+        """The flank and its contact."""
+        profile = flank_from_curvature(self.arc_length, self.flank_curvature)
+        rows = [
+            self.arc_length,
+            self.load_per_width,
+            self.slip,
+            self.sliding_speed,
+            self.flank_curvature,
+            profile.normal_x,
+            profile.normal_y,
+        ]
+        return Contact(
+            kind=self.kind,
+            kernel=prescribed_contact,
+            constants=np.array([1.0 / self.roller_radius]),
+            columns=np.array(rows),
+            profile=profile,
+            arc_length=self.arc_length,
+            roller_radius=self.roller_radius,
+            modulus=self.modulus,
+            slip_curvature_exponent=0.0,
+        )
+
+    def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
+        """Return nan: a table of loads says nothing of the rollers before and after.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm], not used.
+
+        Returns
+        -------
+        float
+            Not a number.
+        """
+        return float("nan")
+
+    def assumptions(self) -> list[str]:
+        """Return what this picture takes for granted.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+        return [
+            "load and sliding along the flank are the table's and stay so as it wears",
+            "the curvature of the first and the last row does not change",
+        ]

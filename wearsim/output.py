@@ -1,0 +1,115 @@
+"""Writing to disk: beside and renamed, so that a place holds the old, the new or nothing."""
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from wearsim.errors import OutputError
+
+
+def check_free(path: Path, force: bool) -> None:
+    """Raise where something is in the way.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        Place to write to.
+    force : bool
+        Whether it may be replaced.
+
+    Raises
+    ------
+    OutputError
+        It exists and may not be replaced.
+    """
+    if path.exists() and not force:
+        raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
+
+
+@contextlib.contextmanager
+def new_folder(folder: Path, force: bool) -> Iterator[Path]:
+    """Give a temporary folder that takes its final name when all of it is written.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Final place.
+    force : bool
+        Replace what is there.
+
+    Yields
+    ------
+    pathlib.Path
+        Folder to write into.
+
+    Raises
+    ------
+    OutputError
+        The place is taken or cannot be written.
+    """
+    check_free(folder, force)
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as beside:
+            new, old = Path(beside) / "new", Path(beside) / "old"
+            new.mkdir()
+            yield new
+            if folder.exists():
+                os.rename(folder, old)
+            try:
+                os.rename(new, folder)
+            except OSError:
+                if old.exists():
+                    os.rename(old, folder)
+                raise
+            if old.is_file():
+                old.unlink()
+    except OSError as error:
+        if isinstance(error, OutputError):
+            raise
+        raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
+
+
+def write_file(path: Path, content: str | bytes, force: bool) -> None:
+    """Write a file beside its place and rename it.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        Final place.
+    content : str or bytes
+        All of it.
+    force : bool
+        Replace what is there.
+
+    Raises
+    ------
+    OutputError
+        The place is taken or cannot be written.
+    """
+    check_free(path, force)
+    if path.is_dir():
+        raise OutputError(f"{path}: must be a file, but is a folder: choose another place")
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, beside = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+            os.chmod(beside, 0o666 & ~_umask())
+            os.replace(beside, path)
+        except OSError:
+            with contextlib.suppress(OSError):
+                os.unlink(beside)
+            raise
+    except OSError as error:
+        raise OutputError(f"{path}: must be writable: {error.strerror or error}") from None
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

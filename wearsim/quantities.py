@@ -1,0 +1,41 @@
+"""The one table of names: every input key and output column with symbol, unit and meaning."""
+
+import csv
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A row of the table.
+
+    Parameters
+    ----------
+    name : str
+        Input key or column; ends in the unit where there is one.
+    symbol : str
+        As in the equations, empty where there is none.
+    unit : str
+        Empty for numbers without a unit and for words.
+    meaning : str
+        What it is.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    meaning: str
+
+
+@cache
+def quantities() -> dict[str, Quantity]:
+    """Return all quantities by name.
+
+    Returns
+    -------
+    dict
+        Quantity by name, in the order of the table.
+    """
+    with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as file:
+        return {row["name"]: Quantity(**row) for row in csv.DictReader(file)}

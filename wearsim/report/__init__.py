@@ -1,0 +1,1 @@
+"""Results made to be read: text, tables, pictures."""

@@ -1,0 +1,126 @@
+"""The answer on screen."""
+
+import textwrap
+
+from wearsim.result import Life, LowerBound, WearResult
+
+_WIDTH = 100
+_LABEL = 13
+
+
+def grouped(value: float, digits: int = 4) -> str:
+    """Return a number with few digits and thousands set apart, as one reads it aloud.
+
+    Parameters
+    ----------
+    value : float
+        Any finite number.
+    digits : int
+        Significant digits.
+
+    Returns
+    -------
+    str
+        Such as ``15 150``.
+
+    Examples
+    --------
+    >>> grouped(15149.24)
+    '15 150'
+    >>> grouped(0.012345)
+    '0.01234'
+    """
+    rounded = float(f"{value:.{digits}g}")
+    if abs(rounded) >= 10 ** (digits - 1):
+        return f"{rounded:,.0f}".replace(",", " ")
+    return f"{rounded:.{digits}g}"
+
+
+def hours(life: Life | LowerBound) -> str:
+    """Return a life in hours, a bound with its sign.
+
+    Parameters
+    ----------
+    life : Life or LowerBound
+        A life.
+
+    Returns
+    -------
+    str
+        Such as ``2 650 h`` or ``> 8 000 h``.
+    """
+    if isinstance(life, Life):
+        return f"{grouped(life.hours)} h"
+    return f"> {grouped(life.hours_run)} h"
+
+
+def answer(result: WearResult, source: str) -> str:
+    """Return the answer of one case as ``wearsim life`` prints it.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+    source : str
+        The case as the user named it, for the next command.
+
+    Returns
+    -------
+    str
+        Several lines, at most a hundred characters wide.
+    """
+    rows = [
+        ("Life", _life(result)),
+        ("With the wear coefficient at its low / high end:", _band(result)),
+        ("Worn most", _worst(result)),
+        ("Assumes", "; ".join(f"{i} {text}" for i, text in enumerate(result.assumptions, start=1))),
+        ("Warnings", "; ".join(result.warnings) or "none"),
+        ("Next", f"wearsim compare {source} --out reports/{result.case}     (pictures)"),
+    ]
+    return "\n".join([result.title, *(_row(label, text) for label, text in rows)])
+
+
+def _row(label: str, text: str) -> str:
+    lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
+    return textwrap.fill(
+        text,
+        _WIDTH,
+        initial_indent=lead,
+        subsequent_indent=" " * _LABEL,
+        break_on_hyphens=False,
+        break_long_words=False,
+    )
+
+
+def _life(result: WearResult) -> str:
+    speed = f"{result.speed_rpm:g} rpm"
+    if isinstance(result.life, Life):
+        what = {
+            "critical_depth_mm": f"until {result.stop_value:.3f} mm is worn off",
+            "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
+        }[result.stop]
+        error = result.numerical_error
+        bound = max(error, result.life_tolerance)
+        sign = "<" if error <= result.life_tolerance else "about"
+        return (
+            f"{hours(result.life)}   ({result.life.cycles:.3g} cycles at {speed}) {what}; "
+            f"numerical error {sign} {100 * bound:.2g} %"
+        )
+    return (
+        f"{hours(result.life)} (limit not reached)   ({result.cycles_run:.3g} cycles at {speed}); "
+        f"{result.max_depth:.3g} mm is worn off by then"
+    )
+
+
+def _band(result: WearResult) -> str:
+    return f"{hours(result.life_high)} / {hours(result.life_low)}   ({result.band})"
+
+
+def _worst(result: WearResult) -> str:
+    length = float(result.flank_columns["arc_length_mm"][-1])
+    side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
+    return (
+        f"at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm from the root, on the side where the "
+        f"roller {side}; pressure {result.initial_peak_pressure:.0f} -> "
+        f"{result.final_peak_pressure:.0f} MPa"
+    )

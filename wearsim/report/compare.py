@@ -1,0 +1,127 @@
+"""Several results side by side: pandas tables and matplotlib figures."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from wearsim.output import new_folder
+from wearsim.report.answer import hours
+from wearsim.report.figures import comparison_figures
+from wearsim.result import Life, LowerBound, WearResult
+
+
+def comparison_table(results: list[WearResult]) -> pd.DataFrame:
+    """Return one row per result.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        At least one; the first is what the others are compared with.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Life and its band [h] (nan and ``life_reached`` false where only a bound is
+        known), ratio to the first, peak pressure, removed area, where the deepest
+        point is.
+    """
+    first = results[0].life
+    rows = []
+    for result in results:
+        life = result.life
+        both = isinstance(life, Life) and isinstance(first, Life)
+        rows.append(
+            {
+                "case": result.case,
+                "title": result.title,
+                "life_hours": _number(life),
+                "life_reached": isinstance(life, Life),
+                "hours_run": result.hours_run,
+                "life_hours_low": _number(result.life_low),
+                "life_hours_high": _number(result.life_high),
+                "ratio_to_first": life.hours / first.hours if both else float("nan"),
+                "stop": result.stop,
+                "initial_peak_pressure_MPa": result.initial_peak_pressure,
+                "final_peak_pressure_MPa": result.final_peak_pressure,
+                "removed_area_mm2": float(result.history_columns["removed_area_mm2"][-1]),
+                "max_depth_mm": result.max_depth,
+                "max_depth_arc_length_mm": result.max_depth_arc_length,
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def comparison_text(results: list[WearResult]) -> str:
+    """Return the comparison as a Markdown table, bounds with their sign.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        At least one.
+
+    Returns
+    -------
+    str
+        A row per result, then the warnings and assumptions of each.
+    """
+    table = comparison_table(results)
+    head = [
+        "case", "life", "at low / high wear", "ratio to first", "peak pressure, MPa",
+        "removed area, mm2", "deepest, mm from root",
+    ]  # fmt: skip
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for result, row in zip(results, table.to_dict("records"), strict=True):
+        ratio = row["ratio_to_first"]
+        cells = [
+            result.title,
+            hours(result.life),
+            f"{hours(result.life_high)} / {hours(result.life_low)}",
+            f"{ratio:.3g}" if ratio == ratio else "-",
+            f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}",
+            f"{row['removed_area_mm2']:.3g}",
+            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f}",
+        ]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines)
+
+
+def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str:
+    """Write tables and figures into a folder, all of it or nothing.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        At least one.
+    folder : pathlib.Path
+        New folder.
+    force : bool
+        Replace a folder that is there.
+
+    Returns
+    -------
+    str
+        The Markdown table.
+    """
+    text = comparison_text(results)
+    with new_folder(folder, force) as place:
+        comparison_table(results).to_csv(place / "summary.csv", index=False)
+        (place / "summary.md").write_text(_page(results, text), encoding="utf-8")
+        for name, figure in comparison_figures(results).items():
+            figure.savefig(place / f"{name}.png", dpi=150)
+            figure.savefig(place / f"{name}.svg", metadata={"Date": None})
+    return text
+
+
+def _page(results: list[WearResult], table: str) -> str:
+    parts = ["# Comparison", table]
+    for result in results:
+        parts.append(f"## {result.title}")
+        parts.append("\n".join(f"- warning: {text}" for text in result.warnings) or "No warnings.")
+        parts.append("\n".join(f"{i}. {text}" for i, text in enumerate(result.assumptions, start=1)))
+    pictures = ("flanks", "along_flank", "depth_over_hours")
+    parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
+    return "\n\n".join(parts) + "\n"
+
+
+def _number(life: Life | LowerBound) -> float:
+    return life.hours if isinstance(life, Life) else float("nan")

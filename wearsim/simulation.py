@@ -1,0 +1,296 @@
+"""The one place that wires case, mechanism, wear engine and result."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from wearsim.case.model import Case, PrescribedDrive, StrandDrive, WearInput
+from wearsim.contact.engagement import Contact, Kind, Mechanism
+from wearsim.contact.hertz import half_width, peak_pressure
+from wearsim.errors import WearsimError
+from wearsim.geometry.profile import Vector, area_between
+from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.result import Life, LowerBound, WearResult, environment
+from wearsim.wear.accuracy import difference, grid_error
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
+from wearsim.wear.law import Law, archard, drozdov, power
+from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.trajectory import Trajectory
+
+_WIDE = 0.1
+"""Half-width over roller radius above which Hertz's half-spaces are doubtful."""
+
+
+def simulate(case: Case) -> WearResult:
+    """Wear the flank of a case until its first limit and return its life.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+
+    Returns
+    -------
+    WearResult
+        Complete: life or lower bound, its band, history and worn flanks.
+
+    Raises
+    ------
+    ContactError
+        The contact leaves Hertz's theory or vanishes.
+    ConvergenceError
+        The life would be wrong.
+
+    Examples
+    --------
+    >>> import wearsim
+    >>> case = wearsim.load_case({
+    ...     "format_version": 1,
+    ...     "chain": {"designation": "16B-1"},
+    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+    ...     "load": {"power_kW": 3, "speed_rpm": 100},
+    ...     "wear": {"condition": "hardened, oiled"},
+    ... })
+    >>> result = wearsim.simulate(case)
+    >>> result.life.hours == result.life.cycles / (60 * 100)
+    True
+    """
+    mechanism = _mechanism(case)
+    law, criteria = _law(case.wear, case.wear.coefficient), _criteria(case)
+    horizon = case.run.horizon_hours * case.cycles_per_hour
+    run, step_error = _run(case, mechanism.contact, law, criteria, horizon)
+    warnings = list(case.warnings)
+    error = _numerical_error(case, mechanism.contact, law, criteria, run, step_error, warnings)
+    history, flank = _tables(case, mechanism, run)
+    warnings += _validity(mechanism.contact, history, flank)
+    low, high = _band(case, mechanism.contact, criteria, run, horizon)
+    deepest = int(run.depth[-1].argmax())
+    return WearResult(
+        case=case.name,
+        title=case.title,
+        life=_life(case, run),
+        life_low=low,
+        life_high=high,
+        band=case.wear.band,
+        stop=run.met.name if run.met else "horizon_hours",
+        stop_value=run.met.limit if run.met else case.run.horizon_hours,
+        cycles_run=float(run.cycles[-1]),
+        hours_run=float(run.cycles[-1]) / case.cycles_per_hour,
+        max_depth=float(run.depth[-1, deepest]),
+        max_depth_arc_length=float(mechanism.contact.arc_length[deepest]),
+        initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
+        final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
+        speed_rpm=case.speed_rpm,
+        method=case.run.method,
+        updates=run.updates,
+        numerical_error=error,
+        life_tolerance=case.run.life_tolerance,
+        assumptions=(*mechanism.assumptions(), *case.assumptions),
+        warnings=tuple(warnings),
+        inputs=_portable(case),
+        input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
+        history_columns=history,
+        flank_columns=flank,
+        environment=environment(),
+    )
+
+
+def _mechanism(case: Case) -> Mechanism:
+    drive = case.drive
+    if isinstance(drive, StrandDrive):
+        return StrandMechanism(
+            strand=drive.tooth.strand,
+            profile=drive.profile,
+            contact_end=drive.contact_end,
+            contact_start=drive.contact_start,
+            pitch=case.chain.pitch,
+            pull_per_width=drive.pull / drive.face_width,
+            angular_speed=2.0 * np.pi * case.speed_rpm / 60.0,
+            slip_fraction=drive.slip_fraction,
+            modulus=case.modulus,
+        )
+    return _prescribed(case, drive)
+
+
+def _prescribed(case: Case, drive: PrescribedDrive) -> PrescribedMechanism:
+    table = drive.table
+    path = table.sliding_distance
+    slip = table.slip_ratio if table.slip_ratio is not None else path
+    assert slip is not None
+    speed = table.sliding_speed
+    return PrescribedMechanism(
+        kind=Kind.TRAVELLING if table.slip_ratio is not None else Kind.LOCAL,
+        arc_length=table.arc_length,
+        load_per_width=table.load_per_width,
+        slip=drive.slip_fraction * slip,
+        sliding_speed=drive.slip_fraction * speed if speed is not None else np.full(slip.size, np.nan),
+        flank_curvature=table.flank_curvature,
+        roller_radius=0.5 * case.chain.roller_diameter,
+        modulus=case.modulus,
+    )
+
+
+def _law(wear: WearInput, coefficient: float) -> Law:
+    laws: dict[str, Callable[[], Law]] = {
+        "archard": lambda: archard(coefficient),
+        "power": lambda: power(coefficient, wear.pressure_exponent),
+        "drozdov": lambda: drozdov(
+            coefficient,
+            wear.pressure_exponent,
+            wear.hardness,
+            wear.reference_speed,
+            wear.speed_exponent,
+        ),
+    }
+    return laws[wear.law]()
+
+
+def _criteria(case: Case) -> tuple[Criterion, ...]:
+    depth = depth_criterion(case.critical_depth)
+    if case.min_tip_land and isinstance(case.drive, StrandDrive):
+        return depth, tip_land_criterion(case.min_tip_land, case.drive.tooth.worn_tip_land)
+    return (depth,)
+
+
+def _run(
+    case: Case, contact: Contact, law: Law, criteria: tuple[Criterion, ...], horizon: float
+) -> tuple[Trajectory, float]:
+    if case.run.method == "advance":
+        return run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    run = run_per_cycle(contact, law, criteria, horizon, case.run.cycles_per_update)
+    check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    return run, change + difference(run, check)
+
+
+def _numerical_error(
+    case: Case,
+    contact: Contact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    run: Trajectory,
+    step_error: float,
+    warnings: list[str],
+) -> float:
+    """Add the error of the grid to that of the steps, and warn above the tolerance."""
+    horizon = case.run.horizon_hours * case.cycles_per_hour
+    tolerance = case.run.life_tolerance
+    try:
+        error = step_error + grid_error(run, contact, law, criteria, horizon, tolerance)
+    except WearsimError as reason:
+        warnings.append(f"the error of the grid could not be estimated on half the points: {reason}")
+        return step_error
+    if error > tolerance:
+        warnings.append(
+            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes"
+        )
+    return error
+
+
+def _tables(
+    case: Case, mechanism: Mechanism, run: Trajectory
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Return the columns of history.csv and flank.csv."""
+    contact = mechanism.contact
+    shots, points = run.depth.shape
+    touches = [
+        contact.engage(x, y, depth) for x, y, depth in zip(run.x, run.y, run.depth, strict=True)
+    ]
+    load = np.array([touch.load_per_width for touch in touches])
+    relative = np.array([touch.relative_curvature for touch in touches])
+    speed = np.array([touch.sliding_speed for touch in touches])
+    pressure = peak_pressure(load, np.maximum(relative, 0.0), contact.modulus)
+    history = {
+        "cycles": run.cycles,
+        "time_hours": run.cycles / case.cycles_per_hour,
+        "max_depth_mm": run.depth.max(axis=1),
+        "peak_pressure_MPa": pressure.max(axis=1),
+        "max_sliding_speed_mm_per_s": speed.max(axis=1),
+        "removed_area_mm2": np.array(
+            [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+        "worn_contact_ratio": np.array(
+            [mechanism.worn_contact_ratio(x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+    }
+    flank = {
+        "cycles": np.repeat(run.cycles, points),
+        "node": np.tile(np.arange(1, points + 1), shots),
+        "arc_length_mm": np.tile(contact.arc_length, shots),
+        "x_mm": run.x.ravel(),
+        "y_mm": run.y.ravel(),
+        "depth_mm": run.depth.ravel(),
+        "pressure_MPa": pressure.ravel(),
+        "sliding_speed_mm_per_s": speed.ravel(),
+        "load_per_width_N_per_mm": load.ravel(),
+        "relative_curvature_per_mm": relative.ravel(),
+    }
+    return history, flank
+
+
+def _validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
+    """Return a warning for every limit of the theory that the run passes."""
+    found = []
+    loaded = flank["load_per_width_N_per_mm"] > 0.0
+    widths = half_width(
+        flank["load_per_width_N_per_mm"][loaded],
+        flank["relative_curvature_per_mm"][loaded],
+        contact.modulus,
+    )
+    if widths.max() > _WIDE * contact.roller_radius:
+        found.append(
+            f"contact half-width up to {widths.max():.3g} mm is more than 0.1 of the roller radius: "
+            "Hertz's pressure is too high there"
+        )
+    spacing = float(np.diff(contact.arc_length).max())
+    if spacing > np.median(widths):
+        found.append(
+            f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
+            f"{np.median(widths):.3g} mm: use more nodes"
+        )
+    below = history["worn_contact_ratio"] < 1.0
+    if below.any():
+        hours = history["time_hours"][int(below.argmax())]
+        found.append(
+            f"the worn contact ratio falls below 1 after {hours:.4g} h: the roller then also touches "
+            "the edge of the tip, which is not modelled"
+        )
+    return found
+
+
+def _band(
+    case: Case,
+    contact: Contact,
+    criteria: tuple[Criterion, ...],
+    run: Trajectory,
+    horizon: float,
+) -> tuple[Life | LowerBound, Life | LowerBound]:
+    """Lives at the high and at the low coefficient: by scaling where the life is known."""
+    life = _life(case, run)
+    if isinstance(life, Life):
+        low, high = (
+            Life(life.cycles / factor, life.hours / factor)
+            for factor in (case.wear.high, case.wear.low)
+        )
+        return low, high
+    law = _law(case.wear, case.wear.coefficient * case.wear.high)
+    worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    return _life(case, worse), life
+
+
+def _life(case: Case, run: Trajectory) -> Life | LowerBound:
+    cycles = float(run.cycles[-1])
+    hours = cycles / case.cycles_per_hour
+    return Life(cycles, hours) if run.met else LowerBound(cycles, hours)
+
+
+def _portable(case: Case) -> dict[str, object]:
+    """Return the tables with the names of files that lie beside them."""
+    inputs: dict[str, object] = dict(case.inputs)
+    for table, key in (("sprocket", "points_file"), ("mechanism", "table_file")):
+        values = inputs.get(table)
+        if isinstance(values, dict) and key in values:
+            inputs[table] = {**values, key: Path(str(values[key])).name}
+    return inputs

@@ -1,0 +1,1 @@
+"""Wear of a flank under any contact: law, cycle loop, advance, criteria, hours."""

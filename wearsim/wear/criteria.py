@@ -1,0 +1,85 @@
+"""What ends a life; the first criterion that is met is named."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from wearsim.geometry.profile import Vector
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """A limit on the worn flank.
+
+    Parameters
+    ----------
+    name : str
+        Key of the quantity with its unit, as in the input file.
+    limit : float
+        Value at which the life ends.
+    margin : callable
+        Of x, y and depth [mm]; above zero as long as the limit is not met.
+    """
+
+    name: str
+    limit: float
+    margin: Callable[[Vector, Vector, Vector], float]
+
+
+def depth_criterion(critical_depth: float) -> Criterion:
+    """Return the source's criterion, equation (12): the deepest point reaches a depth.
+
+    Parameters
+    ----------
+    critical_depth : float
+        I_crit [mm], above 0.
+
+    Returns
+    -------
+    Criterion
+        Named ``critical_depth_mm``.
+    """
+    return Criterion(
+        "critical_depth_mm",
+        critical_depth,
+        lambda x, y, depth: critical_depth - float(depth.max()),
+    )
+
+
+def tip_land_criterion(min_tip_land: float, tip_land: Callable[[Vector, Vector], float]) -> Criterion:
+    """Return the criterion that the worn tip keeps a least length.
+
+    Parameters
+    ----------
+    min_tip_land : float
+        Least length [mm].
+    tip_land : callable
+        Length of the tip [mm] that a worn flank (x, y) leaves.
+
+    Returns
+    -------
+    Criterion
+        Named ``min_tip_land_mm``.
+    """
+    return Criterion(
+        "min_tip_land_mm", min_tip_land, lambda x, y, depth: tip_land(x, y) - min_tip_land
+    )
+
+
+def first_met(criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector) -> Criterion | None:
+    """Return the criterion that a worn flank fails by most, if any.
+
+    Parameters
+    ----------
+    criteria : tuple of Criterion
+        All limits of the case.
+    x, y, depth : numpy.ndarray
+        The worn flank [mm].
+
+    Returns
+    -------
+    Criterion or None
+        None while every limit holds.
+    """
+    margins = [(criterion.margin(x, y, depth), criterion) for criterion in criteria]
+    worst = min(margins, key=lambda pair: pair[0])
+    return worst[1] if worst[0] <= 0.0 else None

@@ -1,0 +1,159 @@
+"""Wear laws: depth removed in one cycle from pressure, slip and sliding speed.
+
+All are one expression, depth = K sigma^m v^n times the path a point slides: the swept
+width c_m 2a times the slip ratio in a travelling contact, the given path in a local one.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.contact.engagement import Kind
+from wearsim.geometry.profile import Vector
+
+
+def mean_pressure_factor(exponent: float) -> float:
+    """Return c_m, the mean of (sigma/sigma_H)^m over the width of a Hertz line contact.
+
+    Parameters
+    ----------
+    exponent : float
+        m, above -2.
+
+    Returns
+    -------
+    float
+        (sqrt(pi)/2) Gamma(1 + m/2) / Gamma(3/2 + m/2).
+
+    Examples
+    --------
+    >>> mean_pressure_factor(2.0)  # integral of 1 - u^2 over 0..1
+    0.6666666666666666
+    """
+    return (
+        0.5 * math.sqrt(math.pi) * math.gamma(1.0 + exponent / 2) / math.gamma(1.5 + exponent / 2)
+    )
+
+
+@dataclass(frozen=True)
+class Law:
+    """Depth per unit of sliding = coefficient * sigma_H^m * v_s^n, with sigma in MPa, v in mm/s.
+
+    Parameters
+    ----------
+    coefficient : float
+        K [1/MPa^m (s/mm)^n], above 0.
+    pressure_exponent : float
+        m, above 0.
+    speed_exponent : float
+        n.
+    """
+
+    coefficient: float
+    pressure_exponent: float
+    speed_exponent: float
+
+    def numbers(self, kind: Kind) -> Vector:
+        """Return the law as the kernel takes it.
+
+        Parameters
+        ----------
+        kind : Kind
+            How the contact meets the points.
+
+        Returns
+        -------
+        numpy.ndarray
+            Factor, exponent of the pressure, of the load and of the speed. In a travelling
+            contact c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
+        """
+        m, n = self.pressure_exponent, self.speed_exponent
+        if kind is Kind.LOCAL:
+            return np.array([self.coefficient, m, 0.0, n])
+        factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
+        return np.array([factor, m - 1.0, 1.0, n])
+
+    def diffusion(self, kind: Kind, slip_curvature_exponent: float) -> float:
+        """Return e = d(ln depth)/d(ln relative curvature), which decides stability.
+
+        Parameters
+        ----------
+        kind : Kind
+            How the contact meets the points.
+        slip_curvature_exponent : float
+            d(ln slip)/d(ln relative curvature) of the mechanism.
+
+        Returns
+        -------
+        float
+            (m+1)/2 on a strand, m/2 with a given path, (m-1)/2 with a given slip ratio.
+        """
+        swept = self.pressure_exponent if kind is Kind.LOCAL else self.pressure_exponent - 1.0
+        return 0.5 * swept + slip_curvature_exponent
+
+
+def archard(specific_wear_rate: float) -> Law:
+    """Return Archard's linear law.
+
+    Parameters
+    ----------
+    specific_wear_rate : float
+        k [mm2/N]: volume per load and sliding distance, 1e-3 times the value in
+        mm3/(N m). The dimensionless coefficient of Archard is k times the hardness.
+
+    Returns
+    -------
+    Law
+        With m = 1, n = 0.
+    """
+    return Law(specific_wear_rate, 1.0, 0.0)
+
+
+def power(coefficient: float, pressure_exponent: float) -> Law:
+    """Return the power law I = K sigma^m.
+
+    Parameters
+    ----------
+    coefficient : float
+        K [1/MPa^m].
+    pressure_exponent : float
+        m, above 0.
+
+    Returns
+    -------
+    Law
+        With n = 0.
+    """
+    return Law(coefficient, pressure_exponent, 0.0)
+
+
+def drozdov(
+    coefficient: float,
+    pressure_exponent: float,
+    hardness: float,
+    reference_speed: float,
+    speed_exponent: float,
+) -> Law:
+    """Return the Kragelsky/Drozdov form I = K (sigma_H/H)^m (v/v0)^n.
+
+    Parameters
+    ----------
+    coefficient : float
+        Dimensionless intensity K.
+    pressure_exponent : float
+        m, above 0.
+    hardness : float
+        H [MPa].
+    reference_speed : float
+        v0 [mm/s].
+    speed_exponent : float
+        n.
+
+    Returns
+    -------
+    Law
+        With the hardness and the speed taken into the coefficient.
+    """
+    scale = hardness**pressure_exponent * reference_speed**speed_exponent
+    return Law(coefficient / scale, pressure_exponent, speed_exponent)

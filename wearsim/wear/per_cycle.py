@@ -1,0 +1,159 @@
+"""The reference run: equations (10) to (12) cycle by cycle."""
+
+import numpy as np
+
+from wearsim.contact.engagement import Contact
+from wearsim.errors import ContactError, ConvergenceError
+from wearsim.geometry.profile import Vector
+from wearsim.kernels.wear import CONFORMING, UNSTABLE, VANISHED, run_cycles
+from wearsim.wear.criteria import Criterion, first_met
+from wearsim.wear.law import Law
+from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
+
+
+class _Run:
+    """State of the flank between blocks of compiled updates."""
+
+    def __init__(self, contact: Contact, law: Law, cycles_per_update: int) -> None:
+        self.contact = contact
+        self.cycles_per_update = float(cycles_per_update)
+        self.law = law.numbers(contact.kind)
+        self.diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
+        self.x, self.y = contact.profile.x.copy(), contact.profile.y.copy()
+        self.depth = np.zeros(self.x.size)
+        self.work = np.zeros((10, self.x.size))
+        self.updates = 0
+
+    @property
+    def cycles(self) -> float:
+        return self.updates * self.cycles_per_update
+
+    @property
+    def last_step(self) -> Vector:
+        return self.work[9]
+
+    def wear(self, depth: float, updates: int) -> None:
+        """Update until a depth is reached, at most so often; raise what the kernel found."""
+        done = np.zeros(1)
+        status = run_cycles(
+            self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
+            self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
+            self.cycles_per_update, depth, updates, done,
+        )  # fmt: skip
+        self.updates += int(done[0])
+        if status in (CONFORMING, VANISHED):
+            check_touch(self.contact, self.x, self.y, self.depth, self.cycles)
+            raise ContactError(
+                f"contact at cycle {self.cycles:.6g}: the loaded points must slide, but none does: "
+                "without sliding there is no wear and no life"
+            )
+        if status == UNSTABLE:
+            self._refuse()
+        check_sawtooth(self.contact, self.depth, self.cycles)
+
+    def _refuse(self) -> None:
+        spacing_squared, relative = self.work[3], self.work[7]
+        allowed = spacing_squared * relative / (2.0 * self.diffusion)
+        point = int(np.argmax(self.last_step / allowed))
+        step, limit = self.last_step[point], allowed[point]
+        most = int(self.cycles_per_update * limit / step)
+        remedy = f"cycles_per_update = {most}" if most else "fewer nodes"
+        raise ConvergenceError(
+            f"wear at cycle {self.cycles:.6g}, {self.contact.arc_length[point]:.4g} mm from the root: "
+            f"the depth per update must stay below spacing^2/(2 e rho_H) = {limit:.3g} mm, is "
+            f"{step:.3g} mm: the life would be wrong without notice; take {remedy} or method = "
+            '"advance"'
+        )
+
+
+def run_per_cycle(
+    contact: Contact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    cycles_per_update: int,
+) -> Trajectory:
+    """Wear a flank update by update until a criterion is met or the horizon is reached.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    law : Law
+        The wear law.
+    criteria : tuple of Criterion
+        Limits, the depth criterion first.
+    horizon : float
+        Loading cycles at which the run ends in any case.
+    cycles_per_update : int
+        Cycles that one update of the geometry stands for; 1 is the source's scheme.
+
+    Returns
+    -------
+    Trajectory
+        The run; the last snapshot lies on the limit, found by linear interpolation in
+        the last update.
+
+    Raises
+    ------
+    ConvergenceError
+        An update would break the stability limit, or the depth alternates.
+    ContactError
+        The flank conforms to the roller, or the contact is gone.
+    """
+    run = _Run(contact, law, cycles_per_update)
+    check_touch(contact, run.x, run.y, run.depth, 0.0)
+    kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
+    most = int(horizon / cycles_per_update)
+    if most == 0:
+        raise ConvergenceError(
+            f"wear: the horizon of {horizon:.6g} cycles must hold at least one update of "
+            f"{cycles_per_update} cycles: take fewer cycles_per_update or more horizon_hours"
+        )
+    met, interval = None, 0.0
+    while met is None and run.updates < most:
+        before = kept[-1], run.updates
+        target = run.depth.max() + interval if interval else 0.0
+        run.wear(target, most - run.updates)
+        if not interval:
+            interval = float(min(criteria[0].limit, run.depth.max() * most)) / SNAPSHOTS
+        met = first_met(criteria, run.x, run.y, run.depth)
+        if met is not None and run.updates - before[1] > 1:
+            _retreat(run, criteria, *before)
+        kept.append((run.cycles, run.x.copy(), run.y.copy(), run.depth.copy()))
+    if met is not None:
+        kept[-1] = _on_limit(run, met)
+    cycles, x, y, depth = (np.array(values) for values in zip(*kept, strict=True))
+    return Trajectory(cycles, x, y, depth, met, run.updates)
+
+
+def _retreat(
+    run: _Run, criteria: tuple[Criterion, ...], snapshot: tuple[float, Vector, Vector, Vector], start: int
+) -> None:
+    """Go back to the last snapshot and stop right after the first update that meets a limit."""
+    low, high = 0, run.updates - start
+    while high - low > 1:
+        middle = (low + high) // 2
+        _replay(run, snapshot, start, middle)
+        met = first_met(criteria, run.x, run.y, run.depth)
+        low, high = (low, middle) if met is not None else (middle, high)
+    _replay(run, snapshot, start, high)
+
+
+def _replay(
+    run: _Run, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int
+) -> None:
+    run.x[:], run.y[:], run.depth[:] = snapshot[1:]
+    run.updates = start
+    run.wear(np.inf, updates)
+
+
+def _on_limit(run: _Run, met: Criterion) -> tuple[float, Vector, Vector, Vector]:
+    """Interpolate the last update to the place where the margin vanishes."""
+    step = run.last_step
+    x, y = run.x + step * run.work[0], run.y + step * run.work[1]
+    depth = run.depth - step
+    before, after = met.margin(x, y, depth), met.margin(run.x, run.y, run.depth)
+    part = before / (before - after) if before > after else 1.0
+    cycles = run.cycles - (1.0 - part) * run.cycles_per_update
+    return cycles, run.x + (x - run.x) * (1 - part), run.y + (y - run.y) * (1 - part), depth + part * step

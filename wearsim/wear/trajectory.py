@@ -1,0 +1,109 @@
+"""A flank as it wears: what both ways of running hand back."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.contact.engagement import Contact
+from wearsim.errors import ContactError, ConvergenceError
+from wearsim.geometry.profile import Vector
+from wearsim.wear.criteria import Criterion
+
+SNAPSHOTS = 180
+"""Worn flanks kept of one run, about."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Worn flanks over the cycles of a run.
+
+    Parameters
+    ----------
+    cycles : numpy.ndarray
+        Loading cycles, increasing from 0, shape (snapshots,).
+    x, y, depth : numpy.ndarray
+        The flank at each of them [mm], shape (snapshots, points).
+    met : Criterion or None
+        The limit that ended the run at the last of them; None where the horizon did.
+    updates : int
+        Evaluations of the wear rate.
+    """
+
+    cycles: Vector
+    x: Vector
+    y: Vector
+    depth: Vector
+    met: Criterion | None
+    updates: int
+
+
+def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float) -> None:
+    """Raise where the contact of a worn flank is outside Hertz's theory or gone.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    x, y, depth : numpy.ndarray
+        The worn flank [mm].
+    cycles : float
+        Loading cycles so far, for the message.
+
+    Raises
+    ------
+    ContactError
+        The flank conforms to the roller at a loaded point, or no point is loaded.
+    """
+    touch = contact.engage(x, y, depth)
+    loaded = touch.load_per_width > 0.0
+    if not loaded.any():
+        raise ContactError(
+            f"contact at cycle {cycles:.6g}: the roller must touch the loaded stretch of the flank, "
+            "but touches no point of it: check the contact range, or stop at a smaller depth"
+        )
+    conforming = loaded & ~(touch.relative_curvature > 0.0)
+    if conforming.any():
+        point = int(conforming.argmax())
+        raise ContactError(
+            f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: Hertz "
+            "needs a flank flatter than the roller (1/rho_H > 0), but 1/rho_H is "
+            f"{touch.relative_curvature[point]:.3g} 1/mm there: the flank conforms to the roller; "
+            "use a larger flank radius or a smaller critical depth"
+        )
+
+
+def check_sawtooth(contact: Contact, depth: Vector, cycles: float) -> None:
+    """Raise where the depth alternates from point to point, the mark of an unstable run.
+
+    The second difference over one spacing is compared with that over two, which an
+    alternating depth does not enter.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    depth : numpy.ndarray
+        Material removed along the normal [mm].
+    cycles : float
+        Loading cycles so far, for the message.
+
+    Raises
+    ------
+    ConvergenceError
+        Over a stretch of the flank the short difference is far larger than the long one.
+    """
+    if depth.size < 9:
+        return
+    short = np.abs(depth[1:-3] - 2.0 * depth[2:-2] + depth[3:-1])
+    long = np.abs(depth[:-4] - 2.0 * depth[2:-2] + depth[4:]) / 4.0
+    window = np.ones(5)
+    noise = np.convolve(short, window, "valid")
+    smooth = np.convolve(long, window, "valid")
+    teeth = noise > 4.0 * smooth + 0.01 * depth.max()
+    if teeth.any():
+        point = int(teeth.argmax()) + 4
+        raise ConvergenceError(
+            f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the depth "
+            "must vary smoothly along the flank, but alternates from point to point, so the run is "
+            "unstable: take fewer cycles_per_update or method = \"advance\""
+        )
