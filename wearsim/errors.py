@@ -31,7 +31,7 @@ class LimitNotReachedError(WearsimError, ValueError):
 class Fault:
     """One thing wrong with an input.
 
-    Parameters
+    Attributes
     ----------
     message : str
         What must hold, what was found and what to do.

@@ -10,7 +10,7 @@ from pathlib import Path
 class Quantity:
     """A row of the table.
 
-    Parameters
+    Attributes
     ----------
     name : str
         Input key or column; ends in the unit where there is one.

@@ -28,7 +28,7 @@ SCHEMA_VERSION = 1
 class Life:
     """A life that was reached.
 
-    Parameters
+    Attributes
     ----------
     cycles : float
         Loading cycles of one gap.
@@ -44,7 +44,7 @@ class Life:
 class LowerBound:
     """A run that ended before any limit was met.
 
-    Parameters
+    Attributes
     ----------
     cycles_run : float
         Loading cycles that it covers.
@@ -89,7 +89,7 @@ class LowerBound:
 class WearResult:
     """The life of one case and the flank on the way to it.
 
-    Parameters
+    Attributes
     ----------
     case, title : str
         Name and title of the case.

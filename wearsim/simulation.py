@@ -8,8 +8,8 @@ import numpy as np
 from wearsim.case.model import Case, PrescribedDrive, StrandDrive, WearInput
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
-from wearsim.errors import WearsimError
-from wearsim.geometry.profile import Vector, area_between
+from wearsim.errors import ConvergenceError, WearsimError
+from wearsim.geometry.profile import Profile, Vector, area_between
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
@@ -62,6 +62,11 @@ def simulate(case: Case) -> WearResult:
     law, criteria = _law(case.wear, case.wear.coefficient), _criteria(case)
     horizon = case.run.horizon_hours * case.cycles_per_hour
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon)
+    if not Profile(run.x[-1], run.y[-1]).is_simple:
+        raise ConvergenceError(
+            f"wear at cycle {run.cycles[-1]:.6g}: the worn flank must not cross itself, but does: stop "
+            "at a smaller critical_depth_mm"
+        )
     warnings = list(case.warnings)
     error = _numerical_error(case, mechanism.contact, law, criteria, run, step_error, warnings)
     history, flank = _tables(case, mechanism, run)
@@ -126,7 +131,9 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> PrescribedMechanism:
         arc_length=table.arc_length,
         load_per_width=table.load_per_width,
         slip=drive.slip_fraction * slip,
-        sliding_speed=drive.slip_fraction * speed if speed is not None else np.full(slip.size, np.nan),
+        sliding_speed=drive.slip_fraction * speed
+        if speed is not None
+        else np.full(slip.size, np.nan),
         flank_curvature=table.flank_curvature,
         roller_radius=0.5 * case.chain.roller_diameter,
         modulus=case.modulus,
@@ -180,7 +187,9 @@ def _numerical_error(
     try:
         error = step_error + grid_error(run, contact, law, criteria, horizon, tolerance)
     except WearsimError as reason:
-        warnings.append(f"the error of the grid could not be estimated on half the points: {reason}")
+        warnings.append(
+            f"the error of the grid could not be estimated on half the points: {reason}"
+        )
         return step_error
     if error > tolerance:
         warnings.append(

@@ -106,7 +106,8 @@ def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | N
         return None
     if wear.speed_exponent != 0.0 and table.sliding_speed is None:
         case.faults.add(
-            key, "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0"
+            key,
+            "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0",
         )
         return None
     if wear.pressure_exponent < 1.0 and table.slip_ratio is not None:

@@ -73,7 +73,9 @@ def _read(path: Path) -> tuple[str, dict[str, Any]]:
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
+        raise CaseError(
+            [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
+        ) from None
     except UnicodeDecodeError:
         raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
     try:

@@ -141,9 +141,7 @@ def _shown(value: object) -> str:
 def _similar(key: str, names: list[str]) -> str:
     """Name the keys like an unknown one: of its own table first, then the same word elsewhere."""
     table, _, last = key.rpartition(".")
-    siblings = {
-        name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table
-    }
+    siblings = {name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table}
     close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
     if close:
         return f"; did you mean '{close[0]}'?"

@@ -15,7 +15,7 @@ from wearsim.geometry.tooth import Tooth
 class StrandDrive:
     """A sprocket on a straight strand.
 
-    Parameters
+    Attributes
     ----------
     tooth : Tooth
         The tooth around the working flank, with its strand.
@@ -46,7 +46,7 @@ class StrandDrive:
 class PrescribedDrive:
     """A flank whose load and sliding come from a table.
 
-    Parameters
+    Attributes
     ----------
     table : PrescribedTable
         The table.
@@ -62,7 +62,7 @@ class PrescribedDrive:
 class WearInput:
     """The wear law as it was given.
 
-    Parameters
+    Attributes
     ----------
     law : str
         ``archard``, ``power`` or ``drozdov``.
@@ -93,7 +93,7 @@ class WearInput:
 class RunInput:
     """How the life is calculated.
 
-    Parameters
+    Attributes
     ----------
     method : str
         ``advance`` or ``per_cycle``.
@@ -115,7 +115,7 @@ class RunInput:
 class Case:
     """A complete, feasible case.
 
-    Parameters
+    Attributes
     ----------
     name : str
         Stem of the file, or ``case``.

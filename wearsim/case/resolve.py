@@ -152,7 +152,9 @@ def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
         model = getattr(tables, table)
         if model is not None:
             taken += [
-                (table, key, getattr(model, key)) for key in keys if key not in model.model_fields_set
+                (table, key, getattr(model, key))
+                for key in keys
+                if key not in model.model_fields_set
             ]
     return taken
 

@@ -18,7 +18,7 @@ _MOST_ROWS = 200_000
 class PrescribedTable:
     """Load and sliding along a flank.
 
-    Parameters
+    Attributes
     ----------
     arc_length, load_per_width, flank_curvature : numpy.ndarray
         Columns of the file [mm, N/mm, 1/mm].
@@ -61,7 +61,7 @@ def read_columns(
     """
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            lines = [row for row in csv.reader(file)]
+            lines = list(csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
@@ -95,9 +95,7 @@ def _cells(
         if not line:
             continue
         if len(line) != len(names):
-            faults.add(
-                key, f"{path.name}:{number}: needs {len(names)} values, has {len(line)}"
-            )
+            faults.add(key, f"{path.name}:{number}: needs {len(names)} values, has {len(line)}")
             continue
         row = []
         for name, cell in zip(names, line, strict=True):
@@ -143,7 +141,8 @@ def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] |
     radius = np.hypot(x, y)
     if radius[0] > radius[-1]:
         faults.add(
-            key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them"
+            key,
+            f"{path.name}: points must run from root to tip, but the radius falls: reverse them",
         )
         return None
     return None if same.size else (x, y)

@@ -53,7 +53,7 @@ def convert(text: str, unit: str) -> float:
     if unit == "rpm" and "hz" in text.lower():
         raise ValueError(f"write a speed in rpm or rad/s, not in hertz, got {text!r}")
     try:
-        quantity = _registry().Quantity(text)
+        quantity: pint.Quantity[Any] = _registry().Quantity(text)
         if quantity.unitless and not quantity.dimensionless:
             raise ValueError
         if str(quantity.units) == "dimensionless":

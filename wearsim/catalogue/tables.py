@@ -11,7 +11,7 @@ from pathlib import Path
 class Chain:
     """A roller chain.
 
-    Parameters
+    Attributes
     ----------
     designation : str
         As in its standard; empty for a chain of one's own.
@@ -45,7 +45,7 @@ class Chain:
 class Material:
     """An elastic material.
 
-    Parameters
+    Attributes
     ----------
     name : str
         As in the table.
@@ -64,7 +64,7 @@ class Material:
 class WearCondition:
     """A typical state of surface and lubricant with its specific wear rate.
 
-    Parameters
+    Attributes
     ----------
     condition : str
         As in the table.

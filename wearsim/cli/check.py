@@ -9,7 +9,9 @@ from wearsim.cli.standard import load_cases, overrides, standard
 
 
 @click.command(short_help="Is a case complete, and can it run?")
-@click.argument("cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE...")
+@click.argument(
+    "cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE..."
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
 @standard

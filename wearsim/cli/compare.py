@@ -30,8 +30,9 @@ def compare(sources: tuple[Path, ...], out: Path, force: bool, settings: tuple[s
 
     check_free(out, force)
     results = _results(sources, settings)
-    from wearsim.report.compare import save_comparison
+    from wearsim.report.compare import distinct, save_comparison
 
+    results = distinct(results, [str(path) for path in sources])
     summary = save_comparison(results, out, force)
     click.echo(summary)
     warn(f"written to {out}")

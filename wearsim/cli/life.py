@@ -17,6 +17,7 @@ from wearsim.cli.standard import (
     overrides,
     standard,
     warn,
+    working,
 )
 from wearsim.errors import WearsimError
 
@@ -26,8 +27,12 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="The life of a drive in hours.")
-@click.argument("cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE...")
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for result, history and flank.")
+@click.argument(
+    "cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE..."
+)
+@click.option(
+    "--out", type=click.Path(path_type=Path), help="New folder for result, history and flank."
+)
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
@@ -98,7 +103,8 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
 def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
     from wearsim.simulation import simulate
 
-    result = simulate(case)
+    with working(f"wearing {case.title}"):
+        result = simulate(case)
     if folder is not None:
         result.save(folder, force)
     return result

@@ -1,7 +1,9 @@
 """What commands share: options, exit codes and the form of a failed case."""
 
 import json
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -37,12 +39,12 @@ def standard(function: Function) -> Function:
         The same with two more options.
     """
 
-    def quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
+    def _quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
         if value:
             context.find_root().meta["wearsim.quiet"] = True
 
     function = click.option(
-        "-q", "--quiet", is_flag=True, expose_value=False, callback=quiet,
+        "-q", "--quiet", is_flag=True, expose_value=False, callback=_quiet,
         help="Print no warnings and no progress on stderr.",
     )(function)  # fmt: skip
     return click.option(
@@ -79,6 +81,30 @@ def warn(text: str) -> None:
     """
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
         click.echo(text, err=True)
+
+
+@contextmanager
+def working(text: str) -> Iterator[None]:
+    """Show on a terminal's stderr that something is under way.
+
+    Parameters
+    ----------
+    text : str
+        What it is.
+
+    Yields
+    ------
+    None
+        The work goes on meanwhile.
+    """
+    quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
+    if quiet or not sys.stderr.isatty():
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(text):
+        yield
 
 
 def exit_code(error: WearsimError) -> int:
@@ -124,9 +150,7 @@ def error_json(case: str, error: WearsimError) -> str:
     return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
 
 
-def load_cases(
-    paths: Sequence[Path], settings: Sequence[str], as_json: bool
-) -> "list[Case]":
+def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case]":
     """Load all cases before the first one runs; report all faults of all of them.
 
     Parameters
@@ -157,4 +181,3 @@ def load_cases(
     if failed:
         raise click.exceptions.Exit(BAD_INPUT)
     return cases
-

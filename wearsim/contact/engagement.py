@@ -25,7 +25,7 @@ class Kind(Enum):
 class Engagement:
     """One passage of a flank through contact, as arrays over its phases (points of the flank).
 
-    Parameters
+    Attributes
     ----------
     kind : Kind
         What ``slip`` means.
@@ -56,7 +56,7 @@ class Engagement:
 class Contact:
     """A flank and the compiled function that says how it is touched as it wears.
 
-    Parameters
+    Attributes
     ----------
     kind : Kind
         How the contact meets the points.
@@ -127,9 +127,7 @@ class Contact:
         flank_frame(x, y, *frame)
         self.kernel(x, y, *frame[:3], depth, self.constants, self.columns, *touch)
         load, slip, speed, relative = touch
-        return Engagement(
-            self.kind, self.arc_length, load, np.ones(x.size), slip, speed, relative
-        )
+        return Engagement(self.kind, self.arc_length, load, np.ones(x.size), slip, speed, relative)
 
 
 class Mechanism(Protocol):
@@ -161,5 +159,3 @@ class Mechanism(Protocol):
         list of str
             Sentences for the result.
         """
-
-

@@ -5,7 +5,6 @@ Euler-Savary (Bobillier's construction), chosen because it leads to the printed
 equation (10).
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +23,7 @@ class Strand:
     The sprocket turns clockwise about the origin, the strand moves along +x, the pole
     is (0, centrode radius); a roller is called by its distance x before the pole line.
 
-    Parameters
+    Attributes
     ----------
     centrode_radius : float
         R = p z / (2 pi engaged_every) [mm].
@@ -93,9 +92,7 @@ class Strand:
             Radius of the concave flank [mm] (Euler-Savary).
         """
         distance = self.pole_distance(x)
-        return self.roller_radius + distance**3 / (
-            self.centrode_radius * self.offset + distance**2
-        )
+        return self.roller_radius + distance**3 / (self.centrode_radius * self.offset + distance**2)
 
     def roller_path(self, x: ArrayLike) -> Vector:
         """Return the roller centre in the sprocket's frame.
@@ -168,7 +165,7 @@ class Strand:
 class EvoluteFlank:
     """An evolute flank with, at every node, the roller position that touches it.
 
-    Parameters
+    Attributes
     ----------
     strand : Strand
         Sprocket and line of roller centres.
@@ -183,7 +180,9 @@ class EvoluteFlank:
     profile: Profile
 
 
-def evolute_flank(strand: Strand, contact_end: float, contact_start: float, nodes: int) -> EvoluteFlank:
+def evolute_flank(
+    strand: Strand, contact_end: float, contact_start: float, nodes: int
+) -> EvoluteFlank:
     """Integrate the flank's intrinsic equation d(theta)/ds = 1/rho_t from root to tip.
 
     Nodes lie at equal steps of the roller's way x. On every step the direction
@@ -254,5 +253,3 @@ def contact_ratio(contact_end: float, contact_start: float, pitch: float) -> flo
         Mean number of rollers in contact.
     """
     return (contact_start - contact_end) / pitch
-
-

@@ -57,12 +57,12 @@ def smallest_offset(
         No offset below half the centrode radius is enough.
     """
 
-    def is_cut(offset: float) -> bool:
+    def _is_cut(offset: float) -> bool:
         strand = Strand(centrode_radius, roller_radius, offset)
         return exit_cut(strand, contact_end, contact_start) > CUT_TOLERANCE
 
     low, high = 1e-3 * centrode_radius, 0.5 * centrode_radius
-    if is_cut(high):
+    if _is_cut(high):
         raise GeometryError(
             f"exit clearance: no evolute offset up to {high:.4g} mm lets the roller leave a flank "
             f"that reaches {contact_start:.4g} mm before the pole line: use more teeth or a smaller "
@@ -70,9 +70,10 @@ def smallest_offset(
         )
     while high - low > 1e-5 * high:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if is_cut(middle) else (low, middle)
+        low, high = (middle, high) if _is_cut(middle) else (low, middle)
     digits = 3 - math.floor(math.log10(high))
-    return math.ceil(high * 10**digits) / 10**digits
+    scale = 10.0**digits
+    return math.ceil(high * scale) / scale
 
 
 def evolute_limits(

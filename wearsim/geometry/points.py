@@ -45,7 +45,10 @@ def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile
     arc = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
     at = np.interp(np.linspace(0.0, arc[-1], nodes), arc, fine)
     profile = Profile(*spline(at))
-    profile.check_simple("points")
+    if not profile.is_simple:
+        raise GeometryError(
+            "points: the flank must not cross itself, but does: check the order of the points"
+        )
     return profile
 
 

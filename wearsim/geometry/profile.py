@@ -51,14 +51,11 @@ def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> fl
 class Profile:
     """Points of a flank from root to tip, with what follows from them.
 
-    Parameters
+    Attributes
     ----------
     x, y : array_like
         Coordinates in the sprocket's frame [mm], at least three points, no two
         successive ones equal; the gap lies to the right of the direction of travel.
-
-    Attributes
-    ----------
     normal_x, normal_y : numpy.ndarray
         Unit normal into the gap, of the circle through a point and its neighbours (at
         the ends of the parabola through the three end points).
@@ -104,7 +101,9 @@ class Profile:
         frame = np.empty((4, x.size))
         flank_frame(x.copy(), y.copy(), *frame)
         values = (x, y, *(_vector(row) for row in frame[:3]))
-        for name, value in zip(("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True):
+        for name, value in zip(
+            ("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True
+        ):
             object.__setattr__(self, name, value)
 
     @property
@@ -127,7 +126,8 @@ class Profile:
         Profile
             The new flank, with as many points.
         """
-        return Profile(self.x - depth * self.normal_x, self.y - depth * self.normal_y)
+        removed = np.asarray(depth, dtype=float)
+        return Profile(self.x - removed * self.normal_x, self.y - removed * self.normal_y)
 
     def mirrored(self) -> "Profile":
         """Return the mirror image on the gap's centre line, run from tip to root.
@@ -195,21 +195,7 @@ class Profile:
             new = new.recede(-new.area_from(self) / arc[-1])
         return new
 
-    def check_simple(self, what: str) -> None:
-        """Raise where the flank crosses itself.
-
-        Parameters
-        ----------
-        what : str
-            Name of the flank for the message.
-
-        Raises
-        ------
-        GeometryError
-            The line through the points crosses or touches itself.
-        """
-        if not shapely.LineString(np.column_stack([self.x, self.y])).is_simple:
-            raise GeometryError(
-                f"{what}: the flank must not cross itself, but it does: check the order of the "
-                "points, or stop at a smaller depth"
-            )
+    @property
+    def is_simple(self) -> bool:
+        """Whether the line through the points neither crosses nor touches itself."""
+        return bool(shapely.LineString(np.column_stack([self.x, self.y])).is_simple)

@@ -73,7 +73,7 @@ class Tooth:
     the mirror image of the working flank, recessed by the relief; the tip is a circle
     through the end of the working flank.
 
-    Parameters
+    Attributes
     ----------
     strand : Strand
         Sprocket and line of roller centres.
@@ -264,7 +264,7 @@ def _radii(flank: Profile) -> Vector:
 
 def _turned(points: Vector, angle: float) -> Vector:
     cosine, sine = math.cos(angle), math.sin(angle)
-    return points @ np.array([[cosine, sine], [-sine, cosine]])
+    return np.asarray(points @ np.array([[cosine, sine], [-sine, cosine]]))
 
 
 def _arc_through(
@@ -273,9 +273,7 @@ def _arc_through(
     """Points on the arc through three points, 61 of them, from the first to the last."""
     (x1, y1), (x2, y2), (x3, y3) = start, middle, end
     matrix = np.array([[x2 - x1, y2 - y1], [x3 - x1, y3 - y1]])
-    right = 0.5 * np.array(
-        [x2**2 - x1**2 + y2**2 - y1**2, x3**2 - x1**2 + y3**2 - y1**2]
-    )
+    right = 0.5 * np.array([x2**2 - x1**2 + y2**2 - y1**2, x3**2 - x1**2 + y3**2 - y1**2])
     centre = np.linalg.solve(matrix, right)
     first, last = (math.atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
     if first > last:

@@ -18,6 +18,8 @@ from typing import Any, TypeVar
 import numba
 import platformdirs
 
+_CONFIG: Any = numba.config
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
@@ -96,14 +98,14 @@ def kernel(signature: Any) -> Callable[[Function], Function]:
     """
 
     def compile_function(function: Function) -> Function:
-        before = numba.config.CACHE_DIR
-        numba.config.CACHE_DIR = str(_FOLDER) if _FOLDER else before
+        before = _CONFIG.CACHE_DIR
+        _CONFIG.CACHE_DIR = str(_FOLDER) if _FOLDER else before
         try:
             compiled: Function = numba.njit(
                 signature, cache=_FOLDER is not None, error_model="numpy", nogil=True
             )(function)
         finally:
-            numba.config.CACHE_DIR = before
+            _CONFIG.CACHE_DIR = before
         return compiled
 
     return compile_function

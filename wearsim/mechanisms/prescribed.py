@@ -42,7 +42,7 @@ def flank_from_curvature(arc_length: Vector, curvature: Vector) -> Profile:
 class PrescribedMechanism:
     """A contact whose load, sliding and initial curvature are given per point.
 
-    Parameters
+    Attributes
     ----------
     kind : Kind
         TRAVELLING where slip is the ratio |v_s|/v_t, LOCAL where it is a path [mm].

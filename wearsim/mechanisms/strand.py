@@ -40,7 +40,7 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
 class StrandMechanism:
     """A flank driven past, or driving, the rollers of a straight strand.
 
-    Parameters
+    Attributes
     ----------
     strand : Strand
         Sprocket and line of roller centres.

@@ -118,9 +118,9 @@ def _band(result: WearResult) -> str:
 
 def _worst(result: WearResult) -> str:
     length = float(result.flank_columns["arc_length_mm"][-1])
-    side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
-    return (
-        f"at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm from the root, on the side where the "
-        f"roller {side}; pressure {result.initial_peak_pressure:.0f} -> "
-        f"{result.final_peak_pressure:.0f} MPa"
-    )
+    place = f"at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm"
+    if result.inputs["mechanism"]["kind"] == "strand":
+        side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
+        place += f" from the root, on the side where the roller {side}"
+    pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
+    return f"{place}; peak pressure {pressures}"

@@ -1,5 +1,6 @@
 """Several results side by side: pandas tables and matplotlib figures."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -85,13 +86,37 @@ def comparison_text(results: list[WearResult]) -> str:
     return "\n".join(lines)
 
 
+def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
+    """Return results whose titles tell them apart.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        Results, some perhaps with the same title.
+    names : list of str
+        What the user called each of them.
+
+    Returns
+    -------
+    list of WearResult
+        The name is added to a title that comes more than once.
+    """
+    titles = [result.title for result in results]
+    return [
+        replace(result, title=f"{result.title} [{name}]")
+        if titles.count(result.title) > 1
+        else result
+        for result, name in zip(results, names, strict=True)
+    ]
+
+
 def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str:
     """Write tables and figures into a folder, all of it or nothing.
 
     Parameters
     ----------
     results : list of WearResult
-        At least one.
+        At least one; titles are the labels.
     folder : pathlib.Path
         New folder.
     force : bool
@@ -117,7 +142,9 @@ def _page(results: list[WearResult], table: str) -> str:
     for result in results:
         parts.append(f"## {result.title}")
         parts.append("\n".join(f"- warning: {text}" for text in result.warnings) or "No warnings.")
-        parts.append("\n".join(f"{i}. {text}" for i, text in enumerate(result.assumptions, start=1)))
+        parts.append(
+            "\n".join(f"{i}. {text}" for i, text in enumerate(result.assumptions, start=1))
+        )
     pictures = ("flanks", "along_flank", "depth_over_hours")
     parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
     return "\n\n".join(parts) + "\n"

@@ -4,9 +4,11 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.result import WearResult
+from wearsim.report.answer import grouped
+from wearsim.result import Life, WearResult
 
 _LARGEST_SHOWN = 0.12
 """Depth in the picture of a flank, as a fraction of the flank's extent."""
@@ -36,7 +38,7 @@ def comparison_figures(results: list[WearResult]) -> dict[str, Figure]:
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:
-    """Return the flanks before and after, the depth enlarged.
+    """Return the flanks before and after, the depth enlarged, with the roller.
 
     Parameters
     ----------
@@ -50,8 +52,8 @@ def flanks_figure(results: list[WearResult]) -> Figure:
     """
     columns = min(3, len(results))
     rows = -(-len(results) // columns)
-    figure = Figure(figsize=(1.5 + 4.0 * columns, 0.6 + 4.2 * rows), layout="constrained")
-    panels = np.atleast_1d(figure.subplots(rows, columns, squeeze=False)).ravel()
+    figure = Figure(figsize=(0.8 + 4.0 * columns, 0.4 + 4.4 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel, result in zip(panels, results, strict=False):
         _draw_flank(panel, result)
     for panel in panels[len(results) :]:
@@ -61,25 +63,41 @@ def flanks_figure(results: list[WearResult]) -> Figure:
 
 def _draw_flank(panel: Axes, result: WearResult) -> None:
     first, last = _snapshot(result, 0), _snapshot(result, -1)
-    before = Profile(first["x_mm"], first["y_mm"])
-    extent = max(np.ptp(before.x), np.ptp(before.y))
+    new = Profile(first["x_mm"], first["y_mm"])
+    extent = max(np.ptp(new.x), np.ptp(new.y))
     enlarged = max(n for n in _ROUND if n == 1 or n * result.max_depth <= _LARGEST_SHOWN * extent)
-    x = before.x + enlarged * (last["x_mm"] - before.x)
-    y = before.y + enlarged * (last["y_mm"] - before.y)
-    panel.fill(
-        np.concatenate([before.x, x[::-1]]),
-        np.concatenate([before.y, y[::-1]]),
-        color="tab:red",
-        alpha=0.25,
-        linewidth=0,
+    x = new.x + enlarged * (last["x_mm"] - new.x)
+    y = new.y + enlarged * (last["y_mm"] - new.y)
+    deepest = int(last["depth_mm"].argmax())
+    radius = 1.0 / float(np.median(first["relative_curvature_per_mm"] - new.curvature))
+    centre = (
+        new.x[deepest] + radius * new.normal_x[deepest],
+        new.y[deepest] + radius * new.normal_y[deepest],
     )
-    panel.plot(before.x, before.y, color="black", linewidth=1.2, label="new")
-    panel.plot(x, y, color="tab:red", linewidth=1.2, label="worn")
-    panel.set_aspect("equal", "datalim")
+    roller = Circle(centre, radius, fill=False, color="grey", linestyle="--", label="roller")
+    panel.add_patch(roller)
+    between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
+    panel.fill(*between, color="tab:red", alpha=0.25, linewidth=0)
+    panel.plot(new.x, new.y, color="black", linewidth=1.6, label="new flank")
+    panel.plot(x, y, color="tab:red", linewidth=1.6, label=f"worn, depth x {enlarged}")
+    panel.annotate(
+        f"{result.max_depth:.3g} mm",
+        (0.5 * (x[deepest] + new.x[deepest]), 0.5 * (y[deepest] + new.y[deepest])),
+        xytext=(centre[0] - 0.55 * radius, centre[1] - 0.5 * radius),
+        arrowprops={"arrowstyle": "-", "color": "tab:red", "linewidth": 0.8},
+        color="tab:red",
+    )
+    panel.margins(0.08)
+    panel.set_aspect("equal", "box")
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
-    panel.set_title(f"{result.title}\ndepth enlarged {enlarged} times", fontsize=9)
-    panel.legend(frameon=False)
+    panel.set_title(f"{result.title}\nafter {_run_time(result)}", fontsize=9)
+    panel.legend(loc="center", bbox_to_anchor=centre, bbox_transform=panel.transData, fontsize=8)
+
+
+def _run_time(result: WearResult) -> str:
+    reached = "life" if isinstance(result.life, Life) else "limit not reached"
+    return f"{grouped(result.hours_run)} h ({reached})"
 
 
 def along_flank_figure(results: list[WearResult]) -> Figure:
@@ -132,7 +150,7 @@ def depth_figure(results: list[WearResult]) -> Figure:
     panel = figure.subplots()
     for result in results:
         time, depth = (result.history_columns[name] for name in ("time_hours", "max_depth_mm"))
-        reached = result.stop != "horizon_hours"
+        reached = isinstance(result.life, Life)
         (line,) = panel.plot(time, depth, label=result.title)
         panel.plot(time[-1], depth[-1], "o" if reached else ">", color=line.get_color())
     panel.set_xlabel("running time, h")

@@ -29,7 +29,9 @@ def profile_table(case: Case) -> pd.DataFrame:
         The case has no sprocket.
     """
     if not isinstance(case.drive, StrandDrive):
-        message = "the case must have a flank on a strand, a table of loads has none: nothing to write"
+        message = (
+            "the case must have a flank on a strand, a table of loads has none: nothing to write"
+        )
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     flank, strand = case.drive.profile, case.drive.tooth.strand
     if case.inputs["sprocket"]["profile"] == "evolute":
@@ -64,4 +66,4 @@ def _pressure_angle(flank: Profile, height: float, radius: float) -> Vector:
     with np.errstate(invalid="ignore"):
         distance = np.sqrt(centre_x**2 + centre_y**2 - height**2)
     turn = np.arctan2(height, -distance) - np.arctan2(centre_y, centre_x)
-    return np.arctan2(flank.normal_y, flank.normal_x) + turn
+    return np.asarray(np.arctan2(flank.normal_y, flank.normal_x) + turn)

@@ -99,7 +99,11 @@ def _first_below(margin: Callable[[float], float], low: float, high: float) -> f
 
 
 def _solve(
-    rate: _Rate, coefficient: float, criteria: tuple[Criterion, ...], horizon: float, tolerance: float
+    rate: _Rate,
+    coefficient: float,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    tolerance: float,
 ) -> _Solution:
     contact, depth_limit = rate.contact, criteria[0].limit
     state = np.zeros(3 * contact.profile.x.size)
@@ -123,7 +127,7 @@ def _solve(
         if solver.status != "running" or not np.isfinite(solver.y).all():
             raise ConvergenceError(
                 f"wear at cycle {cycles:.6g}: the solver must be able to go on, but stopped"
-                f"{f' ({message})' if message else ''}: use method = \"per_cycle\" or more nodes"
+                f'{f" ({message})" if message else ""}: use method = "per_cycle" or more nodes'
             )
         met = _met(rate, criteria, solver.y)
         if met is None:

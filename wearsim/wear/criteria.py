@@ -10,7 +10,7 @@ from wearsim.geometry.profile import Vector
 class Criterion:
     """A limit on the worn flank.
 
-    Parameters
+    Attributes
     ----------
     name : str
         Key of the quantity with its unit, as in the input file.
@@ -45,7 +45,9 @@ def depth_criterion(critical_depth: float) -> Criterion:
     )
 
 
-def tip_land_criterion(min_tip_land: float, tip_land: Callable[[Vector, Vector], float]) -> Criterion:
+def tip_land_criterion(
+    min_tip_land: float, tip_land: Callable[[Vector, Vector], float]
+) -> Criterion:
     """Return the criterion that the worn tip keeps a least length.
 
     Parameters
@@ -65,7 +67,9 @@ def tip_land_criterion(min_tip_land: float, tip_land: Callable[[Vector, Vector],
     )
 
 
-def first_met(criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector) -> Criterion | None:
+def first_met(
+    criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector
+) -> Criterion | None:
     """Return the criterion that a worn flank fails by most, if any.
 
     Parameters

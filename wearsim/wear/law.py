@@ -40,7 +40,7 @@ def mean_pressure_factor(exponent: float) -> float:
 class Law:
     """Depth per unit of sliding = coefficient * sigma_H^m * v_s^n, with sigma in MPa, v in mm/s.
 
-    Parameters
+    Attributes
     ----------
     coefficient : float
         K [1/MPa^m (s/mm)^n], above 0.

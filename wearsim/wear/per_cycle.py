@@ -30,7 +30,7 @@ class _Run:
 
     @property
     def last_step(self) -> Vector:
-        return self.work[9]
+        return np.asarray(self.work[9])
 
     def wear(self, depth: float, updates: int) -> None:
         """Update until a depth is reached, at most so often; raise what the kernel found."""
@@ -128,7 +128,10 @@ def run_per_cycle(
 
 
 def _retreat(
-    run: _Run, criteria: tuple[Criterion, ...], snapshot: tuple[float, Vector, Vector, Vector], start: int
+    run: _Run,
+    criteria: tuple[Criterion, ...],
+    snapshot: tuple[float, Vector, Vector, Vector],
+    start: int,
 ) -> None:
     """Go back to the last snapshot and stop right after the first update that meets a limit."""
     low, high = 0, run.updates - start
@@ -156,4 +159,9 @@ def _on_limit(run: _Run, met: Criterion) -> tuple[float, Vector, Vector, Vector]
     before, after = met.margin(x, y, depth), met.margin(run.x, run.y, run.depth)
     part = before / (before - after) if before > after else 1.0
     cycles = run.cycles - (1.0 - part) * run.cycles_per_update
-    return cycles, run.x + (x - run.x) * (1 - part), run.y + (y - run.y) * (1 - part), depth + part * step
+    return (
+        cycles,
+        run.x + (x - run.x) * (1 - part),
+        run.y + (y - run.y) * (1 - part),
+        depth + part * step,
+    )

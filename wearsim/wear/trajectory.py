@@ -17,7 +17,7 @@ SNAPSHOTS = 180
 class Trajectory:
     """Worn flanks over the cycles of a run.
 
-    Parameters
+    Attributes
     ----------
     cycles : numpy.ndarray
         Loading cycles, increasing from 0, shape (snapshots,).
@@ -105,5 +105,5 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float) -> None:
         raise ConvergenceError(
             f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the depth "
             "must vary smoothly along the flank, but alternates from point to point, so the run is "
-            "unstable: take fewer cycles_per_update or method = \"advance\""
+            'unstable: take fewer cycles_per_update or method = "advance"'
         )
