@@ -2,11 +2,11 @@
 
 import math
 from pathlib import Path
-from typing import Any
 
 from wearsim.case.drive import resolve_prescribed, resolve_strand
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case, PrescribedDrive, RunInput, StrandDrive, WearInput
+from wearsim.case.resolution import Resolution
 from wearsim.case.schema import CaseTables, ChainTable, MaterialTable, WearTable
 from wearsim.catalogue.tables import Chain, chains, materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
@@ -15,68 +15,6 @@ DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
 
 _PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
-
-
-class Resolution:
-    """A case while it is being completed: what was given, found, taken and doubted.
-
-    Parameters
-    ----------
-    tables : CaseTables
-        The validated input.
-    folder : pathlib.Path
-        Place that paths are relative to.
-    faults : Faults
-        Takes what is wrong.
-    """
-
-    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
-        self.tables = tables
-        self.folder = folder
-        self.faults = faults
-        self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
-        self.files: list[Path] = []
-        self.assumptions: list[str] = []
-        self.warnings: list[str] = []
-
-    def take(self, key: str, value: float | int | str, why: str) -> None:
-        """Record a default that the case takes.
-
-        Parameters
-        ----------
-        key : str
-            Dotted key.
-        value : float, int or str
-            Its value.
-        why : str
-            Where it comes from.
-        """
-        place = self.inputs
-        *tables, last = key.split(".")
-        for table in tables:
-            place = place.setdefault(table, {})
-        place[last] = value
-        shown = f"{value:.6g}" if isinstance(value, float) else value
-        self.assumptions.append(f"{key} = {shown} ({why})")
-
-    def path(self, key: str, name: str) -> Path:
-        """Return the place of a file that the case names.
-
-        Parameters
-        ----------
-        key : str
-            Key that names it.
-        name : str
-            Path, relative to the case file.
-
-        Returns
-        -------
-        pathlib.Path
-            The file.
-        """
-        path = self.folder / name
-        self.files.append(path)
-        return path
 
 
 def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:

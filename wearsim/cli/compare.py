@@ -1,5 +1,6 @@
 """``wearsim compare``: several lives side by side, with pictures."""
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,12 @@ if TYPE_CHECKING:
 )
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
 @click.option("--force", is_flag=True, help="Replace the folder.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
 @standard
-def compare(sources: tuple[Path, ...], out: Path, force: bool, settings: tuple[str, ...]) -> None:
+def compare(
+    sources: tuple[Path, ...], out: Path, force: bool, as_json: bool, settings: tuple[str, ...]
+) -> None:
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
@@ -34,7 +38,11 @@ def compare(sources: tuple[Path, ...], out: Path, force: bool, settings: tuple[s
 
     results = distinct(results, [str(path) for path in sources])
     summary = save_comparison(results, out, force)
-    click.echo(summary)
+    if as_json:
+        for result in results:
+            click.echo(json.dumps(result.summary(), ensure_ascii=False, allow_nan=False))
+    else:
+        click.echo(summary)
     warn(f"written to {out}")
 
 

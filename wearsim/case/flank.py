@@ -1,0 +1,195 @@
+"""The working flank of a sprocket, completed: an evolute one, or one through points."""
+
+from wearsim.case.resolution import Resolution
+from wearsim.case.schema import SprocketTable
+from wearsim.case.tables import read_points
+from wearsim.catalogue.tables import Chain
+from wearsim.errors import GeometryError
+from wearsim.geometry.evolute import Strand, contact_ratio, evolute_flank
+from wearsim.geometry.feasibility import (
+    enough_teeth,
+    evolute_limits,
+    smallest_offset,
+    tooth_limits,
+)
+from wearsim.geometry.points import contact_range, flank_from_points, working_side
+from wearsim.geometry.profile import Profile
+from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
+
+CONTACT_END_PER_PITCH = 0.16
+CONTACT_RATIO = 1.05
+OFFSET_RESERVE = 1.05
+POINTS_NOISE = 1e-4
+"""Error of a flank's points assumed where none is given [mm]."""
+
+
+def evolute_tooth(
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float
+) -> tuple[Tooth, float, float] | None:
+    """Complete a tooth around an evolute flank.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+    centrode : float
+        Radius of the centrode [mm].
+
+    Returns
+    -------
+    tuple of Tooth and two floats, or None
+        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
+    """
+    for key in ("points_file", "points_noise_mm"):
+        if getattr(table, key) is not None:
+            case.faults.add(f"sprocket.{key}", "belongs to profile = 'points': remove it")
+    end, start, offset = table.contact_end_mm, table.contact_start_mm, table.evolute_offset_mm
+    if end is None:
+        end = float(f"{CONTACT_END_PER_PITCH * chain.pitch:.6g}")
+        case.take("sprocket.contact_end_mm", end, "0.16 pitch")
+    if start is None:
+        start = float(f"{end + CONTACT_RATIO * chain.pitch:.6g}")
+        case.take("sprocket.contact_start_mm", start, "contact ratio 1.05")
+    radius = 0.5 * chain.roller_diameter
+    if offset is None:
+        if not 1.0 < contact_ratio(end, start, chain.pitch) < 2.0:
+            offset = 0.1 * centrode
+        else:
+            try:
+                needed = smallest_offset(centrode, radius, end, start)
+            except GeometryError as error:
+                case.faults.add("sprocket.evolute_offset_mm", str(error))
+                return None
+            offset = float(f"{OFFSET_RESERVE * needed:.4g}")
+            case.take(
+                "sprocket.evolute_offset_mm", offset, "1.05 of the smallest that the roller clears"
+            )
+    strand = Strand(centrode, radius, offset)
+    limits = evolute_limits(strand, end, start, chain.pitch)
+    if limits:
+        for message in limits:
+            case.faults.add(f"sprocket.{_key_of(message)}", message)
+        return None
+    flank = evolute_flank(strand, end, start, table.nodes).profile
+    tooth = _checked_tooth(case, table, chain, strand, flank, (end, start))
+    return (tooth, end, start) if tooth else None
+
+
+def _key_of(message: str) -> str:
+    """Key of the input that a geometric limit is about."""
+    first = message.split(" ", 1)[0]
+    return {"contact_end": "contact_end_mm", "contact": "contact_start_mm"}.get(
+        first, "evolute_offset_mm"
+    )
+
+
+def _checked_tooth(
+    case: Resolution,
+    table: SprocketTable,
+    chain: Chain,
+    strand: Strand,
+    flank: Profile,
+    contact: tuple[float, float],
+) -> Tooth | None:
+    relief = 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
+    tooth = Tooth(strand, flank, table.teeth, relief)
+    try:
+        limits = tooth_limits(tooth, chain.pitch)
+    except GeometryError as error:
+        limits = [str(error)]
+    if not limits:
+        return tooth
+    teeth = enough_teeth(chain.pitch, strand.roller_radius, table.engaged_every, *contact)
+    remedy = (
+        f"; teeth = {teeth} will do with the default offset"
+        if teeth is not None and teeth > table.teeth
+        else ""
+    )
+    for message in limits:
+        case.faults.add("sprocket.teeth", f"{message}{remedy}")
+    return None
+
+
+def points_tooth(
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float
+) -> tuple[Tooth, float, float] | None:
+    """Complete a tooth around a flank given by points.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+    centrode : float
+        Radius of the centrode [mm].
+
+    Returns
+    -------
+    tuple of Tooth and two floats, or None
+        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
+    """
+    faults = case.faults
+    for key in ("points_file", "evolute_offset_mm"):
+        if getattr(table, key) is None:
+            faults.add(f"sprocket.{key}", "profile = 'points' needs this key")
+    if table.points_file is None or table.evolute_offset_mm is None:
+        return None
+    points = read_points(
+        case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults
+    )
+    noise = table.points_noise_mm
+    if noise is None:
+        noise = POINTS_NOISE
+        case.take("sprocket.points_noise_mm", noise, "error of the points, sets the smoothing")
+    if points is None:
+        return None
+    strand = Strand(centrode, 0.5 * chain.roller_diameter, table.evolute_offset_mm)
+    try:
+        flank = working_side(flank_from_points(*points, noise, table.nodes))
+        reached = contact_range(flank, strand.height, strand.roller_radius)
+    except GeometryError as error:
+        faults.add("sprocket.points_file", str(error))
+        return None
+    end, start = table.contact_end_mm, table.contact_start_mm
+    if end is None:
+        end = float(f"{reached[0]:.6g}")
+        case.take("sprocket.contact_end_mm", end, "where the flank's root end is touched")
+    if start is None:
+        start = float(f"{reached[1]:.6g}")
+        case.take("sprocket.contact_start_mm", start, "where the flank's tip end is touched")
+    ratio = contact_ratio(end, start, chain.pitch)
+    if not 1.0 < ratio < 2.0:
+        faults.add(
+            "sprocket.contact_start_mm" if table.contact_start_mm else "sprocket.points_file",
+            "contact ratio (contact_start - contact_end) / pitch must lie between 1 and 2, is "
+            f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
+        )
+        return None
+    case.assumptions.append(
+        "the flank is a quintic smoothing spline through the points, their error taken as "
+        f"{noise:g} mm; no check that the flank is conjugate to the roller"
+    )
+    relief = 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
+    tooth = Tooth(strand, flank, table.teeth, relief)
+    _doubt_points(case, tooth, noise)
+    return tooth, end, start
+
+
+def _doubt_points(case: Resolution, tooth: Tooth, noise: float) -> None:
+    """Warn where a drawn or measured tooth is thin or cut; it may be what the user has."""
+    try:
+        cut = tooth.cut_depth()
+    except GeometryError as error:
+        case.warnings.append(str(error))
+        return
+    if cut > CUT_TOLERANCE + 3.0 * noise:
+        case.warnings.append(
+            f"the roller cuts {cut:.3g} mm off the tooth of the points on its way in or out"
+        )
