@@ -64,14 +64,32 @@ def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str]
         tables = CaseTables.model_validate(data)
     except ValidationError as error:
         faults.add_validation(error, CaseTables)
+        rest = _sound_part(data, error)
+        if rest is not None:
+            resolve(rest, name, folder, faults)
         faults.check()
         raise
     return resolve(tables, name, folder, faults)
 
 
+def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
+    """Return the case without its wrong keys, to look for more faults; None if that is none."""
+    sound = copy.deepcopy(data)
+    for entry in error.errors():
+        *tables, last = entry["loc"] or ("",)
+        place: Any = sound
+        for table in tables:
+            place = place.get(table, {})
+        place.pop(last, None)
+    try:
+        return CaseTables.model_validate(sound)
+    except ValidationError:
+        return None
+
+
 def _read(path: Path) -> tuple[str, dict[str, Any]]:
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise CaseError(
             [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
@@ -84,6 +102,8 @@ def _read(path: Path) -> tuple[str, dict[str, Any]]:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place.group(1)) if place else text.count("\n") + 1
         raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
+    except (ValueError, RecursionError) as error:
+        raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
 
 
 def _override(data: dict[str, Any], item: str) -> None:
@@ -93,7 +113,7 @@ def _override(data: dict[str, Any], item: str) -> None:
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:
         value = tomllib.loads(f"value = {raw}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         value = raw
     *tables, last = key.split(".")
     place: Any = data

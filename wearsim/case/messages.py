@@ -28,8 +28,10 @@ class Faults:
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
         self.file = file
         self.text = text
-        self.overrides = set(overrides)
+        self.overrides = tuple(overrides)
         self._found: list[Fault] = []
+        self._lines: dict[str, int] = {}
+        self._doubtful: set[str] = set()
 
     @property
     def count(self) -> int:
@@ -46,10 +48,14 @@ class Faults:
         message : str
             What must hold, what it is, what to do.
         """
-        if key in self.overrides:
+        if key.partition(".")[0] in self._doubtful:
+            return
+        if any(key == given or key.startswith(f"{given}.") for given in self.overrides):
             self._found.append(Fault(message, "", f"--set {key}"))
-        else:
-            self._found.append(Fault(message, key, self.file, line_of(self.text, key)))
+            return
+        if key not in self._lines:
+            self._lines[key] = line_of(self.text, key)
+        self._found.append(Fault(message, key, self.file, self._lines[key]))
 
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
         """Add everything that pydantic found.
@@ -59,7 +65,8 @@ class Faults:
         error : pydantic.ValidationError
             What it raised.
         model : type
-            The model it was raised for, whose keys are proposed for unknown ones.
+            The model it was raised for, whose keys are proposed for unknown ones. Later
+            faults of the same tables are not added: they may follow from these.
         """
         names = known_keys(model)
         for entry in error.errors(include_url=False):
@@ -69,6 +76,7 @@ class Faults:
                     self.add(f"{key}.{name}", message)
                 continue
             self.add(key, _message(dict(entry), key, names))
+        self._doubtful = {str(entry["loc"][0]) for entry in error.errors() if entry["loc"]}
 
     def check(self) -> None:
         """Raise if anything was found.
@@ -114,7 +122,8 @@ def known_keys(model: type[BaseModel]) -> list[str]:
 def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     kind, got = entry["type"], entry["input"]
     if kind == "extra_forbidden":
-        return f"unknown key{_similar(key, names)}"
+        what = "table" if isinstance(got, Mapping) else "key"
+        return f"unknown {what}{_similar(key, names)}"
     if kind == "missing":
         what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
         return f"this {what} is required and missing"
@@ -177,22 +186,27 @@ def line_of(text: str, key: str) -> int:
 
 def _line_of_value(text: str, parts: list[str]) -> int:
     import tomlkit
+    from tomlkit.items import AoT
 
-    place: Any = tomlkit.parse(text)
+    document: Any = tomlkit.parse(text)
+    place = document
     for part in parts[:-1]:
         place = place.get(part) if isinstance(place, Mapping) else None
     if not isinstance(place, Mapping) or parts[-1] not in place:
         return 0
     value = place[parts[-1]]
+    if isinstance(value, AoT):
+        return _line_of_header(text, ".".join(parts))
     if isinstance(value, Mapping) and value:
         lines = [_line_of_value(text, [*parts, name]) for name in value]
         return min((line for line in lines if line), default=0)
-    document: Any = tomlkit.parse(text)
-    place = document
-    for part in parts[:-1]:
-        place = place[part]
-    place[parts[-1]] = _MARK
+    place[parts[-1]] = _MARK  # type: ignore[index]
     dumped = tomlkit.dumps(document)
     marked = tomlkit.item(_MARK).as_string()
     before, found, _ = dumped.partition(marked)
     return before.count("\n") + 1 if found else 0
+
+
+def _line_of_header(text: str, name: str) -> int:
+    lines = enumerate(text.splitlines(), start=1)
+    return next((number for number, line in lines if line.strip().startswith(f"[[{name}]]")), 0)

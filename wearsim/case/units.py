@@ -1,6 +1,7 @@
 """Numbers of an input file: plain floats, or strings with a unit, into the unit of the key."""
 
 import math
+import re
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,12 +13,20 @@ if TYPE_CHECKING:
     import pint
 
 
+_NUMBER_AND_UNIT = re.compile(
+    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:/([1-9]\d*))?\s*([^\d\s.,].*?)\s*"
+)
+_POWER = re.compile(r"\b(mm|cm|m|in|inch|ft)([234])\b")
+_ANGLES = ("revolution", "turn", "radian", "degree")
+
+
 @cache
 def _registry() -> "pint.UnitRegistry[Any]":
     import pint
 
     registry: pint.UnitRegistry[Any] = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     registry.define("Nm = newton * meter")
+    registry.define("@alias turn = rev")
     return registry
 
 
@@ -47,24 +56,34 @@ def convert(text: str, unit: str) -> float:
     25.4
     >>> round(convert("20 Nm", "N*m"), 12)
     20.0
+    >>> convert("3/4 inch", "mm") == 0.75 * 25.4
+    True
     """
+    if not text.strip(" +-.eE0123456789"):
+        raise ValueError(f"give a number without quotes, or with a unit such as '1 {unit}'")
+    found = _NUMBER_AND_UNIT.fullmatch(text)
+    if not found:
+        raise ValueError(f"must be one number and its unit, such as '1.5 {unit}'")
+    number, divisor, given = found.groups()
+    return _converted(float(number) / float(divisor or 1), given, unit)
+
+
+def _converted(number: float, given: str, unit: str) -> float:
     import pint
 
-    if unit == "rpm" and "hz" in text.lower():
-        raise ValueError(f"write a speed in rpm or rad/s, not in hertz, got {text!r}")
     try:
-        quantity: pint.Quantity[Any] = _registry().Quantity(text)
-        if quantity.unitless and not quantity.dimensionless:
-            raise ValueError
-        if str(quantity.units) == "dimensionless":
-            raise ValueError(f"give a number without quotes, or with a unit such as '1 {unit}'")
-        return float(quantity.to(unit).magnitude)
+        units = _registry().parse_units(_POWER.sub(r"\1^\2", given))
+        converted = float(_registry().Quantity(number, units).to(unit).magnitude)
     except pint.DimensionalityError:
         raise ValueError(f"the unit must be one of the kind of {unit}") from None
-    except ValueError:
-        raise
     except Exception:
-        raise ValueError(f"must be a number, or a string with a unit such as '1 {unit}'") from None
+        raise ValueError(
+            f"unknown unit {given!r}: must be a number, or a string such as '1 {unit}'"
+        ) from None
+    # pint takes 1/min and hertz for rad/min and rad/s.
+    if unit == "rpm" and not any(angle in str(units) for angle in _ANGLES):
+        raise ValueError(f"write a speed in rpm or rad/s, {given!r} may mean either")
+    return converted
 
 
 def _number(value: object, info: ValidationInfo) -> float:
@@ -74,9 +93,13 @@ def _number(value: object, info: ValidationInfo) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         hint = f", or a string with a unit such as '1 {unit}'" if unit else ""
         raise ValueError(f"must be a number{hint}")
-    if not math.isfinite(value):
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
         raise ValueError("must be a finite number")
-    return float(value)
+    return number
 
 
 def _schema(with_unit: bool, **limits: float) -> dict[str, Any]:

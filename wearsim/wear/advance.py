@@ -107,7 +107,7 @@ def _solve(
 ) -> _Solution:
     contact, depth_limit = rate.contact, criteria[0].limit
     state = np.zeros(3 * contact.profile.x.size)
-    _check(rate, state, 0.0)
+    _check(rate, state, 0.0, depth_limit)
     fastest = float(rate(0.0, state).max())
     if not fastest > 0.0:
         raise ContactError(
@@ -131,16 +131,16 @@ def _solve(
             )
         met = _met(rate, criteria, solver.y)
         if met is None:
-            _check(rate, solver.y, cycles)
+            _check(rate, solver.y, cycles, depth_limit)
         pieces.append(solver.dense_output())
         starts.append(float(solver.t_old or 0.0))
     return _ended(rate, criteria, horizon, pieces, np.array(starts), float(solver.t), met)
 
 
-def _check(rate: _Rate, state: Vector, cycles: float) -> None:
+def _check(rate: _Rate, state: Vector, cycles: float, depth_limit: float) -> None:
     flank = rate.flank(state)
     check_touch(rate.contact, flank.x, flank.y, flank.depth, cycles)
-    check_sawtooth(rate.contact, flank.depth, cycles)
+    check_sawtooth(rate.contact, flank.depth, cycles, depth_limit)
 
 
 def _met(rate: _Rate, criteria: tuple[Criterion, ...], state: Vector) -> Criterion | None:

@@ -14,7 +14,10 @@ from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check
 class _Run:
     """State of the flank between blocks of compiled updates."""
 
-    def __init__(self, contact: Contact, law: Law, cycles_per_update: int) -> None:
+    def __init__(
+        self, contact: Contact, law: Law, cycles_per_update: int, depth_limit: float
+    ) -> None:
+        self.depth_limit = depth_limit
         self.contact = contact
         self.cycles_per_update = float(cycles_per_update)
         self.law = law.numbers(contact.kind)
@@ -49,7 +52,7 @@ class _Run:
             )
         if status == UNSTABLE:
             self._refuse()
-        check_sawtooth(self.contact, self.depth, self.cycles)
+        check_sawtooth(self.contact, self.depth, self.cycles, self.depth_limit)
 
     def _refuse(self) -> None:
         spacing_squared, relative = self.work[3], self.work[7]
@@ -101,7 +104,7 @@ def run_per_cycle(
     ContactError
         The flank conforms to the roller, or the contact is gone.
     """
-    run = _Run(contact, law, cycles_per_update)
+    run = _Run(contact, law, cycles_per_update, criteria[0].limit)
     check_touch(contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
     most = int(horizon / cycles_per_update)
@@ -116,7 +119,7 @@ def run_per_cycle(
         target = run.depth.max() + interval if interval else 0.0
         run.wear(target, most - run.updates)
         if not interval:
-            interval = float(min(criteria[0].limit, run.depth.max() * most)) / SNAPSHOTS
+            interval = float(min(run.depth_limit, run.depth.max() * most)) / SNAPSHOTS
         met = first_met(criteria, run.x, run.y, run.depth)
         if met is not None and run.updates - before[1] > 1:
             _retreat(run, criteria, *before)

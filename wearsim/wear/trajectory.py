@@ -72,7 +72,7 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
         )
 
 
-def check_sawtooth(contact: Contact, depth: Vector, cycles: float) -> None:
+def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: float) -> None:
     """Raise where the depth alternates from point to point, the mark of an unstable run.
 
     The second difference over one spacing is compared with that over two, which an
@@ -86,6 +86,8 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float) -> None:
         Material removed along the normal [mm].
     cycles : float
         Loading cycles so far, for the message.
+    depth_limit : float
+        Depth at which the run ends [mm]; teeth of less than 5e-5 of it do not count.
 
     Raises
     ------
@@ -99,7 +101,7 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float) -> None:
     window = np.ones(5)
     noise = np.convolve(short, window, "valid")
     smooth = np.convolve(long, window, "valid")
-    teeth = noise > 4.0 * smooth + 0.01 * depth.max()
+    teeth = noise > 4.0 * smooth + 1e-3 * depth_limit
     if teeth.any():
         point = int(teeth.argmax()) + 4
         raise ConvergenceError(
