@@ -15,6 +15,14 @@ from wearsim.case.resolve import resolve
 from wearsim.case.schema import CaseTables
 from wearsim.errors import CaseError, Fault
 
+_STAND_INS: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "load": {"tension_N": 1.0, "speed_rpm": 1.0},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
+}
+"""What takes the place of a faulty part while the others are looked at."""
+
 
 def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str] = ()) -> Case:
     """Return the case of an input file or of a mapping with the same tables.
@@ -64,6 +72,7 @@ def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str]
         tables = CaseTables.model_validate(data)
     except ValidationError as error:
         faults.add_validation(error, CaseTables)
+        faults.distrust(_wrong_tables(data, error))
         rest = _sound_part(data, error)
         if rest is not None:
             resolve(rest, name, folder, faults)
@@ -76,15 +85,26 @@ def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | No
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
     sound = copy.deepcopy(data)
     for entry in error.errors():
-        *tables, last = entry["loc"] or ("",)
+        *tables, last = entry["loc"]
+        conflicting = [name for name, _ in entry.get("ctx", {}).get("faults", ())]
         place: Any = sound
-        for table in tables:
+        for table in [*tables, last] if conflicting else tables:
             place = place.get(table, {})
-        place.pop(last, None)
+        for name in conflicting or [last]:
+            place.pop(name, None)
+    sound |= {name: _STAND_INS[name] for name in _wrong_tables(data, error) & set(_STAND_INS)}
     try:
         return CaseTables.model_validate(sound)
     except ValidationError:
         return None
+
+
+def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
+    """Return the tables with faults, and those whose checks rest on them."""
+    wrong = {str(entry["loc"][0]) for entry in error.errors()}
+    if "chain" in wrong:
+        wrong |= {"load"} | ({"sprocket"} & data.keys())
+    return wrong | {"stop"} if "sprocket" in wrong else wrong
 
 
 def _read(path: Path) -> tuple[str, dict[str, Any]]:

@@ -31,7 +31,7 @@ class Faults:
         self.overrides = tuple(overrides)
         self._found: list[Fault] = []
         self._lines: dict[str, int] = {}
-        self._doubtful: set[str] = set()
+        self._distrusted: set[str] = set()
 
     @property
     def count(self) -> int:
@@ -48,7 +48,7 @@ class Faults:
         message : str
             What must hold, what it is, what to do.
         """
-        if key.partition(".")[0] in self._doubtful:
+        if key.partition(".")[0] in self._distrusted:
             return
         if any(key == given or key.startswith(f"{given}.") for given in self.overrides):
             self._found.append(Fault(message, "", f"--set {key}"))
@@ -65,8 +65,7 @@ class Faults:
         error : pydantic.ValidationError
             What it raised.
         model : type
-            The model it was raised for, whose keys are proposed for unknown ones. Later
-            faults of the same tables are not added: they may follow from these.
+            The model it was raised for, whose keys are proposed for unknown ones.
         """
         names = known_keys(model)
         for entry in error.errors(include_url=False):
@@ -76,7 +75,16 @@ class Faults:
                     self.add(f"{key}.{name}", message)
                 continue
             self.add(key, _message(dict(entry), key, names))
-        self._doubtful = {str(entry["loc"][0]) for entry in error.errors() if entry["loc"]}
+
+    def distrust(self, tables: Iterable[str]) -> None:
+        """Take no more faults of some tables: they may only follow from those already found.
+
+        Parameters
+        ----------
+        tables : iterable of str
+            Their names.
+        """
+        self._distrusted = set(tables)
 
     def check(self) -> None:
         """Raise if anything was found.
@@ -128,7 +136,9 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
         what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
         return f"this {what} is required and missing"
     text = str(entry["msg"]).removeprefix("Value error, ")
-    text = text.replace("Input should be", "must be").replace("a valid dictionary", "a table")
+    text = text.replace("Input should be", "must be")
+    if kind == "model_type":
+        text = "must be a table"
     if isinstance(got, Mapping):
         return f"{text} (got a table)"
     hint = ""

@@ -103,7 +103,7 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
         return Chain("", table.pitch_mm, table.roller_diameter_mm, table.inner_width_mm)
     chain = chains()[table.designation]
     if chain.flag:
-        case.warnings.append(f"chain {chain.designation}: {chain.flag}")
+        case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.flag}")
     return chain
 
 

@@ -62,7 +62,7 @@ def read_columns(
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             lines = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
         return {}

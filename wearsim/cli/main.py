@@ -45,7 +45,11 @@ for _command in (life, check, profile, compare, init, schema, list_table):
 def main() -> None:
     """Run the command line and exit with its code."""
     try:
-        code = wearsim_command.main(prog_name="wearsim", standalone_mode=False)
+        if "_WEARSIM_COMPLETE" in os.environ:
+            wearsim_command.main(prog_name="wearsim")
+        # Not click's own main: it turns a closed pipe into exit code 1.
+        with wearsim_command.make_context("wearsim", sys.argv[1:]) as context:
+            code = wearsim_command.invoke(context)
         sys.stdout.flush()
         sys.exit(code if isinstance(code, int) else 0)
     except click.exceptions.Exit as done:

@@ -1,6 +1,8 @@
 """The whole input file, one module a table."""
 
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator
 
 from wearsim.case.schema.chain import ChainTable
 from wearsim.case.schema.load import LoadTable
@@ -27,10 +29,16 @@ __all__ = [
 ]
 
 
+def _whole(value: object) -> object:
+    if type(value) is not int:
+        raise ValueError("must be 1")
+    return value
+
+
 class CaseTables(Table):
     """The tables of an input file as they were given."""
 
-    format_version: Literal[1]
+    format_version: Annotated[Literal[1], BeforeValidator(_whole)]
     title: str = ""
     chain: ChainTable
     sprocket: SprocketTable | None = None
