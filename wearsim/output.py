@@ -24,7 +24,11 @@ def check_free(path: Path, force: bool) -> None:
     OutputError
         It exists and may not be replaced.
     """
-    if path.exists() and not force:
+    try:
+        taken = path.exists()
+    except OSError as error:
+        raise OutputError(f"{path}: must be reachable: {error.strerror or error}") from None
+    if taken and not force:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
@@ -56,12 +60,12 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
             new, old = Path(beside) / "new", Path(beside) / "old"
             new.mkdir()
             yield new
-            if folder.exists():
-                os.rename(folder, old)
             try:
+                if folder.exists():
+                    os.rename(folder, old)
                 os.rename(new, folder)
-            except OSError:
-                if old.exists():
+            except BaseException:
+                if old.exists() and not folder.exists():
                     os.rename(old, folder)
                 raise
             if old.is_file():
@@ -90,8 +94,8 @@ def write_file(path: Path, content: str | bytes, force: bool) -> None:
         The place is taken or cannot be written.
     """
     check_free(path, force)
-    if path.is_dir():
-        raise OutputError(f"{path}: must be a file, but is a folder: choose another place")
+    if path.exists() and not path.is_file():
+        raise OutputError(f"{path}: must be a file, but is none: choose another place, or -")
     data = content.encode("utf-8") if isinstance(content, str) else content
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -101,7 +105,7 @@ def write_file(path: Path, content: str | bytes, force: bool) -> None:
                 file.write(data)
             os.chmod(beside, 0o666 & ~_umask())
             os.replace(beside, path)
-        except OSError:
+        except BaseException:
             with contextlib.suppress(OSError):
                 os.unlink(beside)
             raise

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from importlib import metadata
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +22,18 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SCHEMA_VERSION = 1
+
+HISTORY_COLUMNS = (
+    "cycles", "time_hours", "max_depth_mm", "peak_pressure_MPa", "max_sliding_speed_mm_per_s",
+    "removed_area_mm2", "worn_contact_ratio",
+)  # fmt: skip
+FLANK_COLUMNS = (
+    "cycles", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm", "pressure_MPa",
+    "sliding_speed_mm_per_s", "load_per_width_N_per_mm", "relative_curvature_per_mm",
+)  # fmt: skip
+
+_INPUTS = "inputs"
+_FILE_KEYS = (("sprocket", "points_file"), ("mechanism", "table_file"))
 
 
 @dataclass(frozen=True)
@@ -222,7 +234,7 @@ class WearResult:
         ----------
         folder : path
             New folder for result.json, case.lock.toml, environment.json, history.csv,
-            flank.csv and the CSV files of the case.
+            flank.csv and ``inputs`` with the CSV files of the case.
         force : bool
             Replace a folder that is there.
 
@@ -241,7 +253,8 @@ class WearResult:
             _write_json(place / "environment.json", dict(self.environment))
             (place / "case.lock.toml").write_text(self._lock(), encoding="utf-8")
             for name, text in self.input_files.items():
-                (place / name).write_text(text, encoding="utf-8")
+                (place / _INPUTS).mkdir(exist_ok=True)
+                (place / _INPUTS / name).write_text(text, encoding="utf-8")
             self.history.to_csv(place / "history.csv", index=False)
             self.flank.to_csv(place / "flank.csv", index=False)
 
@@ -250,7 +263,7 @@ class WearResult:
 
         document = tomlkit.document()
         document.add(tomlkit.comment(f"{self.case} with every default taken by wearsim"))
-        for key, value in self.inputs.items():
+        for key, value in _with_files(self.inputs, _INPUTS).items():
             if value != {}:
                 document.add(key, value)
         return tomlkit.dumps(document)
@@ -274,57 +287,52 @@ class WearResult:
         OutputError
             The folder does not hold a complete result of this version.
         """
-        import tomllib
-
         folder = Path(folder)
         try:
-            stored = json.loads((folder / "result.json").read_text(encoding="utf-8"))
-            version = stored.get("schema_version")
-            if version != SCHEMA_VERSION:
-                raise OutputError(
-                    f"{folder}: result.json must have schema_version {SCHEMA_VERSION}, has "
-                    f"{version!r}: read it with the wearsim that wrote it"
-                )
-            inputs = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
-            environment = json.loads((folder / "environment.json").read_text(encoding="utf-8"))
-            columns = [_read_columns(folder / name) for name in ("history.csv", "flank.csv")]
-            files = {name: (folder / name).read_text(encoding="utf-8") for name in _named(inputs)}
+            return cls(**_stored(folder))
         except OutputError:
             raise
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, TypeError, AttributeError, LookupError) as error:
             raise OutputError(
                 f"{folder}: must be the folder of a result (result.json, case.lock.toml, "
-                f"environment.json, history.csv, flank.csv): {error}"
+                f"environment.json, history.csv, flank.csv): {type(error).__name__} {error}"
             ) from None
-        lives = stored["lives"]
-        return cls(
-            case=stored["case"],
-            title=stored["title"],
-            life=_life(lives["life"]),
-            life_low=_life(lives["life_low"]),
-            life_high=_life(lives["life_high"]),
-            band=stored["band"],
-            stop=stored["stop"],
-            stop_value=stored["stop_value"],
-            cycles_run=stored["cycles_run"],
-            hours_run=stored["hours_run"],
-            max_depth=stored["max_depth_mm"],
-            max_depth_arc_length=stored["max_depth_arc_length_mm"],
-            initial_peak_pressure=stored["initial_peak_pressure_MPa"],
-            final_peak_pressure=stored["final_peak_pressure_MPa"],
-            speed_rpm=stored["speed_rpm"],
-            method=stored["method"],
-            updates=stored["updates"],
-            numerical_error=stored["numerical_error"],
-            life_tolerance=stored["life_tolerance"],
-            assumptions=tuple(stored["assumptions"]),
-            warnings=tuple(stored["warnings"]),
-            inputs=inputs,
-            input_files=files,
-            history_columns=columns[0],
-            flank_columns=columns[1],
-            environment=environment,
+
+
+def _stored(folder: Path) -> dict[str, Any]:
+    """Return the fields of a result in a folder."""
+    import tomllib
+
+    stored = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    version = stored.get("schema_version")
+    if version != SCHEMA_VERSION:
+        raise OutputError(
+            f"{folder}: result.json must have schema_version {SCHEMA_VERSION}, has "
+            f"{version!r}: read it with the wearsim that wrote it"
         )
+    lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
+    inputs = _with_files(lock, "")
+    same = (
+        "case", "title", "band", "stop", "stop_value", "cycles_run", "hours_run", "speed_rpm",
+        "method", "updates", "numerical_error", "life_tolerance",
+    )  # fmt: skip
+    return {
+        **{name: stored[name] for name in same},
+        **{name: _life(life) for name, life in stored["lives"].items()},
+        "max_depth": stored["max_depth_mm"],
+        "max_depth_arc_length": stored["max_depth_arc_length_mm"],
+        "initial_peak_pressure": stored["initial_peak_pressure_MPa"],
+        "final_peak_pressure": stored["final_peak_pressure_MPa"],
+        "assumptions": tuple(stored["assumptions"]),
+        "warnings": tuple(stored["warnings"]),
+        "inputs": inputs,
+        "input_files": {
+            name: (folder / _INPUTS / name).read_text(encoding="utf-8") for name in _named(inputs)
+        },
+        "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS),
+        "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS),
+        "environment": json.loads((folder / "environment.json").read_text(encoding="utf-8")),
+    }
 
 
 def environment() -> dict[str, str]:
@@ -355,11 +363,17 @@ def _life(stored: dict[str, float]) -> Life | LowerBound:
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:
     """Names of the CSV files in a case's tables."""
-    named = [
-        inputs.get("sprocket", {}).get("points_file"),
-        inputs.get("mechanism", {}).get("table_file"),
-    ]
-    return [name for name in named if name is not None]
+    return [inputs[table][key] for table, key in _FILE_KEYS if key in inputs.get(table, {})]
+
+
+def _with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
+    """Return the tables with the CSV files that they name in another folder."""
+    moved = dict(inputs)
+    for table, key in _FILE_KEYS:
+        if key in inputs.get(table, {}):
+            name = PurePosixPath(folder, PurePosixPath(inputs[table][key]).name)
+            moved[table] = {**inputs[table], key: str(name)}
+    return moved
 
 
 def _write_json(path: Path, value: Mapping[str, Any]) -> None:
@@ -367,10 +381,10 @@ def _write_json(path: Path, value: Mapping[str, Any]) -> None:
     path.write_text(text + "\n", encoding="utf-8")
 
 
-def _read_columns(path: Path) -> dict[str, Vector]:
+def _read_columns(path: Path, names: tuple[str, ...]) -> dict[str, Vector]:
     import pandas as pd
 
     frame = pd.read_csv(path, float_precision="round_trip")
-    if frame.empty:
-        raise ValueError(f"{path.name} is empty")
-    return {str(name): np.asarray(frame[name].to_numpy()) for name in frame}
+    if frame.empty or tuple(frame) != names:
+        raise ValueError(f"{path.name} must hold rows of {', '.join(names)}")
+    return {name: np.asarray(frame[name].to_numpy()) for name in names}

@@ -193,7 +193,8 @@ def _numerical_error(
         return step_error
     if error > tolerance:
         warnings.append(
-            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes"
+            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes "
+            "(rows of a table)"
         )
     return error
 
@@ -218,7 +219,11 @@ def _tables(
         "peak_pressure_MPa": pressure.max(axis=1),
         "max_sliding_speed_mm_per_s": speed.max(axis=1),
         "removed_area_mm2": np.array(
-            [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
+            [0.0]
+            + [
+                area_between(run.x[0], run.y[0], x, y)
+                for x, y in zip(run.x[1:], run.y[1:], strict=True)
+            ]
         ),
         "worn_contact_ratio": np.array(
             [mechanism.worn_contact_ratio(x, y) for x, y in zip(run.x, run.y, strict=True)]
@@ -257,14 +262,14 @@ def _validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vec
     if spacing > np.median(widths):
         found.append(
             f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
-            f"{np.median(widths):.3g} mm: use more nodes"
+            f"{np.median(widths):.3g} mm: use more nodes (rows of a table)"
         )
-    below = history["worn_contact_ratio"] < 1.0
-    if below.any():
-        hours = history["time_hours"][int(below.argmax())]
+    ratio = history["worn_contact_ratio"]
+    if (ratio < 1.0).any():
+        hours = history["time_hours"][int((ratio < 1.0).argmax())]
         found.append(
-            f"the worn contact ratio falls below 1 after {hours:.4g} h: the roller then also touches "
-            "the edge of the tip, which is not modelled"
+            f"the worn contact ratio is below 1 from about {hours:.3g} h on, lowest {ratio.min():.3f}: "
+            "for that part of a pitch the roller touches the edge of the tip, which is not modelled"
         )
     return found
 

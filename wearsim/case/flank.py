@@ -105,7 +105,7 @@ def _checked_tooth(
         return tooth
     teeth = enough_teeth(chain.pitch, strand.roller_radius, table.engaged_every, *contact)
     remedy = (
-        f"; teeth = {teeth} will do with the default offset"
+        f"; teeth = {teeth} will do with the default offset, or try a shorter contact range"
         if teeth is not None and teeth > table.teeth
         else ""
     )
@@ -172,6 +172,7 @@ def points_tooth(
             f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
         )
         return None
+    _check_reach(case, (end, start), reached, 0.01 * chain.pitch)
     case.assumptions.append(
         "the flank is a quintic smoothing spline through the points, their error taken as "
         f"{noise:g} mm; no check that the flank is conjugate to the roller"
@@ -180,6 +181,26 @@ def points_tooth(
     tooth = Tooth(strand, flank, table.teeth, relief)
     _doubt_points(case, tooth, noise)
     return tooth, end, start
+
+
+def _check_reach(
+    case: Resolution,
+    contact: tuple[float, float],
+    reached: tuple[float, float],
+    tolerance: float,
+) -> None:
+    """Add a fault where the range of contact goes on past an end of the flank."""
+    (end, start), (root, tip) = contact, reached
+    if end < root - tolerance:
+        case.faults.add(
+            "sprocket.contact_end_mm",
+            f"the flank's root end is touched at {root:.6g} mm: at least that (got {end:g})",
+        )
+    if start > tip + tolerance:
+        case.faults.add(
+            "sprocket.contact_start_mm",
+            f"the flank's tip end is touched at {tip:.6g} mm: at most that (got {start:g})",
+        )
 
 
 def _doubt_points(case: Resolution, tooth: Tooth, noise: float) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.cli.standard import standard
+from wearsim.errors import CaseError, Fault
 
 _TEMPLATE = """\
 # A case for wearsim. Commented keys show their default or an example; wearsim list
@@ -55,8 +56,10 @@ condition = "hardened, oiled"            # wearsim list wear-conditions; or spec
 def init(chain: str, teeth: int, out: Path, force: bool) -> None:
     """Write a working case for a chain and a number of teeth, every key explained."""
     from wearsim.case.load import load_case
-    from wearsim.output import write_file
+    from wearsim.output import check_free, write_file
 
+    if str(out) != "-":
+        check_free(out, force)
     # A chain speed of 1 m/s and a tenth of what the chain's strength allows.
     seed = {
         "format_version": 1,
@@ -65,7 +68,13 @@ def init(chain: str, teeth: int, out: Path, force: bool) -> None:
         "load": {"tension_N": 1.0, "speed_rpm": 1.0},
         "wear": {"condition": "hardened, oiled"},
     }
-    case = load_case(seed)
+    try:
+        case = load_case(seed)
+    except CaseError as error:
+        options = {"chain.designation": "--chain"}
+        raise CaseError(
+            [Fault(fault.message, "", options.get(fault.key, "--teeth")) for fault in error.faults]
+        ) from None
     speed = float(f"{60_000.0 / (case.chain.pitch * teeth):.2g}")
     power = float(f"{case.chain.tensile / 10.0 * case.chain.pitch * teeth * speed / 6e7:.2g}")
     sprocket, stop = case.inputs["sprocket"], case.inputs["stop"]

@@ -1,6 +1,7 @@
 """``wearsim life``: the life of one or several cases."""
 
 import json
+import math
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -9,12 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.cli.standard import (
-    FAILED,
     NOT_MET,
     SOME_FAILED,
     error_json,
+    exit_code,
     load_cases,
     overrides,
+    show_error,
     standard,
     warn,
     working,
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
     "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
+    callback=lambda context, parameter, value: _finite(value),
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
@@ -55,28 +58,42 @@ def life(
     if require_hours is not None:
         loaded = [_with_horizon(case, require_hours) for case in loaded]
     folders = _folders(cases, out, force)
-    failed, missed = 0, False
+    failures: list[WearsimError] = []
+    missed = False
     for path, case, folder in zip(cases, loaded, folders, strict=True):
         try:
             result = _run(case, folder, force)
         except WearsimError as error:
             if len(loaded) == 1 and not as_json:
                 raise
-            failed += 1
-            _show_failure(path, error, as_json)
+            failures.append(error)
+            if as_json:
+                click.echo(error_json(path.stem, error))
+            show_error(error, path)
             continue
         _show(result, path, as_json)
-        missed = missed or _missed(result, require_hours, strict)
-    if failed:
-        return FAILED if failed == len(loaded) else SOME_FAILED
+        missed = _missed(result, require_hours, strict) or missed
+    if failures:
+        return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
 
 
+def _finite(hours: float | None) -> float | None:
+    if hours is None or math.isfinite(hours):
+        return hours
+    raise click.BadParameter(f"{hours} is not a finite number.")
+
+
 def _with_horizon(case: "Case", hours: float) -> "Case":
-    horizon = max(hours, case.run.horizon_hours)
-    run = {**case.inputs["run"], "horizon_hours": horizon}
+    if hours <= case.run.horizon_hours:
+        return case
+    key = "run.horizon_hours"
+    assumptions = [text for text in case.assumptions if not text.startswith(key)]
     return replace(
-        case, run=replace(case.run, horizon_hours=horizon), inputs={**case.inputs, "run": run}
+        case,
+        run=replace(case.run, horizon_hours=hours),
+        inputs={**case.inputs, "run": {**case.inputs["run"], "horizon_hours": hours}},
+        assumptions=(*assumptions, f"{key} = {hours:g} (raised by --require-hours)"),
     )
 
 
@@ -119,12 +136,6 @@ def _show(result: "WearResult", path: Path, as_json: bool) -> None:
         from wearsim.report.answer import answer
 
         click.echo(answer(result, str(path)))
-
-
-def _show_failure(path: Path, error: WearsimError, as_json: bool) -> None:
-    if as_json:
-        click.echo(error_json(path.stem, error))
-    click.echo(f"{path}: {error}", err=True)
 
 
 def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> bool:

@@ -14,7 +14,7 @@ from wearsim.cli.life import life
 from wearsim.cli.list import list_table
 from wearsim.cli.profile import profile
 from wearsim.cli.schema import schema
-from wearsim.cli.standard import exit_code, standard
+from wearsim.cli.standard import exit_code, show_error, standard
 from wearsim.errors import WearsimError
 
 _EXAMPLES = """\b
@@ -66,23 +66,12 @@ def main() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
     except WearsimError as error:
-        _show(error)
+        show_error(error)
         sys.exit(exit_code(error))
     except Exception as error:
         click.echo(f"wearsim: this is a bug in wearsim: {type(error).__name__}: {error}", err=True)
-        if _debug():
+        if "--debug" in sys.argv:
             traceback.print_exc()
         else:
             click.echo("run again with --debug to see where, and report it", err=True)
         sys.exit(1)
-
-
-def _debug() -> bool:
-    return "--debug" in sys.argv
-
-
-def _show(error: WearsimError) -> None:
-    if _debug():
-        traceback.print_exc()
-    else:
-        click.echo(str(error), err=True)

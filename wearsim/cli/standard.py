@@ -2,6 +2,7 @@
 
 import json
 import sys
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,13 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from wearsim.errors import (
-    CaseError,
-    Fault,
-    GeometryError,
-    OutputError,
-    WearsimError,
-)
+from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -107,6 +102,22 @@ def working(text: str) -> Iterator[None]:
         yield
 
 
+def show_error(error: WearsimError, path: Path | None = None) -> None:
+    """Print an error on stderr, with its traceback if ``--debug`` was given.
+
+    Parameters
+    ----------
+    error : WearsimError
+        The error.
+    path : pathlib.Path, optional
+        Case that it belongs to, where its message does not say so.
+    """
+    if "--debug" in sys.argv:
+        traceback.print_exception(error)
+    else:
+        click.echo(f"{path}: {error}" if path else str(error), err=True)
+
+
 def exit_code(error: WearsimError) -> int:
     """Return the exit code of an error.
 
@@ -120,8 +131,7 @@ def exit_code(error: WearsimError) -> int:
     int
         2 for bad input, 3 for a calculation that failed.
     """
-    inputs = (CaseError, GeometryError, OutputError)
-    return BAD_INPUT if isinstance(error, inputs) else FAILED
+    return BAD_INPUT if isinstance(error, CaseError | OutputError) else FAILED
 
 
 def error_json(case: str, error: WearsimError) -> str:
@@ -140,12 +150,13 @@ def error_json(case: str, error: WearsimError) -> str:
         With the file, line and key of the first fault.
     """
     first = error.faults[0] if isinstance(error, CaseError) else Fault(str(error))
+    file, _, override = first.file.partition("--set ")
     content = {
         "kind": type(error).__name__,
         "message": str(error),
-        "file": first.file or None,
+        "file": file or None,
         "line": first.line or None,
-        "key": first.key or None,
+        "key": first.key or override or None,
     }
     return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
 
@@ -177,7 +188,7 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
             failed = True
             if as_json:
                 click.echo(error_json(path.stem, error))
-            click.echo(str(error), err=True)
+            show_error(error)
     if failed:
         raise click.exceptions.Exit(BAD_INPUT)
     return cases

@@ -276,8 +276,11 @@ def _arc_through(
     right = 0.5 * np.array([x2**2 - x1**2 + y2**2 - y1**2, x3**2 - x1**2 + y3**2 - y1**2])
     centre = np.linalg.solve(matrix, right)
     first, last = (math.atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
-    if first > last:
+    left_turn = (x2 - x1) * (y3 - y2) > (y2 - y1) * (x3 - x2)
+    if left_turn and first > last:
         first -= 2.0 * math.pi
+    elif not left_turn and first < last:
+        first += 2.0 * math.pi
     angles = np.linspace(first, last, 61)
     radius = math.hypot(x1 - centre[0], y1 - centre[1])
     return centre + radius * np.column_stack([np.cos(angles), np.sin(angles)])

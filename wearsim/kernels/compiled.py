@@ -73,11 +73,16 @@ def cache_folder() -> Path | None:
     folder = Path(chosen) / name
     if _writable(folder):
         return folder
-    if hasattr(os, "getuid"):
-        shared = Path(tempfile.gettempdir()) / f"wearsim-{os.getuid()}"
-        if _private(shared) and _writable(shared / name):
-            return shared / name
-    return None
+    shared = _temporary_folder()
+    return shared / name if shared and _writable(shared / name) else None
+
+
+def _temporary_folder() -> Path | None:
+    try:
+        folder = Path(tempfile.gettempdir()) / f"wearsim-{os.getuid()}"
+    except (AttributeError, OSError):  # no user numbers on this system; no temporary folder at all
+        return None
+    return folder if _private(folder) else None
 
 
 _FOLDER = cache_folder()

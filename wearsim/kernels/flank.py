@@ -36,21 +36,16 @@ def flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared):  # type: 
     for j in range(1, n - 1):
         ax, ay = x[j] - x[j - 1], y[j] - y[j - 1]
         bx, by = x[j + 1] - x[j], y[j + 1] - y[j]
-        spacing_squared[j] = min(ax * ax + ay * ay, bx * bx + by * by)
-    for j in range(1, n - 1):
-        ax, ay = x[j] - x[j - 1], y[j] - y[j - 1]
-        bx, by = x[j + 1] - x[j], y[j + 1] - y[j]
         aa, bb = ax * ax + ay * ay, bx * bx + by * by
         cx, cy = ax + bx, ay + by
+        spacing_squared[j] = min(aa, bb)
         curvature[j] = 1.0 / math.sqrt(aa * bb * (cx * cx + cy * cy))
     for j in range(1, n - 1):
         ax, ay = x[j] - x[j - 1], y[j] - y[j - 1]
         bx, by = x[j + 1] - x[j], y[j + 1] - y[j]
-        normal_x[j] = (ay * (bx * bx + by * by) + by * (ax * ax + ay * ay)) * curvature[j]
-    for j in range(1, n - 1):
-        ax, ay = x[j] - x[j - 1], y[j] - y[j - 1]
-        bx, by = x[j + 1] - x[j], y[j + 1] - y[j]
-        normal_y[j] = -(ax * (bx * bx + by * by) + bx * (ax * ax + ay * ay)) * curvature[j]
+        aa, bb = ax * ax + ay * ay, bx * bx + by * by
+        normal_x[j] = (ay * bb + by * aa) * curvature[j]
+        normal_y[j] = -(ax * bb + bx * aa) * curvature[j]
     for j in range(1, n - 1):
         ax, ay = x[j] - x[j - 1], y[j] - y[j - 1]
         bx, by = x[j + 1] - x[j], y[j + 1] - y[j]

@@ -42,10 +42,11 @@ def strand_contact(  # type: ignore[no-untyped-def]
     for j in range(n):
         share = min(1.0, min(x_max - speed[j], speed[j] - x_min) * per_overlap)
         load[j] = pull * share / relative[j] if share > 0.0 else 0.0
-    for j in range(n):
-        rolling = 1.0 + radius * relative[j] / speed[j]
-        slip[j] = fraction * rolling * (1.0 + radius * curvature[j]) if load[j] > 0.0 else 0.0
+        slip[j] = (
+            fraction * (1.0 + radius * relative[j] / speed[j]) * (1.0 + radius * curvature[j])
+            if load[j] > 0.0
+            else 0.0
+        )
     for j in range(n):
         speed[j] = fraction * omega * (speed[j] / relative[j] + radius) if load[j] > 0.0 else 0.0
-    for j in range(n):
         relative[j] = 1.0 / radius + curvature[j]

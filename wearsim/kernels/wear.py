@@ -9,19 +9,6 @@ from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64,
 RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED = 0, 1, 2, 3, 4
 
 
-@kernel(void(VECTOR, float64))
-def _raise_to(values, exponent):  # type: ignore[no-untyped-def]
-    """Raise every value to a power in place; the common exponents without a logarithm."""
-    if exponent == 0.0:
-        values[:] = 1.0
-    elif exponent == 0.5:
-        for j in range(values.size):
-            values[j] = math.sqrt(values[j])
-    elif exponent != 1.0:
-        for j in range(values.size):
-            values[j] = values[j] ** exponent
-
-
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
 def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # type: ignore[no-untyped-def]
     """Write the Hertz pressure and the depth worn off in one cycle at every point.
@@ -29,16 +16,21 @@ def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # t
     ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
     depth = factor pressure^a load^b slip speed^n, zero where the load is zero.
     """
-    n = load.size
+    n, factor, exponent = load.size, law[0], law[1]
     for j in range(n):
         pressure[j] = math.sqrt(load[j] * relative[j] * (modulus / math.pi))
-    if law[1] == 0.0:
-        depth[:] = law[0]
-    else:
-        depth[:] = pressure
-        _raise_to(depth, law[1])
+    if exponent == 0.0:
         for j in range(n):
-            depth[j] *= law[0]
+            depth[j] = factor
+    elif exponent == 0.5:
+        for j in range(n):
+            depth[j] = math.sqrt(pressure[j]) * factor
+    elif exponent == 1.0:
+        for j in range(n):
+            depth[j] = pressure[j] * factor
+    else:
+        for j in range(n):
+            depth[j] = pressure[j] ** exponent * factor
     if law[2] != 0.0:
         for j in range(n):
             depth[j] *= load[j]
@@ -49,22 +41,26 @@ def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # t
         depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
 
 
-@kernel(int64(VECTOR, VECTOR))
-def conforming_points(load, relative):  # type: ignore[no-untyped-def]
-    """Count the loaded points whose flank conforms to the roller (or is not a number)."""
-    count = 0
+@kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64))
+def update_status(load, relative, step, spacing_squared, diffusion):  # type: ignore[no-untyped-def]
+    """Tell whether an update may be made: RUNNING, or what forbids it.
+
+    CONFORMING where Hertz fails at a loaded point (or its curvature is not a number) or
+    the load is not a pressing one,
+    VANISHED where nothing is worn off, UNSTABLE where a point recedes by more than
+    spacing^2 relative / (2 diffusion) at once.
+    """
+    conforming, worn, unstable = 0, 0, 0
     for j in range(load.size):
-        count += 1 if load[j] > 0.0 and not relative[j] > 0.0 else 0
-    return count
-
-
-@kernel(int64(VECTOR, VECTOR, VECTOR, float64))
-def unstable_points(depth, spacing_squared, relative, diffusion):  # type: ignore[no-untyped-def]
-    """Count the points that recede by more than spacing^2 relative / (2 diffusion) at once."""
-    count = 0
-    for j in range(depth.size):
-        count += 1 if 2.0 * diffusion * depth[j] > spacing_squared[j] * relative[j] else 0
-    return count
+        conforming += 1 if not load[j] >= 0.0 or (load[j] > 0.0 and not relative[j] > 0.0) else 0
+        worn += 1 if step[j] > 0.0 else 0
+        limit = spacing_squared[j] * relative[j]
+        unstable += 1 if diffusion > 0.0 and 2.0 * diffusion * step[j] > limit else 0
+    if conforming > 0:
+        return CONFORMING
+    if worn == 0:
+        return VANISHED
+    return UNSTABLE if unstable > 0 else RUNNING
 
 
 @kernel(
@@ -96,27 +92,19 @@ def run_cycles(  # type: ignore[no-untyped-def]
         contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
                 load, slip, speed, relative)  # fmt: skip
         wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
-        if conforming_points(load, relative) > 0:
-            return CONFORMING
-        worn = 0
         for j in range(n):
             step[j] *= cycles_per_update
-        for j in range(n):
-            worn += 1 if step[j] > 0.0 else 0
-        if worn == 0:
-            return VANISHED
-        if diffusion > 0.0 and unstable_points(step, spacing_squared, relative, diffusion) > 0:
-            return UNSTABLE
+        status = update_status(load, relative, step, spacing_squared, diffusion)
+        if status != RUNNING:
+            return status
         for j in range(n):
             x[j] -= step[j] * normal_x[j]
-        for j in range(n):
             y[j] -= step[j] * normal_y[j]
-        for j in range(n):
-            depth[j] += step[j]
-        done[0] = update + 1
         reached = 0
         for j in range(n):
+            depth[j] += step[j]
             reached += 1 if depth[j] >= critical_depth else 0
+        done[0] = update + 1
         if reached > 0:
             return DEPTH_REACHED
     return RUNNING

@@ -1,11 +1,15 @@
 """The answer on screen."""
 
+import re
+import shlex
 import textwrap
 
 from wearsim.result import Life, LowerBound, WearResult
 
 _WIDTH = 100
 _LABEL = 13
+
+_DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
 def grouped(value: float, digits: int = 4) -> str:
@@ -27,7 +31,7 @@ def grouped(value: float, digits: int = 4) -> str:
     --------
     >>> grouped(15149.24)
     '15 150'
-    >>> grouped(0.012345)
+    >>> grouped(0.012341)
     '0.01234'
     """
     rounded = float(f"{value:.{digits}g}")
@@ -73,9 +77,9 @@ def answer(result: WearResult, source: str) -> str:
         ("Life", _life(result)),
         ("With the wear coefficient at its low / high end:", _band(result)),
         ("Worn most", _worst(result)),
-        ("Assumes", "; ".join(f"{i} {text}" for i, text in enumerate(result.assumptions, start=1))),
+        ("Assumes", _assumptions(result)),
         ("Warnings", "; ".join(result.warnings) or "none"),
-        ("Next", f"wearsim compare {source} --out reports/{result.case}     (pictures)"),
+        ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
     return "\n".join([result.title, *(_row(label, text) for label, text in rows)])
 
@@ -96,7 +100,7 @@ def _life(result: WearResult) -> str:
     speed = f"{result.speed_rpm:g} rpm"
     if isinstance(result.life, Life):
         what = {
-            "critical_depth_mm": f"until {result.stop_value:.3f} mm is worn off",
+            "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
             "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
         }[result.stop]
         error = result.numerical_error
@@ -112,8 +116,25 @@ def _life(result: WearResult) -> str:
     )
 
 
+def _depth(value: float) -> str:
+    return f"{value:.3f}" if value >= 0.1 else f"{value:.3g}"
+
+
+def _compare(result: WearResult, source: str) -> str:
+    return shlex.join(["wearsim", "compare", source, "--out", f"reports/{result.case}"])
+
+
 def _band(result: WearResult) -> str:
     return f"{hours(result.life_high)} / {hours(result.life_low)}   ({result.band})"
+
+
+def _assumptions(result: WearResult) -> str:
+    """Number the assumptions; the defaults taken share the last number."""
+    defaults = [text for text in result.assumptions if _DEFAULT.match(text)]
+    shown = [text for text in result.assumptions if text not in defaults]
+    if defaults:
+        shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
+    return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
 
 
 def _worst(result: WearResult) -> str:

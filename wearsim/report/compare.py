@@ -7,7 +7,7 @@ import pandas as pd
 
 from wearsim.output import new_folder
 from wearsim.report.answer import hours
-from wearsim.report.figures import comparison_figures
+from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, LowerBound, WearResult
 
 
@@ -132,8 +132,7 @@ def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str
         comparison_table(results).to_csv(place / "summary.csv", index=False)
         (place / "summary.md").write_text(_page(results, text), encoding="utf-8")
         for name, figure in comparison_figures(results).items():
-            figure.savefig(place / f"{name}.png", dpi=150)
-            figure.savefig(place / f"{name}.svg", metadata={"Date": None})
+            save_figure(figure, place, name)
     return text
 
 

@@ -1,11 +1,16 @@
 """Figures of worn flanks; matplotlib without pyplot, so nothing is global."""
 
+import textwrap
+from pathlib import Path
+
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from wearsim.case.load import load_case
+from wearsim.case.model import StrandDrive
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.report.answer import grouped
 from wearsim.result import Life, WearResult
@@ -29,12 +34,28 @@ def comparison_figures(results: list[WearResult]) -> dict[str, Figure]:
     dict
         ``flanks``, ``along_flank`` and ``depth_over_hours``.
     """
+    return {
+        "flanks": flanks_figure(results),
+        "along_flank": along_flank_figure(results),
+        "depth_over_hours": depth_figure(results),
+    }
+
+
+def save_figure(figure: Figure, folder: Path, name: str) -> None:
+    """Write a figure as PNG and as SVG, the same bytes for the same figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    folder : pathlib.Path
+        Folder that exists.
+    name : str
+        File stem.
+    """
     with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
-        return {
-            "flanks": flanks_figure(results),
-            "along_flank": along_flank_figure(results),
-            "depth_over_hours": depth_figure(results),
-        }
+        figure.savefig(folder / f"{name}.png", dpi=150)
+        figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:
@@ -70,29 +91,52 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     y = new.y + enlarged * (last["y_mm"] - new.y)
     deepest = int(last["depth_mm"].argmax())
     radius = 1.0 / float(np.median(first["relative_curvature_per_mm"] - new.curvature))
-    centre = (
-        new.x[deepest] + radius * new.normal_x[deepest],
-        new.y[deepest] + radius * new.normal_y[deepest],
-    )
-    roller = Circle(centre, radius, fill=False, color="grey", linestyle="--", label="roller")
-    panel.add_patch(roller)
+    centre_x = new.x[deepest] + radius * new.normal_x[deepest]
+    centre_y = new.y[deepest] + radius * new.normal_y[deepest]
+    panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
+    panel.add_patch(Circle((centre_x, centre_y), radius, fill=False, color="grey", linestyle="--"))
+    panel.text(centre_x, centre_y, "roller", color="grey", ha="center", va="center", clip_on=True)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
-    panel.fill(*between, color="tab:red", alpha=0.25, linewidth=0)
-    panel.plot(new.x, new.y, color="black", linewidth=1.6, label="new flank")
-    panel.plot(x, y, color="tab:red", linewidth=1.6, label=f"worn, depth x {enlarged}")
+    panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
+    panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
+    panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {enlarged}")
     panel.annotate(
         f"{result.max_depth:.3g} mm",
-        (0.5 * (x[deepest] + new.x[deepest]), 0.5 * (y[deepest] + new.y[deepest])),
-        xytext=(centre[0] - 0.55 * radius, centre[1] - 0.5 * radius),
-        arrowprops={"arrowstyle": "-", "color": "tab:red", "linewidth": 0.8},
+        (x[deepest], y[deepest]),
+        xytext=(-12, 0),
+        textcoords="offset points",
+        ha="right",
+        va="center",
         color="tab:red",
+        arrowprops={"arrowstyle": "-", "color": "tab:red", "linewidth": 0.8},
     )
-    panel.margins(0.08)
+    reach = 1.6 * extent
+    panel.set_xlim(
+        new.x.min() - 0.8 * extent,
+        new.x.max() + min(reach, centre_x + radius + 0.15 * extent - new.x.max()),
+    )
+    panel.set_ylim(
+        min(new.y.min(), max(centre_y - radius, new.y.min() - reach)) - 0.2 * extent,
+        new.y.max() + min(reach, centre_y + radius + 0.08 * extent - new.y.max()),
+    )
     panel.set_aspect("equal", "box")
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
-    panel.set_title(f"{result.title}\nafter {_run_time(result)}", fontsize=9)
-    panel.legend(loc="center", bbox_to_anchor=centre, bbox_transform=panel.transData, fontsize=8)
+    title = textwrap.fill(result.title, 42)
+    panel.set_title(f"{title}\nafter {_run_time(result)}", fontsize=9)
+    panel.legend(loc="lower right", frameon=False, fontsize=8)
+
+
+def _outline(result: WearResult) -> tuple[Vector, Vector]:
+    """Points of the new wheel; none where the result knows a flank only."""
+    sprocket = result.inputs.get("sprocket", {})
+    strand = result.inputs["mechanism"]["kind"] == "strand"
+    if not strand or sprocket["profile"] != "evolute":
+        return np.empty(0), np.empty(0)
+    drive = load_case(result.inputs).drive
+    assert isinstance(drive, StrandDrive)
+    points = np.array(drive.tooth.wheel().exterior.coords)
+    return points[:, 0], points[:, 1]
 
 
 def _run_time(result: WearResult) -> str:
@@ -134,7 +178,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
 
 
 def depth_figure(results: list[WearResult]) -> Figure:
-    """Return the greatest depth against running time,.
+    """Return the greatest depth against running time.
 
     Parameters
     ----------

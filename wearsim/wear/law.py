@@ -28,8 +28,10 @@ def mean_pressure_factor(exponent: float) -> float:
 
     Examples
     --------
-    >>> mean_pressure_factor(2.0)  # integral of 1 - u^2 over 0..1
-    0.6666666666666666
+    The integral of 1 - u^2 over 0..1 is 2/3:
+
+    >>> round(mean_pressure_factor(2.0), 12)
+    0.666666666667
     """
     return (
         0.5 * math.sqrt(math.pi) * math.gamma(1.0 + exponent / 2) / math.gamma(1.5 + exponent / 2)

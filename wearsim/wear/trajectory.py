@@ -52,9 +52,18 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
     Raises
     ------
     ContactError
-        The flank conforms to the roller at a loaded point, or no point is loaded.
+        The flank conforms to the roller at a loaded point or turns away from it, or no
+        point is loaded.
     """
     touch = contact.engage(x, y, depth)
+    pulling = ~(touch.load_per_width >= 0.0)
+    if pulling.any():
+        point = int(pulling.argmax())
+        raise ContactError(
+            f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the flank "
+            "must press on the roller (pressure angle below 90 degrees), but is worn so far that it "
+            "would pull there: move contact_end_mm away from the pole line, or stop at a smaller depth"
+        )
     loaded = touch.load_per_width > 0.0
     if not loaded.any():
         raise ContactError(

@@ -59,11 +59,9 @@ class WearTable(Table):
                 if key not in given
             ]
         elif self.law != "archard" or given:
-            found.append(
-                (
-                    "condition",
-                    "a condition gives the specific wear rate of law = 'archard': remove it or the "
-                    "coefficient",
-                )
+            other = f"or {', '.join(given)}" if given else f"or law = {self.law!r}"
+            message = (
+                f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
             )
+            found.append(("condition", message))
         return found

@@ -1,0 +1,50 @@
+"""A crawler's flank near the limits of its tooth: no bump for a seat, no load that pulls."""
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.errors import WearsimError
+from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.tooth import RELIEF_PER_PITCH, Tooth
+
+PITCH, RADIUS, TEETH = 203.2, 33.0, 27
+CENTRODE = PITCH * TEETH / (4.0 * np.pi)
+CRAWLER = {
+    "format_version": 1,
+    "chain": {"pitch_mm": PITCH, "roller_diameter_mm": 66.0, "inner_width_mm": 90.0},
+    "sprocket": {
+        "teeth": TEETH,
+        "engaged_every": 2,
+        "profile": "evolute",
+        "face_width_mm": 75.0,
+        "contact_end_mm": 2.0,
+        "contact_start_mm": 209.0,
+        "evolute_offset_mm": 41.7,
+    },
+    "load": {"tension_N": 90000, "speed_rpm": 17.5},
+    "wear": {"condition": "soil-contaminated"},
+    "stop": {"critical_depth_mm": 3.0},
+}
+
+
+@pytest.mark.parametrize(
+    ("end", "start", "offset"), [(6.0, 211.3, 42.6), (7.0, 211.5, 42.6), (8.0, 212.2, 42.9)]
+)
+def test_the_seat_stays_in_its_gap(end, start, offset):
+    """The seat joins the roots of two flanks of one gap, so it stays a roller's breadth around."""
+    strand = Strand(CENTRODE, RADIUS, offset)
+    flank = evolute_flank(strand, end, start, 201).profile
+    seat = Tooth(strand, flank, TEETH, RELIEF_PER_PITCH * PITCH).seat
+    height = CENTRODE - offset - RADIUS
+    assert np.all(np.hypot(seat[:, 0], seat[:, 1] - height) < RADIUS)
+
+
+def test_a_roller_pushes_at_every_point_or_the_run_says_where_it_does_not():
+    """Load per width is a push: a root that turns past the strand must not give a result."""
+    try:
+        run = wearsim.simulate(wearsim.load_case(CRAWLER))
+    except WearsimError:
+        return
+    assert run.flank_columns["load_per_width_N_per_mm"].min() >= 0.0
+    assert np.all(np.isfinite(run.flank_columns["pressure_MPa"]))

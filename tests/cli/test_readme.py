@@ -1,0 +1,233 @@
+"""README.md and docs/ are true: every expected value is what the document itself states."""
+
+import csv
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel
+
+import wearsim
+from wearsim.case.schema import CaseTables
+from wearsim.catalogue.tables import rows
+from wearsim.report.answer import grouped
+from wearsim.report.compare import comparison_table
+from wearsim.report.profile import profile_table
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+INPUT = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
+OUTPUT = (ROOT / "docs" / "output.md").read_text(encoding="utf-8")
+WEARSIM = str(Path(sys.executable).parent / "wearsim")
+SET_UP = "python3 -m venv .venv && "
+CASE = "cases/16b-20t-oiled.toml"
+
+
+def blocks(text, language):
+    return re.findall(rf"^```{language}\n(.*?)^```", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def lines_of_shell(text):
+    return [line for block in blocks(text, "sh") for line in block.splitlines()]
+
+
+def commands():
+    return [line for line in lines_of_shell(README) if line.startswith(".venv/bin/wearsim ")]
+
+
+def run(line, folder):
+    _, *arguments = shlex.split(line, comments=True)
+    return subprocess.run(
+        [WEARSIM, *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+    )
+
+
+def documented(text, heading):
+    """First column of the first table under a heading, without its backticks."""
+    section = text.split(f"\n## {heading}\n", 1)[1].split("\n## ", 1)[0]
+    table = re.search(r"^\|.*\n\|[-|: ]+\n((?:\|.*\n?)+)", section, flags=re.MULTILINE)[1]
+    return [row.split("|")[1].strip().strip("`") for row in table.splitlines()]
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    """A copy of what the commands of README.md read, after all of them have run in turn."""
+    folder = tmp_path_factory.mktemp("checkout")
+    shutil.copytree(ROOT / "cases", folder / "cases")
+    return folder, {line: run(line, folder) for line in commands()}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return wearsim.simulate(wearsim.load_case(ROOT / CASE))
+
+
+def test_exactly_two_set_up_lines_as_ci_reads_them():
+    lines = [line for line in README.splitlines() if line.startswith(SET_UP)]
+    assert len(lines) == 2
+    assert lines[0].endswith(f".venv/bin/wearsim life {CASE}")
+    assert lines[1].endswith(".venv/bin/python -m pytest")
+
+
+def test_answer_is_what_the_first_set_up_line_prints():
+    line = next(line for line in README.splitlines() if line.startswith(SET_UP))
+    done = run(line.rsplit(" && ", 1)[1], ROOT)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout in blocks(README, "text")
+
+
+def test_every_command_runs(checkout):
+    assert len(commands()) >= 4
+    failed = {line: done.stderr for line, done in checkout[1].items() if done.returncode != 0}
+    assert not failed
+
+
+def test_history_is_that_of_a_fresh_run(checkout):
+    (shown,) = (block for block in blocks(README, "text") if block.startswith("cycles,"))
+    fresh = (checkout[0] / "out" / "16b" / "history.csv").read_text(encoding="utf-8")
+    shown_rows, fresh_rows = list(csv.reader(shown.splitlines())), list(csv.reader(fresh.split()))
+    assert len(shown_rows) == 5
+    assert shown_rows[0] == fresh_rows[0]
+    for shown_row, fresh_row in zip(shown_rows[1:], fresh_rows[1:5], strict=True):
+        expected = [float(value) for value in shown_row]
+        assert [float(value) for value in fresh_row] == pytest.approx(expected, rel=1e-6)
+
+
+def test_plot_is_three_lines_and_runs(checkout):
+    (code,) = blocks(README, "python")
+    assert len(code.splitlines()) == 3
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=checkout[0],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "MPLBACKEND": "Agg"},
+    )
+    assert done.returncode == 0, done.stderr
+    assert (checkout[0] / "depth.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_picture_is_of_the_life_in_the_answer(result):
+    picture = (ROOT / "docs" / "worn_flank.svg").read_text(encoding="utf-8")
+    assert f"after {grouped(result.life.hours)} h" in picture
+    assert f"{grouped(result.life.hours)} h" in README
+
+
+DOCUMENTS = (
+    "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "docs/input.md",
+    "docs/output.md",
+    "docs/physics.md",
+)
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_links_lead_somewhere(document):
+    path = ROOT / document
+    text = path.read_text(encoding="utf-8")
+    targets = [t for t in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in t]
+    for target in targets:
+        name, _, anchor = target.partition("#")
+        place = path.parent / name if name else path
+        assert place.exists(), f"{document}: {target}"
+        if anchor:
+            headings = re.findall(r"^#+ (.+)$", place.read_text(encoding="utf-8"), re.MULTILINE)
+            slugs = [re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in headings]
+            assert anchor in slugs, f"{document}: {target}"
+
+
+def schema_keys(model, prefix=""):
+    for name, field in model.model_fields.items():
+        inner = (field.annotation, *getattr(field.annotation, "__args__", ()))
+        table = next((t for t in inner if isinstance(t, type) and issubclass(t, BaseModel)), None)
+        if table is None:
+            yield prefix + name
+        else:
+            yield from schema_keys(table, f"{prefix}{name}.")
+
+
+def test_input_md_has_every_key_of_the_schema_and_no_other():
+    tables = [name for name in CaseTables.model_fields if f"\n## [{name}]\n" in INPUT]
+    found = documented(INPUT, "Top of the file")
+    # The first table of [wear] is of laws; its keys stand in the table that starts with law.
+    wear = INPUT.split("\n## [wear]\n", 1)[1]
+    laws = documented(INPUT, "[wear]")
+    assert laws == ["archard", "power", "drozdov"]
+    wear = "\n## [wear]\n" + wear[wear.index("| key |") :]
+    for table in tables:
+        keys = documented(wear if table == "wear" else INPUT, f"[{table}]")
+        found += [f"{table}.{key}" for key in keys]
+    assert sorted(found) == sorted(schema_keys(CaseTables))
+
+
+def test_input_md_has_the_wear_conditions_as_they_are():
+    for row in rows("wear_conditions"):
+        assert "| " + " | ".join(row.values()) + " |" in INPUT
+
+
+@pytest.mark.parametrize("block", [b for b in blocks(INPUT, "toml") if "format_version" in b])
+def test_whole_cases_of_input_md_are_complete(block):
+    assert wearsim.load_case(tomllib.loads(block)).cycles_per_hour > 0.0
+
+
+@pytest.mark.parametrize("block", [b for b in blocks(INPUT, "toml") if "format_version" not in b])
+def test_pieces_of_input_md_hold_keys_that_exist(block):
+    keys = set(schema_keys(CaseTables))
+
+    def dotted(table, prefix=""):
+        for name, value in table.items():
+            if isinstance(value, dict):
+                yield from dotted(value, f"{prefix}{name}.")
+            else:
+                yield prefix + name
+
+    assert set(dotted(tomllib.loads(block))) <= keys
+
+
+def test_output_md_has_every_key_and_column(result):
+    assert documented(OUTPUT, "life --json") == list(result.summary())
+    assert documented(OUTPUT, "history.csv") == list(result.history)
+    assert documented(OUTPUT, "flank.csv") == list(result.flank)
+    assert documented(OUTPUT, "profile") == list(profile_table(wearsim.load_case(ROOT / CASE)))
+    assert documented(OUTPUT, "summary.csv") == list(comparison_table([result]))
+
+
+def test_output_md_has_every_file(checkout):
+    run_files = {path.name for path in (checkout[0] / "out" / "16b").iterdir()}
+    assert set(documented(OUTPUT, "Files of life --out DIR")) == run_files
+    compared = {path.name for path in (checkout[0] / "reports" / "first").iterdir()}
+    named = set(documented(OUTPUT, "compare"))
+    pictures = {name.replace(".svg", ".png") for name in named if name.endswith(".svg")}
+    assert named | pictures == compared
+
+
+def test_failed_case_of_output_md(tmp_path):
+    (tmp_path / "bad.toml").write_text("format_version = 1\n", encoding="utf-8")
+    done = run("wearsim life bad.toml --json", tmp_path)
+    assert done.returncode == 2
+    failed = json.loads(done.stdout.splitlines()[0])
+    assert set(failed) == {"schema_version", "case", "error"}
+    assert set(failed["error"]) == {"kind", "message", "file", "line", "key"}
+    for name in (*failed, *failed["error"]):
+        assert f"`{name}`" in OUTPUT
+
+
+def test_exit_codes_of_output_md_are_those_of_the_help():
+    help_text = run("wearsim --help", ROOT).stdout
+    listed = re.search(r"Exit codes:(.*?)\.\n", help_text, flags=re.DOTALL)[1]
+    codes = re.findall(r"(?:^|,|\s)(\d+) [a-z-]", listed)
+    assert documented(OUTPUT, "Exit codes") == codes

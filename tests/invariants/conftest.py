@@ -1,0 +1,87 @@
+"""Every mechanism under one signature, so that no test knows which one it looks at."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from wearsim.contact.engagement import Kind, Mechanism
+from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.points import flank_from_points
+from wearsim.geometry.profile import Profile
+from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.strand import StrandMechanism
+
+MODULUS = 2.1e5 / (2.0 * 0.91)
+"""Contact modulus of steel on steel [MPa]."""
+
+Build = Callable[..., Mechanism]
+"""Of nodes, and of factors on all lengths, on the load and on the sliding."""
+
+
+def on_strand(
+    profile: Profile, strand: Strand, length: float, load: float, slip: float
+) -> Mechanism:
+    return StrandMechanism(
+        strand=Strand(
+            length * strand.centrode_radius, length * strand.roller_radius, length * strand.offset
+        ),
+        profile=Profile(length * profile.x, length * profile.y),
+        contact_end=length * 4.0,
+        contact_start=length * 30.67,
+        pitch=length * 25.4,
+        pull_per_width=load * 5000.0 / 17.0 / length,
+        angular_speed=10.0,
+        slip_fraction=slip,
+        modulus=MODULUS / length**2,
+    )
+
+
+def evolute(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    strand = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
+    flank = evolute_flank(strand, 4.0, 30.67, nodes)
+    return on_strand(flank.profile, strand, length, load, slip)
+
+
+def points(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    strand = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
+    exact = strand.conjugate_points(np.linspace(4.0, 30.67, 200))
+    noise = 1e-4 * np.random.default_rng(3).standard_normal((200, 2))
+    flank = flank_from_points(*(exact + noise).T, 1e-4, nodes)
+    return on_strand(flank, strand, length, load, slip)
+
+
+def prescribed(
+    kind: Kind, nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+) -> Mechanism:
+    u = np.linspace(0.0, 1.0, nodes)
+    path = length if kind is Kind.LOCAL else 1.0
+    return PrescribedMechanism(
+        kind=kind,
+        arc_length=length * 10.0 * u,
+        load_per_width=load / length * 100.0 * (0.4 + 0.6 * np.sin(np.pi * u)),
+        slip=slip * path * (0.2 + 0.3 * u),
+        sliding_speed=slip * length * 100.0 * (1.0 + u),
+        flank_curvature=(-0.05 + 0.02 * u) / length,
+        roller_radius=length * 6.0,
+        modulus=MODULUS / length**2,
+    )
+
+
+def slip_ratio(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    return prescribed(Kind.TRAVELLING, nodes, length, load, slip)
+
+
+def sliding_distance(
+    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+) -> Mechanism:
+    return prescribed(Kind.LOCAL, nodes, length, load, slip)
+
+
+MECHANISMS = (evolute, points, slip_ratio, sliding_distance)
+
+
+@pytest.fixture(params=MECHANISMS, ids=lambda build: build.__name__)
+def build(request: pytest.FixtureRequest) -> Build:
+    """Return the function that builds one of the mechanisms."""
+    return request.param

@@ -1,0 +1,43 @@
+"""Peak memory of a life does not depend on its number of cycles.
+
+Expected: the same peak within 10 %, measured by tracemalloc, for a life ten times as long.
+"""
+
+import tracemalloc
+from collections.abc import Callable
+
+import pytest
+
+from wearsim.contact.engagement import Mechanism
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import depth_criterion
+from wearsim.wear.law import archard
+from wearsim.wear.per_cycle import run_per_cycle
+
+
+def peak(wear: Callable[[], object]) -> int:
+    tracemalloc.start()
+    try:
+        wear()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("method", ["advance", "per_cycle"])
+def test_ten_times_the_cycles(build: Callable[..., Mechanism], method: str) -> None:
+    contact, criteria = build(101).contact, (depth_criterion(0.05),)
+
+    def wear(rate: float) -> float:
+        if method == "advance":
+            worn, _ = run_advance(contact, archard(rate), criteria, 1e9, 1e-3)
+        else:
+            worn = run_per_cycle(contact, archard(rate), criteria, 1e9, 1)
+        cycles.append(float(worn.cycles[-1]))
+        return cycles[-1]
+
+    cycles: list[float] = []
+    wear(1e-7)
+    few, many = peak(lambda: wear(1e-7)), peak(lambda: wear(1e-8))
+    assert cycles[-1] == pytest.approx(10.0 * cycles[0], rel=0.01)
+    assert many < 1.1 * few

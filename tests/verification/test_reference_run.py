@@ -1,0 +1,100 @@
+"""The reference run of a 20-tooth evolute sprocket on 16B chain.
+
+Expected lives and pressure: two independent programs, cycle by cycle. Chain pitch 25.4,
+roller 15.88; offset 5.5, x 4.0..30.67, width 17 mm, pull 5000 N, steel on steel, depth 0.2 mm.
+"""
+
+import re
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import shapely
+
+import wearsim
+from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import depth_criterion
+from wearsim.wear.law import power
+
+CaseMaker = Callable[..., wearsim.Case]
+
+LIVES = {1: 8.1389e4, 1.5: 9.905e4, 2: 1.07527e5}
+PER_CYCLE = "run.method=per_cycle"
+
+
+def last_flank(result: wearsim.WearResult) -> shapely.LineString:
+    columns = result.flank_columns
+    nodes = int(columns["node"].max())
+    return shapely.LineString(np.column_stack([columns["x_mm"], columns["y_mm"]])[-nodes:])
+
+
+@pytest.mark.parametrize("method", ["advance", "per_cycle"])
+@pytest.mark.parametrize("nodes", [101, 201, 401])
+@pytest.mark.parametrize("exponent", LIVES)
+def test_life_and_pressure(reference: CaseMaker, exponent: float, nodes: int, method: str) -> None:
+    result = wearsim.simulate(
+        reference(exponent, f"sprocket.nodes={nodes}", f"run.method={method}")
+    )
+    assert result.cycles == pytest.approx(LIVES[exponent], rel=5e-4)
+    assert result.life.hours == pytest.approx(result.cycles / (60 * 100), rel=1e-14)
+    assert result.initial_peak_pressure == pytest.approx(995.0, rel=5e-4)
+    assert result.stop == "critical_depth_mm"
+    assert result.max_depth == pytest.approx(0.2, rel=1e-9)
+
+
+def test_deepest_point_lies_near_x_24(reference: CaseMaker) -> None:
+    case = reference(1)
+    result = wearsim.simulate(case)
+    columns = result.flank_columns
+    node = int(columns["depth_mm"][-201:].argmax())
+    # Nodes lie at equal steps of the roller's way x from 4.0 to 30.67.
+    assert np.linspace(4.0, 30.67, 201)[node] == pytest.approx(24.0, abs=0.3)
+    assert columns["arc_length_mm"][node] == result.max_depth_arc_length
+
+
+def test_contact_ratio_falls_below_one_and_is_warned_of(reference: CaseMaker) -> None:
+    result = wearsim.simulate(reference(1))
+    ratio = result.history_columns["worn_contact_ratio"]
+    assert ratio[0] == pytest.approx((30.67 - 4.0) / 25.4, abs=2e-4)
+    assert ratio[-1] == pytest.approx(0.95, abs=5e-3)
+    assert sum("worn contact ratio falls below 1" in text for text in result.warnings) == 1
+
+
+@pytest.mark.parametrize("depth", [0.2, 0.75])
+@pytest.mark.parametrize("exponent", LIVES)
+def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float) -> None:
+    """The same life within the tolerance and the same worn flank within 1e-5 of the depth."""
+    stop = f"stop.critical_depth_mm={depth}"
+    advance = wearsim.simulate(reference(exponent, stop))
+    per_cycle = wearsim.simulate(reference(exponent, stop, PER_CYCLE))
+    assert advance.cycles == pytest.approx(per_cycle.cycles, rel=1e-4)
+    assert last_flank(advance).hausdorff_distance(last_flank(per_cycle)) < 1e-5 * depth
+
+
+@pytest.mark.parametrize("exponent", LIVES)
+@pytest.mark.parametrize("coarse", [20, 200, 2000])
+def test_coarse_updates_are_refused_and_the_proposal_runs(
+    reference: CaseMaker, exponent: float, coarse: int
+) -> None:
+    nodes = "sprocket.nodes=401"
+    with pytest.raises(wearsim.ConvergenceError) as refusal:
+        wearsim.simulate(reference(exponent, nodes, PER_CYCLE, f"run.cycles_per_update={coarse}"))
+    proposal = re.search(r"cycles_per_update = (\d+)", str(refusal.value))
+    assert proposal is not None
+    assert 1 < int(proposal[1]) < coarse
+    result = wearsim.simulate(
+        reference(exponent, nodes, PER_CYCLE, f"run.cycles_per_update={proposal[1]}")
+    )
+    assert result.cycles == pytest.approx(LIVES[exponent], rel=5e-4)
+
+
+@pytest.mark.parametrize(("exponent", "life"), [(1, 7.9469e4), (2, 1.0408e5)])
+def test_infeasible_offset_4_is_still_a_valid_number(
+    reference_mechanism: Callable[..., StrandMechanism], exponent: float, life: float
+) -> None:
+    """At h = 4.0 the leaving roller cuts the flank, so only the engine can be asked."""
+    mechanism = reference_mechanism(nodes=401, offset=4.0)
+    law = power({1: 1e-8, 2: 1e-11}[exponent], exponent)
+    run, _ = run_advance(mechanism.contact, law, (depth_criterion(0.2),), 1e9, 1e-4)
+    assert run.cycles[-1] == pytest.approx(life, rel=5e-4)
