@@ -108,8 +108,7 @@ def test_b8ii_worn_area_is_k_q_s(prescribed: CaseMaker, curvature: object) -> No
     assert area == pytest.approx(1e-9 * 100.0 * sliding, rel=1e-9)
 
 
-@pytest.mark.parametrize("factor", [3.0, 0.01])
-@pytest.mark.parametrize("exponent", [1, 1.5, 2])
+@pytest.mark.parametrize(("exponent", "factor"), [(1, 3.0), (1.5, 0.01), (2, 7.0)])
 def test_b8iii_life_times_coefficient_is_constant(
     reference: CaseMaker, exponent: float, factor: float
 ) -> None:
@@ -119,7 +118,7 @@ def test_b8iii_life_times_coefficient_is_constant(
     scaled = wearsim.simulate(
         reference(exponent, f"{key[exponent]}={rate * factor!r}", "run.horizon_hours=1e6")
     ).cycles
-    assert scaled * factor == pytest.approx(life, rel=1e-9)
+    assert scaled * factor == pytest.approx(life, rel=1e-12)
 
 
 def test_b8iii_per_cycle(reference: CaseMaker) -> None:

@@ -85,7 +85,7 @@ def test_contact_ratio_proposes_a_start(ratio: float) -> None:
 
 def test_contact_end_before_the_pole_line_proposes_a_value() -> None:
     strand = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
-    (message,) = evolute_limits(strand, -1.0, 26.0, 25.4)
+    ((_, message),) = evolute_limits(strand, -1.0, 26.0, 25.4)
     assert message.startswith("contact_end must be above 0")
     proposed = float(message.rsplit(": ", 1)[1].split()[0])
     assert evolute_limits(strand, proposed, proposed + 1.05 * 25.4, 25.4) == []

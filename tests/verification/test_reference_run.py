@@ -58,11 +58,12 @@ def test_contact_ratio_falls_below_one_and_is_warned_of(reference: CaseMaker) ->
     ratio = result.history_columns["worn_contact_ratio"]
     assert ratio[0] == pytest.approx((30.67 - 4.0) / 25.4, abs=2e-4)
     assert ratio[-1] == pytest.approx(0.95, abs=5e-3)
-    assert sum("worn contact ratio falls below 1" in text for text in result.warnings) == 1
+    assert (
+        sum(bool(re.search("worn contact ratio .* below 1", text)) for text in result.warnings) == 1
+    )
 
 
-@pytest.mark.parametrize("depth", [0.2, 0.75])
-@pytest.mark.parametrize("exponent", LIVES)
+@pytest.mark.parametrize(("exponent", "depth"), [(1, 0.2), (1.5, 0.2), (1, 0.75), (2, 0.75)])
 def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float) -> None:
     """The same life within the tolerance and the same worn flank within 1e-5 of the depth."""
     stop = f"stop.critical_depth_mm={depth}"
@@ -72,8 +73,7 @@ def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float)
     assert last_flank(advance).hausdorff_distance(last_flank(per_cycle)) < 1e-5 * depth
 
 
-@pytest.mark.parametrize("exponent", LIVES)
-@pytest.mark.parametrize("coarse", [20, 200, 2000])
+@pytest.mark.parametrize(("exponent", "coarse"), [(1, 20), (1, 2000), (1.5, 200), (2, 500)])
 def test_coarse_updates_are_refused_and_the_proposal_runs(
     reference: CaseMaker, exponent: float, coarse: int
 ) -> None:

@@ -6,6 +6,7 @@ the wear over the current arc, both worked out here from the saved file alone.
 
 import csv
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,64 +23,72 @@ def read(path: Path) -> dict[str, np.ndarray]:
     return dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
 
 
+@dataclass(frozen=True)
+class Saved:
+    """Columns of history.csv, and those of flank.csv with a row for every snapshot."""
+
+    history: dict[str, np.ndarray]
+    flanks: dict[str, np.ndarray]
+
+
 @pytest.fixture(scope="module", params=["advance", "per_cycle"])
 def saved(
     request: pytest.FixtureRequest, reference: CaseMaker, tmp_path_factory: pytest.TempPathFactory
-) -> Path:
+) -> Saved:
     folder = tmp_path_factory.mktemp("removed_area") / "run"
     wearsim.simulate(reference(1, f"run.method={request.param}")).save(folder)
-    return folder
+    flank = read(folder / "flank.csv")
+    nodes = int(flank["node"].max())
+    return Saved(
+        read(folder / "history.csv"),
+        {name: values.reshape(-1, nodes) for name, values in flank.items()},
+    )
 
 
-def flanks(folder: Path, column: str) -> np.ndarray:
-    table = read(folder / "flank.csv")
-    return table[column].reshape(-1, int(table["node"].max()))
-
-
-def test_removed_area_is_the_shoelace_area(saved: Path) -> None:
-    x, y = flanks(saved, "x_mm"), flanks(saved, "y_mm")
+def test_removed_area_is_the_shoelace_area(saved: Saved) -> None:
+    x, y = saved.flanks["x_mm"], saved.flanks["y_mm"]
     area = []
     for end_x, end_y in zip(x, y, strict=True):
         u, v = np.append(x[0], end_x[::-1]), np.append(y[0], end_y[::-1])
         area.append(0.5 * (np.sum(u * np.roll(v, -1)) - np.sum(v * np.roll(u, -1))))
-    removed = read(saved / "history.csv")["removed_area_mm2"]
+    removed = saved.history["removed_area_mm2"]
     np.testing.assert_allclose(removed, area, rtol=0.0, atol=1e-9 * removed[-1])
     assert (np.diff(removed) > 0.0).all()
 
 
-def test_removed_area_is_the_integral_of_wear_over_the_current_arc(saved: Path) -> None:
+def test_removed_area_is_the_integral_of_wear_over_the_current_arc(saved: Saved) -> None:
     """Within 1e-4 over the current arc; over the initial arc it is about half a per cent low."""
-    x, y, depth = (flanks(saved, name) for name in ("x_mm", "y_mm", "depth_mm"))
+    x, y, depth = (saved.flanks[name] for name in ("x_mm", "y_mm", "depth_mm"))
     chord = np.hypot(np.diff(x, axis=1), np.diff(y, axis=1))
     cell = np.zeros_like(x)
     cell[:, 1:] += 0.5 * chord
     cell[:, :-1] += 0.5 * chord
     step = np.diff(depth, axis=0)
-    removed = read(saved / "history.csv")["removed_area_mm2"][-1]
+    removed = saved.history["removed_area_mm2"][-1]
     assert np.sum(step * 0.5 * (cell[1:] + cell[:-1])) == pytest.approx(removed, rel=1e-4)
     assert np.sum(step * cell[0]) / removed - 1.0 == pytest.approx(-0.005, abs=0.003)
 
 
-def test_no_point_gains_material(saved: Path) -> None:
-    assert (np.diff(flanks(saved, "depth_mm"), axis=0) >= 0.0).all()
+def test_no_point_gains_material(saved: Saved) -> None:
+    assert (np.diff(saved.flanks["depth_mm"], axis=0) >= 0.0).all()
 
 
-def test_history_agrees_with_the_flanks(saved: Path) -> None:
-    history = read(saved / "history.csv")
+def test_history_agrees_with_the_flanks(saved: Saved) -> None:
+    history = saved.history
     for name, column in (
         ("max_depth_mm", "depth_mm"),
         ("peak_pressure_MPa", "pressure_MPa"),
         ("max_sliding_speed_mm_per_s", "sliding_speed_mm_per_s"),
     ):
-        np.testing.assert_array_equal(history[name], flanks(saved, column).max(axis=1))
+        np.testing.assert_array_equal(history[name], saved.flanks[column].max(axis=1))
     np.testing.assert_allclose(history["time_hours"], history["cycles"] / 6000.0, rtol=1e-14)
     assert history["cycles"][0] == 0.0
     assert 100 <= history["cycles"].size <= 200
 
 
-def test_pressure_of_the_file_is_hertz_of_its_load_and_curvature(saved: Path) -> None:
+def test_pressure_of_the_file_is_hertz_of_its_load_and_curvature(saved: Saved) -> None:
     load, relative, pressure = (
-        flanks(saved, name)
+        saved.flanks[name]
         for name in ("load_per_width_N_per_mm", "relative_curvature_per_mm", "pressure_MPa")
     )
     modulus = 2.1e5 / (2.0 * 0.91)

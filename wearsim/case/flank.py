@@ -7,18 +7,17 @@ from wearsim.catalogue.tables import Chain
 from wearsim.errors import GeometryError
 from wearsim.geometry.evolute import Strand, contact_ratio, evolute_flank
 from wearsim.geometry.feasibility import (
-    enough_teeth,
+    OFFSET_RESERVE,
     evolute_limits,
+    remedy,
     smallest_offset,
     tooth_limits,
 )
 from wearsim.geometry.points import contact_range, flank_from_points, working_side
-from wearsim.geometry.profile import Profile
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05
-OFFSET_RESERVE = 1.05
 POINTS_NOISE = 1e-4
 """Error of a flank's points assumed where none is given [mm]."""
 
@@ -56,62 +55,55 @@ def evolute_tooth(
         case.take("sprocket.contact_start_mm", start, "contact ratio 1.05")
     radius = 0.5 * chain.roller_diameter
     if offset is None:
-        if not 1.0 < contact_ratio(end, start, chain.pitch) < 2.0:
-            offset = 0.1 * centrode
-        else:
-            try:
-                needed = smallest_offset(centrode, radius, end, start)
-            except GeometryError as error:
-                case.faults.add("sprocket.evolute_offset_mm", str(error))
-                return None
-            offset = float(f"{OFFSET_RESERVE * needed:.4g}")
-            case.take(
-                "sprocket.evolute_offset_mm", offset, "1.05 of the smallest that the roller clears"
-            )
+        offset = _default_offset(case, table, chain, centrode, (end, start))
+        if offset is None:
+            return None
     strand = Strand(centrode, radius, offset)
     limits = evolute_limits(strand, end, start, chain.pitch)
+    for name, message in limits:
+        help_out = offset >= centrode and name == "evolute_offset"
+        advice = _remedy(table, chain, (end, start)) if help_out else ""
+        case.faults.add(f"sprocket.{name}_mm", f"{message}{advice}")
     if limits:
-        for message in limits:
-            case.faults.add(f"sprocket.{_key_of(message)}", message)
         return None
     flank = evolute_flank(strand, end, start, table.nodes).profile
-    tooth = _checked_tooth(case, table, chain, strand, flank, (end, start))
-    return (tooth, end, start) if tooth else None
+    tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
+    try:
+        thin = tooth_limits(tooth, chain.pitch)
+    except GeometryError as error:
+        thin = [str(error)]
+    for message in thin:
+        case.faults.add("sprocket.teeth", f"{message}{_remedy(table, chain, (end, start))}")
+    return None if thin else (tooth, end, start)
 
 
-def _key_of(message: str) -> str:
-    """Key of the input that a geometric limit is about."""
-    first = message.split(" ", 1)[0]
-    return {"contact_end": "contact_end_mm", "contact": "contact_start_mm"}.get(
-        first, "evolute_offset_mm"
-    )
-
-
-def _checked_tooth(
+def _default_offset(
     case: Resolution,
     table: SprocketTable,
     chain: Chain,
-    strand: Strand,
-    flank: Profile,
+    centrode: float,
     contact: tuple[float, float],
-) -> Tooth | None:
-    relief = 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
-    tooth = Tooth(strand, flank, table.teeth, relief)
+) -> float | None:
+    if not 1.0 < contact_ratio(*contact, chain.pitch) < 2.0:
+        # The range is at fault and will be named; any offset serves until then.
+        return 0.1 * centrode
     try:
-        limits = tooth_limits(tooth, chain.pitch)
+        smallest = smallest_offset(centrode, 0.5 * chain.roller_diameter, *contact)
     except GeometryError as error:
-        limits = [str(error)]
-    if not limits:
-        return tooth
-    teeth = enough_teeth(chain.pitch, strand.roller_radius, table.engaged_every, *contact)
-    remedy = (
-        f"; teeth = {teeth} will do with the default offset, or try a shorter contact range"
-        if teeth is not None and teeth > table.teeth
-        else ""
-    )
-    for message in limits:
-        case.faults.add("sprocket.teeth", f"{message}{remedy}")
-    return None
+        case.faults.add("sprocket.teeth", f"{error}{_remedy(table, chain, contact)}")
+        return None
+    offset = float(f"{OFFSET_RESERVE * smallest:.4g}")
+    case.take("sprocket.evolute_offset_mm", offset, "1.05 of the smallest that the roller clears")
+    return offset
+
+
+def _remedy(table: SprocketTable, chain: Chain, contact: tuple[float, float]) -> str:
+    radius = 0.5 * chain.roller_diameter
+    return remedy(chain.pitch, radius, table.teeth, table.engaged_every, *contact)
+
+
+def _relief(table: SprocketTable, chain: Chain) -> float:
+    return 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
 
 
 def points_tooth(
@@ -177,8 +169,7 @@ def points_tooth(
         "the flank is a quintic smoothing spline through the points, their error taken as "
         f"{noise:g} mm; no check that the flank is conjugate to the roller"
     )
-    relief = 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
-    tooth = Tooth(strand, flank, table.teeth, relief)
+    tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
     _doubt_points(case, tooth, noise)
     return tooth, end, start
 

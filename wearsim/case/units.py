@@ -83,7 +83,8 @@ def _converted(number: float, given: str, unit: str) -> float:
     # pint takes 1/min and hertz for rad/min and rad/s.
     if unit == "rpm" and not any(angle in str(units) for angle in _ANGLES):
         raise ValueError(f"write a speed in rpm or rad/s, {given!r} may mean either")
-    return converted
+    # Fifteen digits, so that "0.0254 m" and 25.4 are the same number.
+    return float(f"{converted:.15g}")
 
 
 def _number(value: object, info: ValidationInfo) -> float:

@@ -6,8 +6,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.cli.standard import load_cases, overrides, standard, warn
-from wearsim.errors import OutputError
+from wearsim.cli.standard import (
+    SOME_FAILED,
+    error_json,
+    exit_code,
+    load_cases,
+    overrides,
+    show_error,
+    standard,
+    warn,
+)
+from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:
     from wearsim.result import WearResult
@@ -24,7 +33,7 @@ if TYPE_CHECKING:
 @standard
 def compare(
     sources: tuple[Path, ...], out: Path, force: bool, as_json: bool, settings: tuple[str, ...]
-) -> None:
+) -> int:
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
@@ -33,10 +42,10 @@ def compare(
     from wearsim.output import check_free
 
     check_free(out, force)
-    results = _results(sources, settings)
+    found = _results(sources, settings, as_json)
     from wearsim.report.compare import distinct, save_comparison
 
-    results = distinct(results, [str(path) for path in sources])
+    results = distinct(list(found.values()), [str(path) for path in found])
     summary = save_comparison(results, out, force)
     if as_json:
         for result in results:
@@ -44,9 +53,13 @@ def compare(
     else:
         click.echo(summary)
     warn(f"written to {out}")
+    return SOME_FAILED if len(found) < len(set(sources)) else 0
 
 
-def _results(sources: tuple[Path, ...], settings: tuple[str, ...]) -> "list[WearResult]":
+def _results(
+    sources: tuple[Path, ...], settings: tuple[str, ...], as_json: bool
+) -> "dict[Path, WearResult]":
+    """Load the runs and run the cases; a failed case is shown and left out of the rest."""
     from wearsim.result import WearResult
     from wearsim.simulation import simulate
 
@@ -55,6 +68,19 @@ def _results(sources: tuple[Path, ...], settings: tuple[str, ...]) -> "list[Wear
             raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
     if settings and any(path.is_dir() for path in sources):
         raise click.UsageError("--set changes cases, it cannot change the folder of a run")
-    cases = iter(load_cases([path for path in sources if not path.is_dir()], settings, False))
-    runs = {path: WearResult.load(path) for path in sources if path.is_dir()}
-    return [runs[path] if path.is_dir() else simulate(next(cases)) for path in sources]
+    paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]
+    cases = dict(zip(paths, load_cases(paths, settings, as_json), strict=True))
+    runs = {path: WearResult.load(path) for path in dict.fromkeys(sources) if path.is_dir()}
+    found: dict[Path, WearResult] = {}
+    failures: list[WearsimError] = []
+    for path in dict.fromkeys(sources):
+        try:
+            found[path] = runs[path] if path in runs else simulate(cases[path])
+        except WearsimError as error:
+            failures.append(error)
+            if as_json:
+                click.echo(error_json(path.stem, error))
+            show_error(error, path)
+    if not found:
+        raise click.exceptions.Exit(max(exit_code(error) for error in failures))
+    return found

@@ -1,5 +1,6 @@
 """The command ``wearsim`` and what its exit codes mean."""
 
+import errno
 import os
 import sys
 import traceback
@@ -14,7 +15,7 @@ from wearsim.cli.life import life
 from wearsim.cli.list import list_table
 from wearsim.cli.profile import profile
 from wearsim.cli.schema import schema
-from wearsim.cli.standard import exit_code, show_error, standard
+from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.errors import WearsimError
 
 _EXAMPLES = """\b
@@ -69,9 +70,16 @@ def main() -> None:
         show_error(error)
         sys.exit(exit_code(error))
     except Exception as error:
-        click.echo(f"wearsim: this is a bug in wearsim: {type(error).__name__}: {error}", err=True)
-        if "--debug" in sys.argv:
-            traceback.print_exc()
-        else:
-            click.echo("run again with --debug to see where, and report it", err=True)
-        sys.exit(1)
+        sys.exit(_unexpected(error))
+
+
+def _unexpected(error: Exception) -> int:
+    if isinstance(error, OSError) and error.errno == errno.ENOSPC:
+        click.echo(f"output: must have room to be written: {error.strerror}", err=True)
+        return BAD_INPUT
+    click.echo(f"wearsim: this is a bug in wearsim: {type(error).__name__}: {error}", err=True)
+    if "--debug" in sys.argv:
+        traceback.print_exception(error)
+    else:
+        click.echo("run again with --debug to see where, and report it", err=True)
+    return 1

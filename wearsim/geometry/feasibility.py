@@ -11,6 +11,9 @@ from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth, cut_d
 THINNEST_PER_PITCH = 0.05
 """Least neck and tip land, as a fraction of the pitch; this project's choice."""
 
+OFFSET_RESERVE = 1.05
+"""Factor on the smallest evolute offset that the roller clears, for the default."""
+
 MOST_TEETH = 150
 
 
@@ -65,8 +68,7 @@ def smallest_offset(
     if _is_cut(high):
         raise GeometryError(
             f"exit clearance: no evolute offset up to {high:.4g} mm lets the roller leave a flank "
-            f"that reaches {contact_start:.4g} mm before the pole line: use more teeth or a smaller "
-            "contact_start_mm"
+            f"that reaches {contact_start:.4g} mm before the pole line"
         )
     while high - low > 1e-5 * high:
         middle = 0.5 * (low + high)
@@ -78,8 +80,8 @@ def smallest_offset(
 
 def evolute_limits(
     strand: Strand, contact_end: float, contact_start: float, pitch: float
-) -> list[str]:
-    """Return what keeps an evolute flank from running on a strand, each with a remedy.
+) -> list[tuple[str, str]]:
+    """Return what keeps an evolute flank from running on a strand.
 
     Parameters
     ----------
@@ -92,38 +94,42 @@ def evolute_limits(
 
     Returns
     -------
-    list of str
-        One message for every limit that fails; empty for a feasible flank.
+    list of tuple of str
+        Name of the parameter and message of the limit that fails; empty for a feasible flank.
     """
     if contact_end <= 0.0:
-        return [
+        message = (
             f"contact_end must be above 0 (the flank ends before the pole line), is {contact_end:g} "
             f"mm: {0.16 * pitch:.4g} mm will do"
-        ]
+        )
+        return [("contact_end", message)]
     ratio = contact_ratio(contact_end, contact_start, pitch)
     if not 1.0 < ratio < 2.0:
-        return [
+        message = (
             "contact ratio (contact_start - contact_end) / pitch must lie between 1 and 2, is "
             f"{ratio:.4g}: contact_start_mm = {contact_end + 1.05 * pitch:.6g} gives 1.05"
-        ]
+        )
+        return [("contact_start", message)]
     if not strand.offset < strand.centrode_radius:
-        return [
+        message = (
             f"evolute_offset must be below the centrode radius {strand.centrode_radius:.4g} mm, is "
             f"{strand.offset:g} mm"
-        ]
+        )
+        return [("evolute_offset", message)]
     cut = exit_cut(strand, contact_end, contact_start)
-    if cut > CUT_TOLERANCE:
-        try:
-            needed = smallest_offset(
-                strand.centrode_radius, strand.roller_radius, contact_end, contact_start
-            )
-        except GeometryError as error:
-            return [str(error)]
-        return [
-            f"exit clearance: the leaving roller must clear the flank, but cuts {cut:.3g} mm off it "
-            f"at evolute_offset_mm = {strand.offset:g}: at least evolute_offset_mm = {needed:.4g}"
-        ]
-    return []
+    if cut <= CUT_TOLERANCE:
+        return []
+    message = (
+        f"exit clearance: the leaving roller must clear the flank, but cuts {cut:.3g} mm off it at "
+        f"evolute_offset_mm = {strand.offset:g}"
+    )
+    try:
+        needed = smallest_offset(
+            strand.centrode_radius, strand.roller_radius, contact_end, contact_start
+        )
+    except GeometryError as error:
+        return [("evolute_offset", f"{message}; {error}")]
+    return [("evolute_offset", f"{message}: at least evolute_offset_mm = {needed:.4g}")]
 
 
 def tooth_limits(tooth: Tooth, pitch: float) -> list[str]:
@@ -156,15 +162,22 @@ def tooth_limits(tooth: Tooth, pitch: float) -> list[str]:
     return []
 
 
-def enough_teeth(
-    pitch: float, roller_radius: float, engaged_every: int, contact_end: float, contact_start: float
-) -> int | None:
-    """Return the smallest number of teeth whose evolute tooth is thick enough.
+def feasible_offset(
+    pitch: float,
+    roller_radius: float,
+    teeth: int,
+    engaged_every: int,
+    contact_end: float,
+    contact_start: float,
+) -> float | None:
+    """Return an evolute offset with which a tooth stands and runs, with a reserve of 5 %.
 
     Parameters
     ----------
     pitch, roller_radius : float
         Of the chain [mm].
+    teeth : int
+        Number of gaps.
     engaged_every : int
         Every which gap carries a roller.
     contact_end, contact_start : float
@@ -172,18 +185,60 @@ def enough_teeth(
 
     Returns
     -------
-    int or None
-        Teeth with the smallest offset times 1.05; None where none up to 150 is enough.
+    float or None
+        1.05 of the smallest offset that the roller clears [mm]; None where the tooth is
+        too thin with it, or there is none.
     """
-    for teeth in range(6, MOST_TEETH + 1):
-        centrode = pitch * teeth / (2.0 * math.pi * engaged_every)
-        try:
-            offset = 1.05 * smallest_offset(centrode, roller_radius, contact_end, contact_start)
-            strand = Strand(centrode, roller_radius, offset)
-            flank = evolute_flank(strand, contact_end, contact_start, 101).profile
-            tooth = Tooth(strand, flank, teeth, RELIEF_PER_PITCH * pitch)
-            if not tooth_limits(tooth, pitch):
-                return teeth
-        except GeometryError:
-            continue
-    return None
+    centrode = pitch * teeth / (2.0 * math.pi * engaged_every)
+    try:
+        smallest = smallest_offset(centrode, roller_radius, contact_end, contact_start)
+        offset = float(f"{OFFSET_RESERVE * smallest:.4g}")
+        strand = Strand(centrode, roller_radius, offset)
+        flank = evolute_flank(strand, contact_end, contact_start, 101).profile
+        limits = tooth_limits(Tooth(strand, flank, teeth, RELIEF_PER_PITCH * pitch), pitch)
+    except GeometryError:
+        return None
+    return None if limits else offset
+
+
+def remedy(
+    pitch: float,
+    roller_radius: float,
+    teeth: int,
+    engaged_every: int,
+    contact_end: float,
+    contact_start: float,
+) -> str:
+    """Return what makes an infeasible tooth feasible: an offset, else a number of teeth.
+
+    Parameters
+    ----------
+    pitch, roller_radius : float
+        Of the chain [mm].
+    teeth : int
+        Number of gaps of the infeasible tooth.
+    engaged_every : int
+        Every which gap carries a roller.
+    contact_end, contact_start : float
+        Range of contact x_min, x_max [mm].
+
+    Returns
+    -------
+    str
+        End of a message, with a value that satisfies every limit where there is one.
+    """
+
+    def _offset(gaps: int) -> float | None:
+        return feasible_offset(
+            pitch, roller_radius, gaps, engaged_every, contact_end, contact_start
+        )
+
+    offset = _offset(teeth)
+    if offset is not None:
+        return f"; evolute_offset_mm = {offset:.4g} will do"
+    for more in range(teeth + 1, MOST_TEETH + 1):
+        if _offset(more) is not None:
+            return (
+                f"; teeth = {more} will do with the default offset, or try a shorter contact range"
+            )
+    return "; try a shorter contact range or a smaller roller"

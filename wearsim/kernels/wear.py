@@ -31,14 +31,15 @@ def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # t
     else:
         for j in range(n):
             depth[j] = pressure[j] ** exponent * factor
-    if law[2] != 0.0:
-        for j in range(n):
-            depth[j] *= load[j]
     if law[3] != 0.0:
         for j in range(n):
             depth[j] *= speed[j] ** law[3] if speed[j] > 0.0 else 0.0
-    for j in range(n):
-        depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
+    if law[2] != 0.0:
+        for j in range(n):
+            depth[j] = depth[j] * load[j] * slip[j] if load[j] > 0.0 else 0.0
+    else:
+        for j in range(n):
+            depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
 
 
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64))
@@ -92,8 +93,9 @@ def run_cycles(  # type: ignore[no-untyped-def]
         contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
                 load, slip, speed, relative)  # fmt: skip
         wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
-        for j in range(n):
-            step[j] *= cycles_per_update
+        if cycles_per_update != 1.0:
+            for j in range(n):
+                step[j] *= cycles_per_update
         status = update_status(load, relative, step, spacing_squared, diffusion)
         if status != RUNNING:
             return status

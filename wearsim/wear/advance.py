@@ -8,6 +8,7 @@ wear coefficient is a factor of the cycle count, so the run is made with coeffic
 and scaled: life times coefficient is constant to rounding.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -211,6 +212,7 @@ def run_advance(
     rate = _Rate(contact, law)
     scaled_horizon = horizon * law.coefficient
     tolerance = min(_LOOSEST, 1e-2 * life_tolerance)
+    change = math.inf
     before = _solve(rate, law.coefficient, criteria, scaled_horizon, tolerance)
     while tolerance > _TIGHTEST:
         tolerance *= 0.1
@@ -228,6 +230,8 @@ def run_advance(
 def _trajectory(rate: _Rate, solution: _Solution, coefficient: float) -> Trajectory:
     times = np.linspace(0.0, solution.end, SNAPSHOTS + 1)
     flanks = [rate.flank(solution(time)) for time in times]
+    for time, flank in zip(times, flanks, strict=True):
+        check_touch(rate.contact, flank.x, flank.y, flank.depth, time / coefficient)
     profile = rate.contact.profile
     flanks[0] = _Flank(profile.x, profile.y, np.zeros(profile.x.size))
     return Trajectory(

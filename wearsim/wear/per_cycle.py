@@ -5,10 +5,13 @@ import numpy as np
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.wear import CONFORMING, UNSTABLE, VANISHED, run_cycles
+from wearsim.kernels.wear import CONFORMING, RUNNING, UNSTABLE, VANISHED, run_cycles
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
+
+_BLOCK = 50_000
+"""Updates between two looks at the keyboard: compiled code does not see an interrupt."""
 
 
 class _Run:
@@ -37,13 +40,9 @@ class _Run:
 
     def wear(self, depth: float, updates: int) -> None:
         """Update until a depth is reached, at most so often; raise what the kernel found."""
-        done = np.zeros(1)
-        status = run_cycles(
-            self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
-            self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
-            self.cycles_per_update, depth, updates, done,
-        )  # fmt: skip
-        self.updates += int(done[0])
+        status, last = RUNNING, self.updates + updates
+        while status == RUNNING and self.updates < last:
+            status = self._block(depth, min(_BLOCK, last - self.updates))
         if status in (CONFORMING, VANISHED):
             check_touch(self.contact, self.x, self.y, self.depth, self.cycles)
             raise ContactError(
@@ -53,6 +52,16 @@ class _Run:
         if status == UNSTABLE:
             self._refuse()
         check_sawtooth(self.contact, self.depth, self.cycles, self.depth_limit)
+
+    def _block(self, depth: float, updates: int) -> int:
+        done = np.zeros(1)
+        status = run_cycles(
+            self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
+            self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
+            self.cycles_per_update, depth, updates, done,
+        )  # fmt: skip
+        self.updates += int(done[0])
+        return int(status)
 
     def _refuse(self) -> None:
         spacing_squared, relative = self.work[3], self.work[7]

@@ -12,8 +12,20 @@ from wearsim.quantities import quantities
 def _describe(schema: dict[str, Any]) -> None:
     for name, entry in schema.get("properties", {}).items():
         entry.pop("title", None)
+        _without_null(entry)
         if name in quantities():
             entry["description"] = quantities()[name].meaning
+
+
+def _without_null(entry: dict[str, Any]) -> None:
+    """Drop the choice of null: TOML has none, and an editor's messages stay to the point."""
+    if entry.get("default", "") is None:
+        del entry["default"]
+    choices = [choice for choice in entry.pop("anyOf", ()) if choice != {"type": "null"}]
+    if len(choices) == 1:
+        entry.update(choices[0])
+    elif choices:
+        entry["anyOf"] = choices
 
 
 def known(value: str | None, names: dict[str, object], what: str, command: str) -> str | None:

@@ -1,0 +1,139 @@
+"""Run the benchmarks and write their table: python tests/benchmarks/performance.py."""
+
+import json
+import platform
+import subprocess
+import sys
+import tempfile
+from datetime import date
+from importlib.metadata import version
+from pathlib import Path
+
+FOLDER = Path(__file__).parent
+TABLE = FOLDER.parents[1] / "reports" / "reference" / "performance.md"
+WAYS = {
+    "kernel": "numba kernel, strict arithmetic",
+    "c plain": "C, one loop over the points, -O3 -march=native",
+    "c fast-math": "the same with -ffast-math",
+    "c fissioned": "C in split loops, -O3 -march=native -fno-math-errno -ffinite-math-only "
+    "-fno-signed-zeros",
+    "numpy": "NumPy, whole arrays",
+}
+PROCESSES = {
+    "test_help": ("`wearsim --help`", 0.15),
+    "test_life_warm": ("`wearsim life cases/16b-20t-oiled.toml`", 1.0),
+    "test_life_cold": ("the same with an empty NUMBA_CACHE_DIR", 4.0),
+}
+
+
+def measured(folder):
+    """Results of all benchmarks, by name."""
+    file = folder / "benchmarks.json"
+    words = ["--benchmark-only", "--benchmark-warmup=on", f"--benchmark-json={file}"]
+    subprocess.run([sys.executable, "-m", "pytest", str(FOLDER), *words], check=True)
+    content = json.loads(file.read_text(encoding="utf-8"))
+    return content["machine_info"]["cpu"], {item["name"]: item for item in content["benchmarks"]}
+
+
+def median(item):
+    """Median of the rounds [s]."""
+    return item["stats"]["median"]
+
+
+def per_point(item):
+    """Median per point and cycle [ns]."""
+    return 1e9 * median(item) / item["extra_info"]["point_cycles"]
+
+
+def reached(value, goal):
+    return "reached" if value <= goal else "NOT reached"
+
+
+def strand_lines(results):
+    """The cycle loop of the strand: time per point and cycle and its ratio to the kernel."""
+    yield "| the same cycle loop as | 201 nodes, ns | ratio | 401 nodes, ns | ratio |"
+    yield "|---|---|---|---|---|"
+    kernel = {nodes: per_point(results[f"test_strand[kernel-{nodes}]"]) for nodes in (201, 401)}
+    for way, what in WAYS.items():
+        cells = []
+        for nodes in (201, 401):
+            time = per_point(results[f"test_strand[{way}-{nodes}]"])
+            cells += [f"{time:.2f}", f"{time / kernel[nodes]:.2f}"]
+        yield f"| {what} | {' | '.join(cells)} |"
+    yield ""
+    for nodes in (201, 401):
+        ratios = results[f"test_strand_reaches_its_goals[{nodes}]"]["extra_info"]
+        to_c, to_numpy = ratios["to_c"], ratios["to_numpy"]
+        yield (
+            f"- {nodes} nodes, fastest of nine runs taken in turn: {to_c:.3f} of plain C -O3 "
+            f"(goal 0.3: {reached(to_c, 0.3)}), {to_numpy:.0f} times as fast as NumPy"
+            + (f" (goal 20: {reached(20.0, to_numpy)})" if nodes == 201 else "")
+        )
+
+
+def life_lines(results):
+    """Other runs inside one process."""
+    yield "| run | median |"
+    yield "|---|---|"
+    for nodes in (200, 500):
+        time = per_point(results[f"test_prescribed_cycles[{nodes}]"])
+        yield f"| prescribed flank of benchmark B9, {nodes} rows | {time:.2f} ns per point-cycle |"
+    for tolerance in ("0.001", "0.0001"):
+        time = 1e3 * median(results[f"test_advance_reference_run[{tolerance}]"])
+        yield f"| reference run by `advance`, 201 nodes, life_tolerance {tolerance} | {time:.1f} ms |"
+
+
+def process_lines(results):
+    """Whole processes and their peak memory."""
+    yield "| process | fastest, s | median, s | goal, s | |"
+    yield "|---|---|---|---|---|"
+    for name, (what, goal) in PROCESSES.items():
+        fastest, time = results[name]["stats"]["min"], median(results[name])
+        yield f"| {what} | {fastest:.3f} | {time:.3f} | {goal:g} | {reached(time, goal)} |"
+    yield ""
+    yield "| peak memory of `wearsim life`, MiB | 8.1e3 cycles | 8.1e4 | 8.1e6 |"
+    yield "|---|---|---|---|"
+    for method in ("per_cycle", "advance"):
+        name = f"test_peak_memory_does_not_grow_with_the_cycles[{method}]"
+        peaks = results[name]["extra_info"]["peak_MiB"]
+        yield f"| {method} | {' | '.join(f'{peaks[key]:.0f}' for key in ('1', '10', '1000'))} |"
+
+
+def lines(cpu, results):
+    """All lines of the table."""
+    compiler = subprocess.run(["gcc", "--version"], check=True, capture_output=True, text=True)
+    versions = [f"{name} {version(name)}" for name in ("numba", "llvmlite", "numpy", "scipy")]
+    python = f"{platform.python_implementation()} {platform.python_version()}"
+    yield "# Performance"
+    yield ""
+    yield "Made by `python tests/benchmarks/performance.py`; the ratios are what to compare."
+    yield ""
+    yield f"- date: {date.today().isoformat()}"
+    yield f"- machine: {cpu['brand_raw']}, {cpu['count']} cores, {platform.system()}"
+    yield f"- versions: {python}, {', '.join(versions)}, {compiler.stdout.splitlines()[0]}"
+    yield ""
+    yield "## One loading cycle of the strand (reference run, m = 1)"
+    yield ""
+    yield "C and NumPy give the kernel's flank to 1e-10 before they are timed."
+    yield ""
+    yield from strand_lines(results)
+    yield ""
+    yield "## Other runs"
+    yield ""
+    yield from life_lines(results)
+    yield ""
+    yield "## Processes"
+    yield ""
+    yield from process_lines(results)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        cpu, results = measured(Path(folder))
+    TABLE.parent.mkdir(parents=True, exist_ok=True)
+    TABLE.write_text("\n".join(lines(cpu, results)) + "\n", encoding="utf-8")
+    print(TABLE)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,92 @@
+"""Whole processes: start-up, a life with warm and with cold kernels, and peak memory.
+
+The figures to reach are those of an idle machine with two cores.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+COMMAND = str(Path(sys.executable).with_name("wearsim"))
+SHIPPED = str(Path(__file__).parents[2] / "cases" / "16b-20t-oiled.toml")
+PEAK = """
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+"""
+
+CASE = """
+format_version = 1
+[chain]
+designation = "16B-1"
+[sprocket]
+teeth = 20
+profile = "evolute"
+face_width_mm = 17.0
+evolute_offset_mm = 5.5
+contact_start_mm = 30.67
+contact_end_mm = 4.0
+nodes = 21
+[load]
+tension_N = 5000
+speed_rpm = 100
+[wear]
+law = "archard"
+specific_wear_rate_mm2_per_N = {rate}
+[stop]
+critical_depth_mm = 0.2
+[run]
+method = "{method}"
+"""
+
+
+def run(*arguments, **variables):
+    subprocess.run(
+        [COMMAND, *arguments],
+        check=True,
+        capture_output=True,
+        env={**os.environ, **variables},
+    )
+
+
+def test_help(benchmark):
+    benchmark.pedantic(run, ("--help",), rounds=5, warmup_rounds=1)
+    assert benchmark.stats.stats.min < 0.15
+
+
+def test_life_warm(benchmark):
+    benchmark.pedantic(run, ("life", SHIPPED), rounds=5, warmup_rounds=1)
+    assert benchmark.stats.stats.min < 1.0
+
+
+def test_life_cold(benchmark):
+    def cold():
+        with tempfile.TemporaryDirectory() as folder:
+            run("life", SHIPPED, NUMBA_CACHE_DIR=folder)
+
+    benchmark.pedantic(cold, rounds=3, warmup_rounds=0)
+    assert benchmark.stats.stats.min < 4.0
+
+
+@pytest.mark.parametrize("method", ["per_cycle", "advance"])
+def test_peak_memory_does_not_grow_with_the_cycles(benchmark, tmp_path, method):
+    """A tenth and a thousandth of the wear coefficient: 10 and 1000 times the cycles."""
+    peaks = {}
+    case = tmp_path / "case.toml"
+
+    def peak(factor):
+        case.write_text(CASE.format(rate=1e-7 / factor, method=method), encoding="utf-8")
+        # The wrapper is small, and a child's peak starts at the size of its parent.
+        words = [sys.executable, "-c", PEAK, COMMAND, "life", str(case)]
+        done = subprocess.run(words, check=True, capture_output=True, text=True)
+        peaks[factor] = int(done.stdout)
+
+    peak(1)
+    peak(10)
+    benchmark.pedantic(peak, (1000,), rounds=1)
+    benchmark.extra_info["peak_MiB"] = {str(key): value / 1024 for key, value in peaks.items()}
+    assert max(peaks.values()) < 1.02 * min(peaks.values())

@@ -1,0 +1,63 @@
+"""``wearsim compare``: cases and runs side by side, tables and pictures."""
+
+import csv
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def expected_files():
+    tables = {"summary.csv", "summary.md"}
+    pictures = {"flanks", "along_flank", "depth_over_hours"}
+    return tables | {f"{name}.{kind}" for name in pictures for kind in ("png", "svg")}
+
+
+def test_case_and_run(cli, drive, tmp_path, expected_files):
+    """Twice the pull of an Archard wear gives half the life, whatever the flank."""
+    run, out = tmp_path / "light", tmp_path / "reports" / "first"
+    assert cli("life", drive("light", power_kW=2), "--out", run).code == 0
+    done = cli("compare", run, drive("heavy", power_kW=4), "--out", out)
+    assert done.code == 0
+    assert {path.name for path in out.iterdir()} == expected_files
+    assert all(path.stat().st_size > 0 for path in out.iterdir())
+    with (out / "summary.csv").open() as file:
+        light, heavy = csv.DictReader(file)
+    assert float(light["ratio_to_first"]) == 1.0
+    assert float(heavy["ratio_to_first"]) == pytest.approx(0.5, rel=2e-3)
+    assert float(light["life_hours_low"]) == pytest.approx(float(light["life_hours"]) / 3, rel=1e-9)
+    for key in ("initial_peak_pressure_MPa", "removed_area_mm2", "max_depth_arc_length_mm"):
+        assert float(heavy[key]) > 0.0
+    table = [line for line in done.out.splitlines() if line.startswith("| ")]
+    assert len(table) == 3
+    page = (out / "summary.md").read_text()
+    assert all(line in page for line in table)
+    assert "](flanks.svg)" in page and "](depth_over_hours.svg)" in page
+    assert cli("compare", run, "--out", out).code == 2
+
+
+def test_bound_is_shown_with_its_sign(cli, drive, tmp_path):
+    path = drive()
+    out = tmp_path / "out"
+    done = cli("compare", path, "--out", out, "--set", "run.horizon_hours=50")
+    assert done.code == 0
+    assert "> 50 h" in done.out
+    with (out / "summary.csv").open() as file:
+        (row,) = csv.DictReader(file)
+    assert (row["life_hours"], row["life_reached"]) == ("", "False")
+
+
+def test_bad_case_or_run_writes_nothing(cli, drive, tmp_path):
+    out = tmp_path / "out"
+    (tmp_path / "empty").mkdir()
+    for source in (drive("bad", teeth=3), tmp_path / "empty", tmp_path / "x.csv"):
+        done = cli("compare", drive("good"), source, "--out", out)
+        assert (done.code, done.out) == (2, "")
+        assert not out.exists()
+
+
+def test_out_is_needed_and_set_is_for_cases(cli, drive, tmp_path):
+    assert cli("compare", drive()).code == 2
+    cli("life", drive(), "--out", tmp_path / "run")
+    done = cli("compare", tmp_path / "run", "--out", tmp_path / "out", "--set", "title=x")
+    assert done.code == 2
+    assert "--set" in done.err

@@ -1,0 +1,43 @@
+"""What a command does not need it does not load."""
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {"numpy", "numba", "pandas", "scipy", "matplotlib", "shapely", "pint"}
+
+PROGRAM = """\
+import sys
+import wearsim.cli
+try:
+    wearsim.cli.main()
+finally:
+    print(*sys.modules, file=sys.stderr)
+"""
+
+
+def loaded(*arguments):
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, *map(str, arguments)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    return {name.partition(".")[0] for name in done.stderr.split()} & HEAVY
+
+
+@pytest.mark.parametrize("arguments", [("--help",), ("life", "--help"), ("--version",)])
+def test_help_loads_nothing_heavy(arguments):
+    assert loaded(*arguments) == set()
+
+
+def test_tables_load_nothing_heavy():
+    assert loaded("list", "chains") == set()
+
+
+def test_life_loads_neither_pandas_nor_matplotlib_nor_pint(drive):
+    assert loaded("life", drive()) & {"pandas", "matplotlib", "pint"} == set()
+    assert loaded("life", "--json", drive()) & {"pandas", "matplotlib", "pint"} == set()
+
+
+def test_life_loads_pint_for_a_string_with_a_unit(drive):
+    assert loaded("life", drive(power_kW='"3 kW"')) & {"pandas", "matplotlib", "pint"} == {"pint"}

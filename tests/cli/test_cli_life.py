@@ -1,0 +1,211 @@
+"""``wearsim life``: the answer, its JSON, overrides, limits asked for."""
+
+import json
+import re
+from importlib.resources import files
+
+import jsonschema
+import pytest
+
+from wearsim.case.load import load_case
+from wearsim.simulation import simulate
+
+KEYS = (
+    "schema_version", "case", "life_hours", "cycles", "life_reached", "hours_run", "cycles_run",
+    "life_hours_low", "life_hours_high", "stop", "max_depth_mm", "max_depth_arc_length_mm",
+    "initial_peak_pressure_MPa", "final_peak_pressure_MPa", "method", "updates", "assumptions",
+    "warnings",
+)  # fmt: skip
+
+TOO_DEEP = {"critical_depth_mm": 100, "condition": '"soil-contaminated"'}
+"""Deeper than the tooth: the contact ends before the limit is met."""
+
+
+@pytest.fixture(scope="module")
+def conforms():
+    text = files("wearsim").joinpath("result.schema.json").read_text("utf-8")
+    return jsonschema.Draft202012Validator(json.loads(text)).validate
+
+
+def strict(line):
+    """JSON without NaN and Infinity, which Python would read."""
+
+    def refuse(name):
+        raise AssertionError(name)
+
+    return json.loads(line, parse_constant=refuse)
+
+
+def test_answer_on_screen(cli, drive):
+    path = drive(nodes=201)
+    life = simulate(load_case(path)).life
+    done = cli("life", path)
+    assert done.code == 0
+    text = " ".join(done.out.split())
+    assert text.startswith("Test drive Life ")
+    hours = re.search(r"Life ([\d .]+) h ", text).group(1)
+    assert float(hours.replace(" ", "")) == pytest.approx(life.hours, rel=1e-3)
+    for part in (
+        "cycles at 100 rpm) until 0.02 mm is worn off; numerical error < 0.1 %",
+        "With the wear coefficient at its low / high end: ",
+        "('hardened, oiled': typical: ",
+        "Worn most at ",
+        " from the root",
+        "MPa",
+        "Assumes 1 the roller does not turn",
+        "run.horizon_hours = 50000.0",
+        "Warnings ",
+        f"Next wearsim compare {path} --out reports/drive",
+    ):
+        assert part in text
+    assert max(map(len, done.out.splitlines()[:-1])) <= 110
+    assert done.err == ""
+
+
+def test_limit_not_reached_is_a_bound(cli, drive):
+    done = cli("life", drive(), "--set", "run.horizon_hours=50")
+    assert done.code == 0
+    assert re.search(r"Life +> 50 h \(limit not reached\)", done.out)
+
+
+def test_json_is_one_line_per_case_and_conforms(cli, drive, conforms):
+    done = cli("life", "--json", drive("one"), drive("two", power_kW=4))
+    assert done.code == 0
+    lines = [strict(line) for line in done.out.splitlines()]
+    assert [line["case"] for line in lines] == ["one", "two"]
+    for line in lines:
+        conforms(line)
+        assert next(iter(line)) == "schema_version"
+        assert set(KEYS) <= set(line)
+    assert all("warning: " in line for line in done.err.splitlines())
+
+
+def test_json_of_a_bound(cli, drive, conforms):
+    done = cli("life", "--json", drive(), "--set", "run.horizon_hours=50")
+    line = strict(done.out)
+    conforms(line)
+    assert line["life_hours"] is None and line["cycles"] is None
+    assert (line["life_reached"], line["stop"]) == (False, "horizon_hours")
+    assert line["hours_run"] == pytest.approx(50.0, rel=1e-12)
+
+
+def test_json_of_bad_input(cli, drive, conforms, tmp_path):
+    bad = drive("bad", teeth=3)
+    done = cli("life", "--json", bad, drive("good"), tmp_path / "none.toml")
+    assert done.code == 2
+    lines = [strict(line) for line in done.out.splitlines()]
+    for line in lines:
+        conforms(line)
+    assert [line["case"] for line in lines] == ["bad", "none"]
+    assert (lines[0]["error"]["file"], lines[0]["error"]["line"]) == (str(bad), 6)
+    assert lines[0]["error"]["key"] == "sprocket.teeth"
+    assert lines[1]["error"]["line"] is None
+
+
+def test_json_of_a_bad_override(cli, drive, conforms):
+    line = strict(cli("life", "--json", drive(), "--set", "sprocket.teeth=3").out)
+    conforms(line)
+    error = line["error"]
+    assert (error["file"], error["line"], error["key"]) == (None, None, "sprocket.teeth")
+    assert error["kind"] == "CaseError"
+
+
+def test_json_of_a_failed_calculation(cli, drive, conforms):
+    done = cli("life", "--json", drive(**TOO_DEEP))
+    assert done.code == 3
+    line = strict(done.out)
+    conforms(line)
+    assert line["error"]["kind"] == "ContactError"
+    assert line["error"]["message"].startswith("contact at cycle ")
+    assert line["error"]["message"] in done.err
+
+
+def test_quiet_silences_warnings(cli, drive):
+    path = drive()
+    assert "warning: " in cli("life", "--json", path).err
+    assert cli("life", "--json", "-q", path).err == ""
+    assert cli("-q", "life", "--json", path).err == ""
+
+
+@pytest.mark.parametrize("setting", ['load.power_kW="1500 W"', "load.power_kW=1.5"])
+def test_override_as_toml_value(cli, drive, setting):
+    expected = strict(cli("life", "--json", drive("half", power_kW=1.5)).out)["life_hours"]
+    assert strict(cli("life", "--json", drive(), "--set", setting).out)["life_hours"] == expected
+
+
+def test_override_as_plain_word(cli, drive):
+    done = cli("life", "--json", drive(), "--set", "wear.condition=soil-contaminated")
+    assert "soil-contaminated" in strict(done.out)["band"]
+
+
+def test_required_hours(cli, drive):
+    path = drive()
+    hours = strict(cli("life", "--json", path).out)["life_hours"]
+    assert cli("life", path, "--require-hours", 0.99 * hours).code == 0
+    done = cli("life", path, "--require-hours", 1.01 * hours)
+    assert done.code == 4
+    assert f"is below {1.01 * hours:g} h" in done.err
+    assert "Test drive" in done.out
+
+
+def test_required_hours_raise_the_horizon(cli, drive):
+    """The drive lives about 120 h: a horizon of 50 h hides that, the one asked for does not."""
+    path = drive()
+    hours = strict(cli("life", "--json", path).out)["life_hours"]
+    short = ("--set", "run.horizon_hours=50")
+    assert hours > 50
+    assert cli("life", path, *short).code == 0
+    done = cli("life", "--json", path, *short, "--require-hours", 2 * hours)
+    assert done.code == 4
+    line = strict(done.out)
+    assert line["life_reached"] is True
+    assert f"run.horizon_hours = {2 * hours:g} (raised by --require-hours)" in line["assumptions"]
+    done = cli("life", "--json", path, *short, "--require-hours", 60)
+    assert done.code == 0
+    assert strict(done.out)["hours_run"] == pytest.approx(60.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("hours", ["0", "-5", "nan", "inf", "many"])
+def test_required_hours_must_be_a_number(cli, drive, hours):
+    done = cli("life", drive(), "--require-hours", hours)
+    assert (done.code, done.out) == (2, "")
+    assert "--require-hours" in done.err
+
+
+def test_strict_fails_on_warnings(cli, drive):
+    path = drive()
+    assert strict(cli("life", "--json", path).out)["warnings"]
+    done = cli("life", path, "--strict")
+    assert done.code == 4
+    assert "and --strict" in done.err
+
+
+def test_every_case_that_misses_is_named(cli, drive):
+    done = cli("life", drive("one"), drive("two"), "--require-hours", 1e6)
+    assert done.code == 4
+    assert "one: life" in done.err and "two: life" in done.err
+
+
+def test_some_of_several_fail(cli, drive, conforms, tmp_path):
+    cases = (drive("one"), drive("two", **TOO_DEEP), drive("three"))
+    done = cli("life", "--json", *cases, "--out", tmp_path / "out")
+    assert done.code == 5
+    lines = [strict(line) for line in done.out.splitlines()]
+    for line in lines:
+        conforms(line)
+    assert ["error" in line for line in lines] == [False, True, False]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["one", "three"]
+    assert str(cases[1]) in done.err
+
+
+def test_all_of_several_fail(cli, drive):
+    done = cli("life", drive("one", **TOO_DEEP), drive("two", **TOO_DEEP))
+    assert (done.code, done.out) == (3, "")
+    assert done.err.count("contact at cycle ") == 2
+
+
+def test_next_command_can_be_pasted(cli, drive):
+    path = drive("my drive")
+    assert f"wearsim compare '{path}' --out 'reports/my drive'" in " ".join(
+        cli("life", path).out.split()
+    )

@@ -1,0 +1,81 @@
+"""The installed command as a process of its own: pipes, signals, rights."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+WEARSIM = Path(sys.executable).with_name("wearsim")
+
+STARTED = """\
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+import wearsim.simulation
+run = wearsim.simulation.run_per_cycle
+
+def started(contact, law, criteria, horizon, cycles_per_update):
+    run(contact, law, criteria, 100.0, 1)
+    print("started", flush=True)
+    return run(contact, law, criteria, horizon, cycles_per_update)
+
+wearsim.simulation.run_per_cycle = started
+import wearsim.cli
+wearsim.cli.main()
+"""
+
+
+def test_installed_command_prints_a_life(drive):
+    done = subprocess.run([WEARSIM, "life", drive()], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("Test drive\n  Life ")
+    assert "\x1b" not in done.stdout
+
+
+def test_closed_pipe_is_141_without_a_word():
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run([WEARSIM, "list", "chains"], stdout=writer, stderr=subprocess.PIPE)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.parametrize("horizon", ["5e4", "1e6"])
+def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):
+    """Some 1e8 or 1e9 cycles one by one take minutes; to end takes seconds at most."""
+    command = [
+        sys.executable, "-c", STARTED, "life", drive(), "--out", tmp_path / "out",
+        "--set", "run.method=per_cycle", "--set", f"run.horizon_hours={horizon}",
+        "--set", "load.power_kW=1e-4",
+    ]  # fmt: skip
+    run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        assert run.stdout.readline() == "started\n"
+        run.send_signal(signal.SIGINT)
+        out, err = run.communicate(timeout=10)
+    finally:
+        run.kill()
+        run.communicate()
+    assert (run.returncode, out) == (130, "")
+    assert err.startswith("interrupted")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["drive.toml"]
+
+
+@pytest.mark.parametrize("command", ["life", "profile"])
+def test_folder_without_write_permission(drive, tmp_path, command):
+    path = drive()
+    closed = tmp_path / "closed"
+    closed.mkdir(mode=0o555)
+    # Root may write anywhere unless it gives that up.
+    rights = "-dac_override,-dac_read_search"
+    ordinary = ["setpriv", f"--bounding-set={rights}", f"--inh-caps={rights}"]
+    done = subprocess.run(
+        [*(ordinary if os.geteuid() == 0 else []), WEARSIM, command, path, "--out", closed / "out"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 2
+    assert done.stderr == f"{closed / 'out'}: must be writable: Permission denied\n"
+    assert list(closed.iterdir()) == []

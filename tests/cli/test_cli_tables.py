@@ -1,0 +1,72 @@
+"""``wearsim schema`` and ``wearsim list``."""
+
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from wearsim.catalogue.tables import rows
+
+
+@pytest.mark.parametrize("option", [(), ("--result",)])
+def test_schema_is_a_json_schema(cli, option):
+    done = cli("schema", *option)
+    assert done.code == 0
+    schema = json.loads(done.out)
+    assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+    jsonschema.Draft202012Validator.check_schema(schema)
+
+
+def objects(schema):
+    if isinstance(schema, dict):
+        if "properties" in schema and schema.get("type") == "object":
+            yield schema
+        for part in schema.values():
+            yield from objects(part)
+
+
+def test_result_schema_is_closed_and_described(cli):
+    found = list(objects(json.loads(cli("schema", "--result").out)))
+    assert len(found) == 3
+    for part in found:
+        assert part["additionalProperties"] is False
+        assert part["required"] == list(part["properties"])
+        assert all(entry["description"] for entry in part["properties"].values())
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("chains", ["16B-1", "25.4", "ПР-25,4-60", "ISO 606:2004/2015"]),
+        ("materials", ["steel", "2.1e5", "polyamide 6"]),
+        ("wear-conditions", ["hardened, oiled", "5e-11", "order of magnitude"]),
+        ("cases", ["16b-20t-oiled.toml", "Evolute sprocket, 16B chain, 20 teeth"]),
+        ("quantities", ["evolute_offset_mm", "N/mm", "Young's modulus"]),
+    ],
+)
+def test_every_table(cli, table, words):
+    done = cli("list", table)
+    assert (done.code, done.err) == (0, "")
+    for word in words:
+        assert word in done.out
+    found = json.loads(cli("list", table, "--json").out)
+    assert len(found) == len(done.out.splitlines()) - 1
+
+
+def test_listed_chains_are_those_of_the_catalogue(cli):
+    assert json.loads(cli("list", "chains", "--json").out) == rows("chains")
+
+
+def test_listed_cases_exist(cli):
+    found = json.loads(cli("list", "cases", "--json").out)
+    assert len(found) >= 6
+    for row in found:
+        assert Path(row["file"]).is_file()
+        assert row["title"]
+
+
+def test_unknown_table(cli):
+    done = cli("list", "chain")
+    assert (done.code, done.out) == (2, "")
+    assert "chains" in done.err

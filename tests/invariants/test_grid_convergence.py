@@ -1,0 +1,33 @@
+"""Worn depth and area converge as the grid is refined, for every mechanism.
+
+Expected: second order in the middle of the flank (three-point curvature); at least first order
+for the area, whose ends and corners of the load share are not smooth.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from wearsim.contact.engagement import Mechanism
+from wearsim.geometry.profile import area_between
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import depth_criterion
+from wearsim.wear.law import power
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_order_of_convergence(build: Callable[..., Mechanism], exponent: float) -> None:
+    law = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent)
+    first, _ = run_advance(build(51).contact, law, (depth_criterion(0.05),), 1e9, 1e-3)
+    horizon = float(first.cycles[-1])
+    depths, areas = [], []
+    for nodes in (51, 101, 201):
+        worn, _ = run_advance(build(nodes).contact, law, (depth_criterion(1.0),), horizon, 1e-6)
+        depths.append(worn.depth[-1][nodes // 2])
+        areas.append(area_between(worn.x[0], worn.y[0], worn.x[-1], worn.y[-1]))
+    coarse, fine = np.abs(np.diff(depths)) / depths[-1]
+    assert fine <= coarse / 2.0**1.9 + 1e-6
+    coarse, fine = np.abs(np.diff(areas)) / areas[-1]
+    assert fine <= coarse / 2.0
+    assert fine < 1e-3

@@ -1,0 +1,296 @@
+"""Changing any key of the input file changes the result, or raises an error that names it."""
+
+import typing
+
+import numpy as np
+import pandas as pd
+import pytest
+from pydantic import BaseModel
+
+import wearsim
+from wearsim.case.load import load_case
+from wearsim.case.schema import CaseTables
+from wearsim.errors import CaseError
+from wearsim.report.profile import profile_table
+
+WITHOUT_EFFECT = {
+    "title": "only shown above the answer",
+    "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
+}
+
+STRAND = {
+    "format_version": 1,
+    "title": "strand",
+    "chain": {"designation": "16B-1"},
+    "sprocket": {
+        "teeth": 20,
+        "profile": "evolute",
+        "face_width_mm": 17.0,
+        "evolute_offset_mm": 5.5,
+        "contact_start_mm": 30.67,
+        "contact_end_mm": 4.0,
+        "nodes": 61,
+    },
+    "load": {"tension_N": 5000, "speed_rpm": 100},
+    "wear": {"condition": "hardened, oiled"},
+    "stop": {"critical_depth_mm": 0.05},
+}
+
+
+def edited(base, **tables):
+    """The base with whole tables replaced, or dropped where None."""
+    return {name: value for name, value in {**base, **tables}.items() if value is not None}
+
+
+BASES = {
+    "strand": STRAND,
+    "catalogue": edited(STRAND, sprocket={"teeth": 20, "profile": "evolute", "nodes": 61}),
+    "crawler": edited(
+        STRAND,
+        chain={"pitch_mm": 203.2, "roller_diameter_mm": 66.0, "inner_width_mm": 90.0},
+        sprocket={
+            "teeth": 27,
+            "engaged_every": 2,
+            "profile": "evolute",
+            "evolute_offset_mm": 42.9,
+            "contact_start_mm": 212.2,
+            "contact_end_mm": 8.0,
+            "nodes": 61,
+        },
+    ),
+    "own chain": edited(
+        STRAND, chain={"pitch_mm": 25.4, "roller_diameter_mm": 15.88, "inner_width_mm": 17.02}
+    ),
+    "default width": edited(
+        STRAND,
+        chain={"pitch_mm": 25.4, "roller_diameter_mm": 15.88, "inner_width_mm": 17.02},
+        sprocket={"teeth": 20, "profile": "evolute", "nodes": 61},
+    ),
+    "power drive": edited(STRAND, load={"power_kW": 3, "speed_rpm": 100}),
+    "torque drive": edited(STRAND, load={"torque_N_m": 300, "speed_rpm": 100}),
+    "archard": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, "band_factor": 2}),
+    "power law": edited(
+        STRAND, wear={"law": "power", "coefficient": 1e-14, "pressure_exponent": 2.0}
+    ),
+    "drozdov": edited(
+        STRAND,
+        wear={
+            "law": "drozdov",
+            "coefficient": 1e-6,
+            "pressure_exponent": 1.5,
+            "hardness_MPa": 4000,
+            "reference_speed_mm_per_s": 300,
+            "speed_exponent": -0.3,
+        },
+    ),
+    "tip land": edited(STRAND, stop={"critical_depth_mm": 0.2, "min_tip_land_mm": 9.07}),
+    "per cycle": edited(
+        STRAND,
+        wear={"specific_wear_rate_mm2_per_N": 1e-7},
+        run={"method": "per_cycle", "cycles_per_update": 1},
+    ),
+    "points": edited(
+        STRAND,
+        sprocket={
+            "teeth": 20,
+            "profile": "points",
+            "points_file": "points.csv",
+            "points_noise_mm": 1e-4,
+            "face_width_mm": 17.0,
+            "evolute_offset_mm": 5.5,
+            "contact_start_mm": 30.6,
+            "contact_end_mm": 4.1,
+            "nodes": 61,
+        },
+    ),
+    "prescribed": edited(
+        STRAND,
+        sprocket=None,
+        load={"speed_rpm": 100},
+        mechanism={"kind": "prescribed", "table_file": "loads.csv"},
+    ),
+}
+
+# Key: (base, another value) for a change of the result, (base, value, fault's key) for an error.
+CHANGES = {
+    "format_version": [("strand", 2, "format_version")],
+    "chain.designation": [("catalogue", "16A-1"), ("own chain", "16B-1", "chain.pitch_mm")],
+    "chain.pitch_mm": [("own chain", 25.0), ("strand", 25.4, "chain.pitch_mm")],
+    "chain.roller_diameter_mm": [("own chain", 15.0)],
+    "chain.inner_width_mm": [("default width", 16.0)],
+    "sprocket.teeth": [("strand", 21), ("strand", 4, "sprocket.teeth")],
+    "sprocket.profile": [("strand", "points", "sprocket.points_file")],
+    "sprocket.engaged_every": [("crawler", 1)],
+    "sprocket.points_file": [
+        ("points", "other.csv"),
+        ("strand", "points.csv", "sprocket.points_file"),
+    ],
+    "sprocket.points_noise_mm": [
+        ("points", 3e-4),
+        ("strand", 1e-4, "sprocket.points_noise_mm"),
+    ],
+    "sprocket.face_width_mm": [("strand", 16.0), ("points", 16.0)],
+    "sprocket.evolute_offset_mm": [("strand", 5.6), ("points", 5.45)],
+    "sprocket.contact_start_mm": [("strand", 30.6), ("points", 30.5)],
+    "sprocket.contact_end_mm": [("strand", 4.1), ("points", 4.2)],
+    "sprocket.nodes": [("strand", 71), ("points", 71)],
+    "mechanism.kind": [("strand", "prescribed", "mechanism.table_file")],
+    "mechanism.table_file": [
+        ("prescribed", "other_loads.csv"),
+        ("strand", "loads.csv", "mechanism.table_file"),
+    ],
+    "mechanism.roller_slip_fraction": [("strand", 0.5), ("prescribed", 0.5)],
+    "material.sprocket.name": [("strand", "grey cast iron"), ("prescribed", "bronze")],
+    "material.sprocket.youngs_modulus_MPa": [("strand", 1e5)],
+    "material.sprocket.poissons_ratio": [("strand", 0.25)],
+    "material.roller.name": [("strand", "bronze")],
+    "material.roller.youngs_modulus_MPa": [("strand", 1e5)],
+    "material.roller.poissons_ratio": [("strand", 0.25)],
+    "load.tension_N": [("strand", 5001), ("power drive", 5000, "load.power_kW")],
+    "load.power_kW": [("power drive", 3.01), ("strand", 3, "load.power_kW")],
+    "load.torque_N_m": [("torque drive", 301), ("strand", 3, "load.torque_N_m")],
+    "load.speed_rpm": [("strand", 101), ("power drive", 101), ("prescribed", 101)],
+    "wear.law": [("strand", "power", "wear.condition")],
+    "wear.condition": [
+        ("strand", "soil-contaminated"),
+        ("archard", "hardened, dry", "wear.condition"),
+    ],
+    "wear.specific_wear_rate_mm2_per_N": [
+        ("archard", 2e-10),
+        ("strand", 1e-10, "wear.condition"),
+    ],
+    "wear.coefficient": [("power law", 2e-14), ("drozdov", 2e-6)],
+    "wear.pressure_exponent": [
+        ("power law", 2.01),
+        ("drozdov", 1.51),
+        ("archard", 1.0, "wear.pressure_exponent"),
+    ],
+    "wear.hardness_MPa": [("drozdov", 4100), ("power law", 4000, "wear.hardness_MPa")],
+    "wear.reference_speed_mm_per_s": [
+        ("drozdov", 310),
+        ("power law", 300, "wear.reference_speed_mm_per_s"),
+    ],
+    "wear.speed_exponent": [("drozdov", -0.2), ("power law", 0.1, "wear.speed_exponent")],
+    "wear.band_factor": [("archard", 2.5), ("strand", 2.5), ("power law", 2.5), ("drozdov", 2.5)],
+    "stop.critical_depth_mm": [("strand", 0.06), ("prescribed", 0.06)],
+    "stop.min_tip_land_mm": [
+        ("tip land", 9.08),
+        ("prescribed", 1.0, "stop.min_tip_land_mm"),
+    ],
+    "run.method": [("per cycle", "advance", "run.cycles_per_update"), ("archard", "per_cycle")],
+    "run.cycles_per_update": [("per cycle", 2), ("strand", 2, "run.cycles_per_update")],
+    "run.life_tolerance": [("strand", 1e-5)],
+    "run.horizon_hours": [("strand", 100)],
+}
+
+
+def leaves(model, prefix=""):
+    for name, field in model.model_fields.items():
+        tables = [
+            kind
+            for kind in (field.annotation, *typing.get_args(field.annotation))
+            if isinstance(kind, type) and issubclass(kind, BaseModel)
+        ]
+        if tables:
+            yield from leaves(tables[0], f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}"
+
+
+def test_every_key_is_covered_and_no_other():
+    covered = [*CHANGES, *WITHOUT_EFFECT]
+    assert sorted(covered) == sorted(leaves(CaseTables))
+
+
+def test_every_base_and_every_law_profile_and_mechanism_takes_part():
+    assert {change[0] for changes in CHANGES.values() for change in changes} == set(BASES)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """Function that runs a mapping in a folder with the CSV files, each mapping once."""
+    folder = tmp_path_factory.mktemp("walk")
+    flank = profile_table(load_case(STRAND))
+    flank.to_csv(folder / "points.csv", columns=["x_mm", "y_mm"], index=False)
+    flank["y_mm"] += 0.02
+    flank.to_csv(folder / "other.csv", columns=["x_mm", "y_mm"], index=False)
+    arc = np.linspace(0.0, 10.0, 21)
+    loads = pd.DataFrame(
+        {
+            "arc_length_mm": arc,
+            "load_per_width_N_per_mm": 100.0 + 10.0 * np.sin(arc),
+            "flank_curvature_per_mm": -0.01,
+            "slip_ratio": 0.5,
+        }
+    )
+    loads.to_csv(folder / "loads.csv", index=False)
+    loads["slip_ratio"] = 0.6
+    loads.to_csv(folder / "other_loads.csv", index=False)
+    done = {}
+
+    def run(tables):
+        if repr(tables) not in done:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.chdir(folder)
+                done[repr(tables)] = numbers(wearsim.simulate(load_case(tables)))
+        return done[repr(tables)]
+
+    return run
+
+
+def numbers(result):
+    """Every number of a result that is not an echo of the input."""
+    lives = [result.life, result.life_low, result.life_high]
+    return [
+        *(value for life in lives for value in vars(life).values()),
+        result.updates,
+        *(tuple(column) for column in result.history_columns.values()),
+        *(tuple(column) for column in result.flank_columns.values()),
+    ]
+
+
+def with_value(base, key, value):
+    *tables, name = key.split(".")
+    changed = {**base}
+    place = changed
+    for table in tables:
+        place[table] = {**place.get(table, {})}
+        place = place[table]
+    assert place.get(name) != value
+    place[name] = value
+    return changed
+
+
+EFFECTS = [
+    (key, *change) for key, changes in CHANGES.items() for change in changes if len(change) < 3
+]
+ERRORS = [
+    (key, *change) for key, changes in CHANGES.items() for change in changes if len(change) > 2
+]
+
+
+def same(one, other):
+    return len(one) == len(other) and all(
+        np.array_equal(a, b, equal_nan=True) for a, b in zip(one, other, strict=True)
+    )
+
+
+@pytest.mark.parametrize(("key", "base", "value"), EFFECTS)
+def test_key_changes_the_result(run, key, base, value):
+    assert not same(run(BASES[base]), run(with_value(BASES[base], key, value)))
+
+
+@pytest.mark.parametrize(("key", "base", "value", "named"), ERRORS)
+def test_key_is_refused_by_name(run, key, base, value, named):
+    with pytest.raises(CaseError) as caught:
+        run(with_value(BASES[base], key, value))
+    assert named in [fault.key for fault in caught.value.faults]
+    assert key.rpartition(".")[2] in str(caught.value) or str(value) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("title", "other"), ("sprocket.back_flank", "mirrored")]
+)
+def test_key_without_effect(run, key, value):
+    assert key in WITHOUT_EFFECT
+    assert same(run(STRAND), run(with_value(STRAND, key, value)))

@@ -1,0 +1,103 @@
+"""Wear laws as the engine takes them; expected values are the formulas written out here."""
+
+import math
+
+import numpy as np
+import pytest
+
+from wearsim.contact.engagement import Kind
+from wearsim.kernels.wear import wear_depth
+from wearsim.wear.law import Law, archard, drozdov, mean_pressure_factor, power
+
+MODULUS = 115384.6153846154
+
+
+def depth(
+    law: Law, kind: Kind, load: float, slip: float, speed: float, relative: float
+) -> tuple[float, float]:
+    """Pressure and depth of one cycle at one point."""
+    pressure, step = np.empty(1), np.empty(1)
+    arrays = [np.array([value]) for value in (load, slip, speed, relative)]
+    wear_depth(*arrays, MODULUS, law.numbers(kind), pressure, step)
+    return float(pressure[0]), float(step[0])
+
+
+LAWS = [
+    archard(3e-9),
+    power(1e-9, 0.7),
+    power(1e-11, 1.5),
+    power(1e-12, 2.0),
+    power(1e-15, 3.0),
+    drozdov(1e-6, 1.2, 5500.0, 1000.0, -0.3),
+    drozdov(1e-6, 2.0, 5500.0, 1000.0, 0.8),
+]
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
+def test_depth_is_the_formula(law: Law, kind: Kind) -> None:
+    """K sigma^m v^n times c_m 2a lambda, or times s."""
+    q, slip, speed, relative = 120.0, 0.4, 650.0, 0.11
+    sigma = math.sqrt(q * MODULUS * relative / math.pi)
+    half_width = math.sqrt(4.0 * q / (math.pi * MODULUS * relative))
+    m, n = law.pressure_exponent, law.speed_exponent
+    path = mean_pressure_factor(m) * 2.0 * half_width * slip if kind is Kind.TRAVELLING else slip
+    pressure, step = depth(law, kind, q, slip, speed, relative)
+    assert pressure == pytest.approx(sigma, rel=1e-14)
+    assert step == pytest.approx(law.coefficient * sigma**m * speed**n * path, rel=1e-13)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
+def test_nothing_wears_without_load_or_slip(law: Law, kind: Kind) -> None:
+    assert depth(law, kind, 0.0, 0.4, 650.0, 0.11) == (0.0, 0.0)
+    assert depth(law, kind, 120.0, 0.0, 650.0, 0.11)[1] == 0.0
+
+
+@pytest.mark.parametrize("law", LAWS[-2:])
+def test_nothing_wears_at_rest_even_with_a_falling_speed_law(law: Law) -> None:
+    assert depth(law, Kind.TRAVELLING, 120.0, 0.4, 0.0, 0.11)[1] == 0.0
+
+
+def test_drozdov_refers_pressure_to_hardness_and_speed_to_its_reference() -> None:
+    law = drozdov(1e-6, 1.7, 4000.0, 250.0, 0.6)
+    sigma, step = depth(law, Kind.LOCAL, 120.0, 2.0, 900.0, 0.11)
+    expected = 1e-6 * (sigma / 4000.0) ** 1.7 * (900.0 / 250.0) ** 0.6 * 2.0
+    assert step == pytest.approx(expected, rel=1e-13)
+
+
+def test_archard_is_the_power_law_with_exponent_one() -> None:
+    assert archard(2e-9) == power(2e-9, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "slip_exponent", "expected"),
+    [
+        (Kind.TRAVELLING, 1.0, lambda m: 0.5 * (m + 1.0)),
+        (Kind.TRAVELLING, 0.0, lambda m: 0.5 * (m - 1.0)),
+        (Kind.LOCAL, 0.0, lambda m: 0.5 * m),
+    ],
+    ids=["strand", "slip-ratio", "sliding-distance"],
+)
+@pytest.mark.parametrize("m", [1.0, 1.5, 2.0])
+def test_diffusion_exponent(kind: Kind, slip_exponent: float, expected, m: float) -> None:
+    """physics.md 3: (m+1)/2 on the strand, m/2 and (m-1)/2 with a prescribed slip."""
+    assert power(1e-9, m).diffusion(kind, slip_exponent) == pytest.approx(expected(m), rel=1e-15)
+
+
+@pytest.mark.parametrize("m", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
+def test_diffusion_exponent_is_the_slope_of_the_depth(kind: Kind, m: float) -> None:
+    """d(ln depth)/d(ln 1/rho_H) by a central difference at given slip."""
+    step = 1e-5
+    low, high = (
+        depth(power(1e-9, m), kind, 120.0, 0.4, 1.0, 0.11 * (1.0 + sign * step))[1]
+        for sign in (-1.0, 1.0)
+    )
+    slope = (math.log(high) - math.log(low)) / (2.0 * step)
+    assert slope == pytest.approx(power(1e-9, m).diffusion(kind, 0.0), abs=1e-8)
+
+
+@pytest.mark.parametrize("exponent", [0.1, 1.0, 2.0, 4.0])
+def test_mean_pressure_factor_falls_with_the_exponent(exponent: float) -> None:
+    assert 1.0 > mean_pressure_factor(exponent) > mean_pressure_factor(exponent + 0.5) > 0.0

@@ -1,0 +1,136 @@
+"""A place holds the old, the new or nothing."""
+
+import os
+import stat
+
+import pytest
+
+from wearsim.errors import OutputError
+from wearsim.output import check_free, new_folder, write_file
+
+
+def tree(folder):
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+def fill(run, error=None):
+    with new_folder(run, force=True) as place:
+        (place / "x").write_text("new")
+        if error:
+            raise error
+
+
+def test_new_folder_takes_its_name_when_complete(tmp_path):
+    with new_folder(tmp_path / "a" / "run", force=False) as place:
+        (place / "x").write_text("new")
+        assert not (tmp_path / "a" / "run").exists()
+    assert tree(tmp_path) == ["a", "a/run", "a/run/x"]
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+@pytest.mark.parametrize("old", [True, False])
+def test_failure_leaves_the_old_or_nothing(tmp_path, error, old):
+    run = tmp_path / "run"
+    if old:
+        run.mkdir()
+        (run / "x").write_text("old")
+    expected = OutputError if isinstance(error, OSError) else KeyboardInterrupt
+    with pytest.raises(expected):
+        fill(run, error)
+    assert tree(tmp_path) == (["run", "run/x"] if old else [])
+    assert not old or (run / "x").read_text() == "old"
+
+
+@pytest.mark.parametrize("error", [OSError(5, "Input/output error"), KeyboardInterrupt()])
+def test_failure_of_the_last_rename_brings_the_old_back(tmp_path, monkeypatch, error):
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / "x").write_text("old")
+    rename = os.rename
+
+    def failing(source, target):
+        if str(source).endswith("new"):
+            raise error
+        rename(source, target)
+
+    monkeypatch.setattr(os, "rename", failing)
+    with pytest.raises((OutputError, KeyboardInterrupt)):
+        fill(run)
+    assert tree(tmp_path) == ["run", "run/x"]
+    assert (run / "x").read_text() == "old"
+
+
+def test_folder_in_the_way(tmp_path):
+    with (
+        pytest.raises(OutputError, match=r"must not exist yet, but does: .* or --force"),
+        new_folder(tmp_path, force=False),
+    ):
+        pytest.fail("must not be entered")
+
+
+@pytest.mark.parametrize("kind", ["file", "folder"])
+def test_force_replaces(tmp_path, kind):
+    run = tmp_path / "run"
+    if kind == "file":
+        run.write_text("old")
+    else:
+        run.mkdir()
+        (run / "old").write_text("old")
+    fill(run)
+    assert tree(tmp_path) == ["run", "run/x"]
+
+
+def test_parent_is_a_file(tmp_path):
+    (tmp_path / "file").write_text("x")
+    with (
+        pytest.raises(OutputError, match="must be writable"),
+        new_folder(tmp_path / "file" / "run", force=False),
+    ):
+        pytest.fail("must not be entered")
+    with pytest.raises(OutputError, match="must be writable"):
+        write_file(tmp_path / "file" / "x.csv", "x", force=False)
+    assert tree(tmp_path) == ["file"]
+
+
+def test_name_too_long(tmp_path):
+    with pytest.raises(OutputError, match="File name too long"):
+        check_free(tmp_path / ("x" * 300), force=False)
+
+
+def test_file_is_written_with_the_usual_rights(tmp_path):
+    mask = os.umask(0o022)
+    try:
+        write_file(tmp_path / "a" / "x.csv", "é\n", force=False)
+    finally:
+        os.umask(mask)
+    path = tmp_path / "a" / "x.csv"
+    assert path.read_bytes() == "é\n".encode()
+    assert stat.S_IMODE(path.stat().st_mode) == 0o644
+    assert tree(tmp_path) == ["a", "a/x.csv"]
+
+
+def test_file_in_the_way(tmp_path):
+    path = tmp_path / "x.csv"
+    path.write_text("old")
+    with pytest.raises(OutputError, match="must not exist yet"):
+        write_file(path, "new", force=False)
+    assert path.read_text() == "old"
+    write_file(path, "new", force=True)
+    assert path.read_text() == "new"
+    with pytest.raises(OutputError, match="must be a file"):
+        write_file(tmp_path, "new", force=True)
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_failed_file_leaves_the_old_one(tmp_path, monkeypatch, error):
+    path = tmp_path / "x.csv"
+    path.write_text("old")
+
+    def failing(source, target):
+        raise error
+
+    monkeypatch.setattr(os, "replace", failing)
+    with pytest.raises((OutputError, KeyboardInterrupt)):
+        write_file(path, "new", force=True)
+    assert tree(tmp_path) == ["x.csv"]
+    assert path.read_text() == "old"

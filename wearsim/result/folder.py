@@ -1,0 +1,177 @@
+"""The folder of a result: written all of it or nothing, read back number by number."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wearsim.errors import OutputError
+from wearsim.geometry.profile import Vector
+from wearsim.output import new_folder
+from wearsim.result.life import Life, LowerBound
+
+if TYPE_CHECKING:
+    from wearsim.result.wear_result import WearResult
+
+SCHEMA_VERSION = 1
+
+HISTORY_COLUMNS = (
+    "cycles", "time_hours", "max_depth_mm", "peak_pressure_MPa", "max_sliding_speed_mm_per_s",
+    "removed_area_mm2", "worn_contact_ratio",
+)  # fmt: skip
+FLANK_COLUMNS = (
+    "cycles", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm", "pressure_MPa",
+    "sliding_speed_mm_per_s", "load_per_width_N_per_mm", "relative_curvature_per_mm",
+)  # fmt: skip
+
+_INPUTS = "inputs"
+_FILE_KEYS = (("sprocket", "points_file"), ("mechanism", "table_file"))
+
+
+def write_result(result: WearResult, folder: Path, force: bool) -> None:
+    """Write a result into a folder.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+    folder : pathlib.Path
+        New folder.
+    force : bool
+        Replace a folder that is there.
+
+    Raises
+    ------
+    OutputError
+        The folder is there, or cannot be written.
+    """
+    with new_folder(folder, force) as place:
+        lives = {name: asdict(getattr(result, name)) for name in ("life", "life_low", "life_high")}
+        _write_json(place / "result.json", {**result.summary(), "lives": lives})
+        _write_json(place / "environment.json", dict(result.environment))
+        (place / "case.lock.toml").write_text(_lock(result), encoding="utf-8")
+        for name, text in result.input_files.items():
+            (place / _INPUTS).mkdir(exist_ok=True)
+            (place / _INPUTS / name).write_text(text, encoding="utf-8")
+        result.history.to_csv(place / "history.csv", index=False)
+        result.flank.to_csv(place / "flank.csv", index=False)
+
+
+def _lock(result: WearResult) -> str:
+    import tomlkit
+
+    document = tomlkit.document()
+    document.add(tomlkit.comment(f"{result.case} with every default taken by wearsim"))
+    for key, value in _with_files(result.inputs, _INPUTS).items():
+        if value != {}:
+            document.add(key, value)
+    return tomlkit.dumps(document)
+
+
+def read_result(folder: Path) -> dict[str, Any]:
+    """Return the fields of a result that was written.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Folder with result.json.
+
+    Returns
+    -------
+    dict
+        Arguments of WearResult.
+
+    Raises
+    ------
+    OutputError
+        The folder does not hold a complete result of this version.
+    """
+    try:
+        return _stored(folder)
+    except OutputError:
+        raise
+    except (OSError, ValueError, TypeError, AttributeError, LookupError) as error:
+        raise OutputError(
+            f"{folder}: must be the folder of a result (result.json, case.lock.toml, "
+            f"environment.json, history.csv, flank.csv): {type(error).__name__} {error}"
+        ) from None
+
+
+def _stored(folder: Path) -> dict[str, Any]:
+    """Return the fields of a result in a folder."""
+    import tomllib
+
+    stored = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    version = stored.get("schema_version")
+    if version != SCHEMA_VERSION:
+        raise OutputError(
+            f"{folder}: result.json must have schema_version {SCHEMA_VERSION}, has "
+            f"{version!r}: read it with the wearsim that wrote it"
+        )
+    lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
+    inputs = _with_files(lock, "")
+    same = (
+        "case", "title", "band", "stop", "stop_value", "cycles_run", "hours_run", "speed_rpm",
+        "method", "updates", "numerical_error", "life_tolerance",
+    )  # fmt: skip
+    return {
+        **{name: stored[name] for name in same},
+        **{name: _life(life) for name, life in stored["lives"].items()},
+        "max_depth": stored["max_depth_mm"],
+        "max_depth_arc_length": stored["max_depth_arc_length_mm"],
+        "initial_peak_pressure": stored["initial_peak_pressure_MPa"],
+        "final_peak_pressure": stored["final_peak_pressure_MPa"],
+        "assumptions": tuple(stored["assumptions"]),
+        "warnings": tuple(stored["warnings"]),
+        "inputs": inputs,
+        "input_files": {
+            name: (folder / _INPUTS / name).read_text(encoding="utf-8") for name in _named(inputs)
+        },
+        "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS),
+        "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS),
+        "environment": json.loads((folder / "environment.json").read_text(encoding="utf-8")),
+    }
+
+
+def _life(stored: dict[str, float]) -> Life | LowerBound:
+    return Life(**stored) if "hours" in stored else LowerBound(**stored)
+
+
+def _named(inputs: Mapping[str, Any]) -> list[str]:
+    """Names of the CSV files in a case's tables."""
+    return [inputs[table][key] for table, key in _FILE_KEYS if key in inputs.get(table, {})]
+
+
+def _with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
+    """Return the tables with the CSV files that they name in another folder."""
+    moved = dict(inputs)
+    for table, key in _FILE_KEYS:
+        if key in inputs.get(table, {}):
+            name = PurePosixPath(folder, PurePosixPath(inputs[table][key]).name)
+            moved[table] = {**inputs[table], key: str(name)}
+    return moved
+
+
+def _write_json(path: Path, value: Mapping[str, Any]) -> None:
+    text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def _read_columns(path: Path, names: tuple[str, ...]) -> dict[str, Vector]:
+    with path.open(encoding="utf-8", newline="") as file:
+        head, *rows = csv.reader(file)
+    if not rows or tuple(head) != names:
+        raise ValueError(f"{path.name} must hold rows of {', '.join(names)}")
+    columns = dict(zip(names, zip(*rows, strict=True), strict=True))
+    return {
+        name: np.array([int(cell) for cell in cells])
+        if name == "node"
+        else np.array([float(cell or "nan") for cell in cells])
+        for name, cells in columns.items()
+    }

@@ -1,0 +1,66 @@
+"""A life, or what is known of one that was not reached."""
+
+from dataclasses import dataclass
+
+from wearsim.errors import LimitNotReachedError
+
+
+@dataclass(frozen=True)
+class Life:
+    """A life that was reached.
+
+    Attributes
+    ----------
+    cycles : float
+        Loading cycles of one gap.
+    hours : float
+        Running time [h], equation (13).
+    """
+
+    cycles: float
+    hours: float
+
+
+@dataclass(frozen=True)
+class LowerBound:
+    """A run that ended before any limit was met.
+
+    Attributes
+    ----------
+    cycles_run : float
+        Loading cycles that it covers.
+    hours_run : float
+        Running time that it covers [h].
+    """
+
+    cycles_run: float
+    hours_run: float
+
+    @property
+    def cycles(self) -> float:
+        """Raise: the life is not known.
+
+        Raises
+        ------
+        LimitNotReachedError
+            Always, with the bound.
+        """
+        raise LimitNotReachedError(self._message)
+
+    @property
+    def hours(self) -> float:
+        """Raise: the life is not known.
+
+        Raises
+        ------
+        LimitNotReachedError
+            Always, with the bound.
+        """
+        raise LimitNotReachedError(self._message)
+
+    @property
+    def _message(self) -> str:
+        return (
+            f"life: no limit was met within {self.hours_run:g} h ({self.cycles_run:g} cycles), the "
+            "life is longer: raise run.horizon_hours"
+        )

@@ -1,0 +1,212 @@
+"""What a simulation hands back: complete, immutable, saves and loads itself."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import wearsim
+from wearsim.geometry.profile import Vector
+from wearsim.kernels.compiled import source_hash
+from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
+from wearsim.result.life import Life, LowerBound
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, eq=False)
+class WearResult:
+    """The life of one case and the flank on the way to it.
+
+    Attributes
+    ----------
+    case, title : str
+        Name and title of the case.
+    life : Life or LowerBound
+        With the coefficient of the case.
+    life_low, life_high : Life or LowerBound
+        With the coefficient at the high and at the low end of its band.
+    band : str
+        Where the band comes from.
+    stop : str
+        The limit that ended the life, or ``horizon_hours``.
+    stop_value : float
+        Value of that limit, in the unit of its key.
+    cycles_run, hours_run : float
+        What the run covers.
+    max_depth : float
+        Depth at the deepest point at the end [mm].
+    max_depth_arc_length : float
+        Where it lies on the unworn flank from the root [mm].
+    initial_peak_pressure, final_peak_pressure : float
+        Highest Hertz pressure along the flank [MPa].
+    speed_rpm : float
+        Speed of the sprocket.
+    method : str
+        ``advance`` or ``per_cycle``.
+    updates : int
+        Evaluations of the wear rate.
+    numerical_error : float
+        Estimated relative error of the life by steps and grid.
+    life_tolerance : float
+        What was asked for.
+    assumptions, warnings : tuple of str
+        What was taken for granted, and what the user should look at.
+    inputs : mapping
+        All tables of the case with every default taken.
+    input_files : mapping
+        Text of every file that the case read, by name.
+    history_columns, flank_columns : mapping
+        Columns of ``history`` and ``flank`` as arrays.
+    environment : mapping
+        Versions and platform.
+    """
+
+    case: str
+    title: str
+    life: Life | LowerBound
+    life_low: Life | LowerBound
+    life_high: Life | LowerBound
+    band: str
+    stop: str
+    stop_value: float
+    cycles_run: float
+    hours_run: float
+    max_depth: float
+    max_depth_arc_length: float
+    initial_peak_pressure: float
+    final_peak_pressure: float
+    speed_rpm: float
+    method: str
+    updates: int
+    numerical_error: float
+    life_tolerance: float
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+    inputs: Mapping[str, Any]
+    input_files: Mapping[str, str]
+    history_columns: Mapping[str, Vector]
+    flank_columns: Mapping[str, Vector]
+    environment: Mapping[str, str]
+
+    @property
+    def cycles(self) -> float:
+        """Loading cycles to the first limit; raises where it was not reached."""
+        return self.life.cycles
+
+    @cached_property
+    def history(self) -> pd.DataFrame:
+        """The run over time, a row for every snapshot."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(self.history_columns))
+
+    @cached_property
+    def flank(self) -> pd.DataFrame:
+        """The worn flank, a row for every snapshot and point."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(self.flank_columns))
+
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as ``wearsim life --json`` prints it.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+        reached = isinstance(self.life, Life)
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "case": self.case,
+            "title": self.title,
+            "life_hours": _hours(self.life),
+            "cycles": self.life.cycles if isinstance(self.life, Life) else None,
+            "life_reached": reached,
+            "hours_run": self.hours_run,
+            "cycles_run": self.cycles_run,
+            "life_hours_low": _hours(self.life_low),
+            "life_hours_high": _hours(self.life_high),
+            "band": self.band,
+            "stop": self.stop,
+            "stop_value": self.stop_value,
+            "max_depth_mm": self.max_depth,
+            "max_depth_arc_length_mm": self.max_depth_arc_length,
+            "initial_peak_pressure_MPa": self.initial_peak_pressure,
+            "final_peak_pressure_MPa": self.final_peak_pressure,
+            "speed_rpm": self.speed_rpm,
+            "method": self.method,
+            "updates": self.updates,
+            "numerical_error": self.numerical_error,
+            "life_tolerance": self.life_tolerance,
+            "assumptions": list(self.assumptions),
+            "warnings": list(self.warnings),
+        }
+
+    def save(self, folder: str | Path, force: bool = False) -> None:
+        """Write the result into a folder, all of it or nothing.
+
+        Parameters
+        ----------
+        folder : path
+            New folder for result.json, case.lock.toml, environment.json, history.csv,
+            flank.csv and ``inputs`` with the CSV files of the case.
+        force : bool
+            Replace a folder that is there.
+
+        Raises
+        ------
+        OutputError
+            The folder is there, or cannot be written.
+        """
+        write_result(self, Path(folder), force)
+
+    @classmethod
+    def load(cls, folder: str | Path) -> WearResult:
+        """Read a result that was saved.
+
+        Parameters
+        ----------
+        folder : path
+            Folder with result.json.
+
+        Returns
+        -------
+        WearResult
+            Equal to what was saved, number by number.
+
+        Raises
+        ------
+        OutputError
+            The folder does not hold a complete result of this version.
+        """
+        return cls(**read_result(Path(folder)))
+
+
+def environment() -> dict[str, str]:
+    """Return what a result depends on beside its inputs.
+
+    Returns
+    -------
+    dict
+        Versions of wearsim and its numerical libraries, Python, platform, kernel hash.
+    """
+    libraries = ("numpy", "scipy", "shapely", "numba", "pandas", "pydantic")
+    return {
+        "wearsim": wearsim.__version__,
+        "kernels": source_hash(),
+        "python": platform.python_version(),
+        "platform": f"{platform.system()} {platform.machine()}",
+        **{name: metadata.version(name) for name in libraries},
+    }
+
+
+def _hours(life: Life | LowerBound) -> float | None:
+    return life.hours if isinstance(life, Life) else None
