@@ -142,13 +142,13 @@ class Strand:
         Returns
         -------
         numpy.ndarray
-            Coordinates [mm], shape (n, 2): beyond the pole on the common normal, at the
-            distance l / (1 + l^2 / (R h)) from the roller centre's side of it.
+            Coordinates [mm], shape (n, 2): on the common normal between roller
+            centre and pole, at the distance l / (1 + l^2 / (R h)) from the pole.
         """
         x = np.asarray(x, dtype=float)
         distance = self.pole_distance(x)
-        beyond = (self.flank_radius(x) - self.roller_radius) / distance
-        return self._turned(-x + beyond * x, self.height + beyond * self.offset, x)
+        part = (self.flank_radius(x) - self.roller_radius) / distance
+        return self._turned(-x + part * x, self.height + part * self.offset, x)
 
     def _turned(self, x_fixed: Vector, y_fixed: Vector, x: Vector) -> Vector:
         cosine, sine = np.cos(x / self.centrode_radius), np.sin(x / self.centrode_radius)
@@ -203,7 +203,7 @@ def evolute_flank(
     Returns
     -------
     EvoluteFlank
-        Points within 1e-9 mm of the closed form.
+        Points within 1e-9 mm of the closed form, from eleven nodes on.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def grid_error(
     Returns
     -------
     float
-        Relative difference; an upper estimate, as the error falls with the spacing.
+        Relative difference, an estimate of the error of the finer grid.
     """
     coarse, _ = run_advance(contact.coarsened(), law, criteria, horizon, life_tolerance)
     return difference(run, coarse)
