@@ -1,13 +1,28 @@
 """Normals and curvature of a flank given by its points."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import VECTOR, int64, void
 
+if TYPE_CHECKING:
+    from wearsim.kernels.signatures import Vector
+
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64))
-def _end_frame(x, y, normal_x, normal_y, curvature, spacing_squared, end, inward):  # type: ignore[no-untyped-def]
+def _end_frame(
+    x: Vector,
+    y: Vector,
+    normal_x: Vector,
+    normal_y: Vector,
+    curvature: Vector,
+    spacing_squared: Vector,
+    end: int,
+    inward: int,
+) -> None:
     """Write the frame of an end point from the parabola through the three end points."""
     ax, ay = x[end + inward] - x[end], y[end + inward] - y[end]
     bx, by = x[end + 2 * inward] - x[end + inward], y[end + 2 * inward] - y[end + inward]
@@ -23,7 +38,14 @@ def _end_frame(x, y, normal_x, normal_y, curvature, spacing_squared, end, inward
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
-def flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared):  # type: ignore[no-untyped-def]
+def flank_frame(
+    x: Vector,
+    y: Vector,
+    normal_x: Vector,
+    normal_y: Vector,
+    curvature: Vector,
+    spacing_squared: Vector,
+) -> None:
     """Write normal, signed curvature and squared spacing at every point.
 
     An inner point takes them from the circle through it and its neighbours, an end

@@ -1,13 +1,31 @@
 """Contact of a flank whose load and sliding are given along the arc."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT
 
+if TYPE_CHECKING:
+    from wearsim.kernels.signatures import Vector
+
 
 @kernel(CONTACT)
-def prescribed_contact(  # type: ignore[no-untyped-def]
-    x, y, normal_x, normal_y, curvature, depth, constants, columns, load, slip, speed, relative
-):
+def prescribed_contact(
+    x: Vector,
+    y: Vector,
+    normal_x: Vector,
+    normal_y: Vector,
+    curvature: Vector,
+    depth: Vector,
+    constants: Vector,
+    columns: Vector,
+    load: Vector,
+    slip: Vector,
+    speed: Vector,
+    relative: Vector,
+) -> None:
     """Write the given load, slip and speed, and the relative curvature of the worn flank.
 
     Offset form: the relative curvature is the given one plus the second difference of

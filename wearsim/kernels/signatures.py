@@ -1,6 +1,14 @@
 """Types shared by the kernels; CONTACT is the seam between a mechanism and the wear loops."""
 
+from typing import TYPE_CHECKING
+
 from numba import float64, int64, types, void
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Vector = NDArray[np.float64]
 
 VECTOR = float64[::1]
 TABLE = float64[:, ::1]

@@ -1,15 +1,32 @@
 """Contact of a worn flank with the rollers of a straight strand (a pin rack)."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT
 
+if TYPE_CHECKING:
+    from wearsim.kernels.signatures import Vector
+
 
 @kernel(CONTACT)
-def strand_contact(  # type: ignore[no-untyped-def]
-    x, y, normal_x, normal_y, curvature, depth, constants, columns, load, slip, speed, relative
-):
+def strand_contact(
+    x: Vector,
+    y: Vector,
+    normal_x: Vector,
+    normal_y: Vector,
+    curvature: Vector,
+    depth: Vector,
+    constants: Vector,
+    columns: Vector,
+    load: Vector,
+    slip: Vector,
+    speed: Vector,
+    relative: Vector,
+) -> None:
     """Write load per width, slip ratio, sliding speed and relative curvature at every point.
 
     The roller centre is one roller radius off the point along the normal and must lie

@@ -1,16 +1,33 @@
 """Hertz pressure, depth per cycle and the loop over loading cycles."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank import flank_frame
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wearsim.kernels.signatures import Vector
+
 RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED = 0, 1, 2, 3, 4
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
-def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # type: ignore[no-untyped-def]
+def wear_depth(
+    load: Vector,
+    slip: Vector,
+    speed: Vector,
+    relative: Vector,
+    modulus: float,
+    law: Vector,
+    pressure: Vector,
+    depth: Vector,
+) -> None:
     """Write the Hertz pressure and the depth worn off in one cycle at every point.
 
     ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
@@ -43,7 +60,9 @@ def wear_depth(load, slip, speed, relative, modulus, law, pressure, depth):  # t
 
 
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64))
-def update_status(load, relative, step, spacing_squared, diffusion):  # type: ignore[no-untyped-def]
+def update_status(
+    load: Vector, relative: Vector, step: Vector, spacing_squared: Vector, diffusion: float
+) -> int:
     """Tell whether an update may be made: RUNNING, or what forbids it.
 
     CONFORMING where Hertz fails at a loaded point (or its curvature is not a number) or
@@ -70,10 +89,22 @@ def update_status(load, relative, step, spacing_squared, diffusion):  # type: ig
         float64, VECTOR, float64, float64, float64, int64, VECTOR,
     )
 )  # fmt: skip
-def run_cycles(  # type: ignore[no-untyped-def]
-    contact, x, y, depth, constants, columns, work,
-    modulus, law, diffusion, cycles_per_update, critical_depth, updates, done,
-):  # fmt: skip
+def run_cycles(
+    contact: Callable[..., None],
+    x: Vector,
+    y: Vector,
+    depth: Vector,
+    constants: Vector,
+    columns: Vector,
+    work: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    cycles_per_update: float,
+    critical_depth: float,
+    updates: int,
+    done: Vector,
+) -> int:
     """Wear the flank update by update, equations (10) to (12), in place.
 
     Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
