@@ -4,7 +4,7 @@ Expected: the life of the reference run (two independent programs). The points a
 flank in closed form, 200 of them at equal steps of the roller's way, with 0.1 um of normally
 distributed noise on each coordinate, several seeds. Seen over 12 seeds, the range of contact
 taken from the points themselves: m = 1 within 0.18 %, m = 1.5 within 0.33 %, m = 2 within
-0.52 % of the analytic life; with the range given, 0.06 % for all three.
+0.52 % of the analytic life; with the range given, 0.03 % for all three.
 """
 
 from collections.abc import Callable

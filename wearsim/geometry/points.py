@@ -1,11 +1,16 @@
 """A flank from measured or drawn points, through a smoothing spline."""
 
 import math
+import warnings
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.profile import Profile, Vector
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 
 def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile:
@@ -34,12 +39,8 @@ def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile
     GeometryError
         The flank crosses itself.
     """
-    from scipy.interpolate import make_splprep
-
     chord = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-    # Both coordinates are fitted together: 2 n squared residuals of noise^2 each.
-    allowed = 2.0 * x.size * noise**2
-    spline, _ = make_splprep([x, y], u=chord, k=5, s=allowed)
+    spline = _smoothing_spline(x, y, chord, noise)
     fine = np.linspace(0.0, chord[-1], 20 * nodes + 1)
     speed = np.hypot(*spline.derivative()(fine))
     arc = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
@@ -50,6 +51,28 @@ def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile
             "points: the flank must not cross itself, but does: check the order of the points"
         )
     return profile
+
+
+def _smoothing_spline(x: Vector, y: Vector, chord: Vector, noise: float) -> "BSpline":
+    """Fit both coordinates over the chord length with squared residuals of n noise^2 in all.
+
+    That is the noise across the flank; along it the chord length takes the noise up. The
+    fit is loosened step by step where it does not converge.
+    """
+    from scipy.interpolate import make_splprep
+
+    for loosened in (1.0, 1.5, 2.0):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", RuntimeWarning)
+                spline, _ = make_splprep([x, y], u=chord, k=5, s=loosened * x.size * noise**2)
+        except RuntimeWarning:
+            continue
+        return spline
+    raise GeometryError(
+        f"points: a smooth curve must pass within {noise:g} mm of the points, but none was found: give "
+        "a larger points_noise_mm"
+    )
 
 
 def working_side(profile: Profile) -> Profile:
