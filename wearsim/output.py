@@ -32,6 +32,47 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
+_FIGURES = ("flanks", "along_flank", "depth_over_hours")
+_WRITTEN = {
+    *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
+    *("summary.csv", "summary.md"),
+    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
+}
+"""What wearsim itself puts into a folder."""
+
+
+def check_folder(folder: Path, force: bool) -> None:
+    """Raise where a folder cannot be made or replaced without loss.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Place to write to.
+    force : bool
+        Whether a folder that wearsim wrote may be replaced.
+
+    Raises
+    ------
+    OutputError
+        Something is there that may not be replaced, or that wearsim did not write.
+    """
+    check_free(folder, force)
+    if not folder.exists():
+        return
+    if not folder.is_dir():
+        raise OutputError(
+            f"{folder}: must be a folder to be replaced, but is a file: choose another place"
+        )
+    foreign = sorted(entry.name for entry in folder.iterdir() if entry.name not in _WRITTEN)
+    if foreign:
+        raise OutputError(
+            f"{folder}: must hold nothing but a result to be replaced, but holds {foreign[0]}: choose "
+            "another place"
+        )
+    if Path.cwd().is_relative_to(folder.resolve()):
+        raise OutputError(f"{folder}: must not be the folder you are in: choose another place")
+
+
 @contextlib.contextmanager
 def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     """Give a temporary folder that takes its final name when all of it is written.
@@ -53,7 +94,8 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     OutputError
         The place is taken or cannot be written.
     """
-    check_free(folder, force)
+    check_folder(folder, force)
+    folder = folder.resolve()
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as beside:
@@ -68,8 +110,6 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
                 if old.exists() and not folder.exists():
                     os.rename(old, folder)
                 raise
-            if old.is_file():
-                old.unlink()
     except OSError as error:
         if isinstance(error, OutputError):
             raise

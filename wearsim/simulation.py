@@ -20,6 +20,9 @@ from wearsim.wear.law import Law, archard, drozdov, power
 from wearsim.wear.per_cycle import run_per_cycle
 from wearsim.wear.trajectory import Trajectory
 
+_FEW_CYCLES = 1000
+"""Life below which a coefficient is doubtful."""
+
 _WIDE = 0.1
 """Half-width over roller radius above which Hertz's half-spaces are doubtful."""
 
@@ -61,17 +64,21 @@ def simulate(case: Case) -> WearResult:
     mechanism = _mechanism(case)
     law, criteria = _law(case.wear, case.wear.coefficient), _criteria(case)
     horizon = case.run.horizon_hours * case.cycles_per_hour
-    run, step_error = _run(case, mechanism.contact, law, criteria, horizon)
+    warnings = list(case.warnings)
+    run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
     if not Profile(run.x[-1], run.y[-1]).is_simple:
         raise ConvergenceError(
             f"wear at cycle {run.cycles[-1]:.6g}: the worn flank must not cross itself, but does: stop "
             "at a smaller critical_depth_mm"
         )
-    warnings = list(case.warnings)
     error = _numerical_error(case, mechanism.contact, law, criteria, run, step_error, warnings)
     history, flank = _tables(case, mechanism, run)
     warnings += _validity(mechanism.contact, history, flank)
-    low, high = _band(case, mechanism.contact, criteria, run, horizon)
+    low, high = _band(case, mechanism.contact, criteria, run, horizon, warnings)
+    if run.met is not None and run.cycles[-1] < _FEW_CYCLES:
+        warnings.append(
+            f"the life is only {run.cycles[-1]:.3g} cycles: check the wear coefficient and its unit"
+        )
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -163,12 +170,21 @@ def _criteria(case: Case) -> tuple[Criterion, ...]:
 
 
 def _run(
-    case: Case, contact: Contact, law: Law, criteria: tuple[Criterion, ...], horizon: float
+    case: Case,
+    contact: Contact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    warnings: list[str],
 ) -> tuple[Trajectory, float]:
     if case.run.method == "advance":
         return run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
     run = run_per_cycle(contact, law, criteria, horizon, case.run.cycles_per_update)
-    check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    try:
+        check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    except WearsimError as reason:
+        warnings.append(f"the error of the steps could not be estimated by advance: {reason}")
+        return run, 0.0
     return run, change + difference(run, check)
 
 
@@ -280,6 +296,7 @@ def _band(
     criteria: tuple[Criterion, ...],
     run: Trajectory,
     horizon: float,
+    warnings: list[str],
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
@@ -290,7 +307,13 @@ def _band(
         )
         return low, high
     law = _law(case.wear, case.wear.coefficient * case.wear.high)
-    worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    try:
+        worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    except WearsimError as reason:
+        # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
+        warnings.append(f"no life with the wear coefficient at its high end: {reason}")
+        cycles = float(run.cycles[-1]) / case.wear.high
+        return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
 
 

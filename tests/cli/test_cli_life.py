@@ -17,7 +17,9 @@ KEYS = (
     "warnings",
 )  # fmt: skip
 
-TOO_DEEP = {"critical_depth_mm": 100, "condition": '"soil-contaminated"'}
+TOO_COARSE = {
+    "critical_depth_mm": '0.02\n[run]\nmethod = "per_cycle"\ncycles_per_update = 100000000'
+}
 """Deeper than the tooth: the contact ends before the limit is met."""
 
 
@@ -111,12 +113,12 @@ def test_json_of_a_bad_override(cli, drive, conforms):
 
 
 def test_json_of_a_failed_calculation(cli, drive, conforms):
-    done = cli("life", "--json", drive(**TOO_DEEP))
+    done = cli("life", "--json", drive(**TOO_COARSE))
     assert done.code == 3
     line = strict(done.out)
     conforms(line)
-    assert line["error"]["kind"] == "ContactError"
-    assert line["error"]["message"].startswith("contact at cycle ")
+    assert line["error"]["kind"] == "ConvergenceError"
+    assert line["error"]["message"].startswith("wear at cycle ")
     assert line["error"]["message"] in done.err
 
 
@@ -187,7 +189,7 @@ def test_every_case_that_misses_is_named(cli, drive):
 
 
 def test_some_of_several_fail(cli, drive, conforms, tmp_path):
-    cases = (drive("one"), drive("two", **TOO_DEEP), drive("three"))
+    cases = (drive("one"), drive("two", **TOO_COARSE), drive("three"))
     done = cli("life", "--json", *cases, "--out", tmp_path / "out")
     assert done.code == 5
     lines = [strict(line) for line in done.out.splitlines()]
@@ -199,9 +201,9 @@ def test_some_of_several_fail(cli, drive, conforms, tmp_path):
 
 
 def test_all_of_several_fail(cli, drive):
-    done = cli("life", drive("one", **TOO_DEEP), drive("two", **TOO_DEEP))
+    done = cli("life", drive("one", **TOO_COARSE), drive("two", **TOO_COARSE))
     assert (done.code, done.out) == (3, "")
-    assert done.err.count("contact at cycle ") == 2
+    assert done.err.count("wear at cycle ") == 2
 
 
 def test_next_command_can_be_pasted(cli, drive):

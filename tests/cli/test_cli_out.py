@@ -59,7 +59,7 @@ def test_faulty_case_stops_all_before_the_first_runs(cli, drive, tmp_path, monke
 def test_force_replaces(cli, drive, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
-    (out / "old").write_text("old")
+    (out / "summary.csv").write_text("old")
     assert cli("life", drive(), "--out", out, "--force").code == 0
     assert names(out) == FILES
 

@@ -15,16 +15,16 @@ def tree(folder):
 
 def fill(run, error=None):
     with new_folder(run, force=True) as place:
-        (place / "x").write_text("new")
+        (place / "history.csv").write_text("new")
         if error:
             raise error
 
 
 def test_new_folder_takes_its_name_when_complete(tmp_path):
     with new_folder(tmp_path / "a" / "run", force=False) as place:
-        (place / "x").write_text("new")
+        (place / "history.csv").write_text("new")
         assert not (tmp_path / "a" / "run").exists()
-    assert tree(tmp_path) == ["a", "a/run", "a/run/x"]
+    assert tree(tmp_path) == ["a", "a/run", "a/run/history.csv"]
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
@@ -33,19 +33,19 @@ def test_failure_leaves_the_old_or_nothing(tmp_path, error, old):
     run = tmp_path / "run"
     if old:
         run.mkdir()
-        (run / "x").write_text("old")
+        (run / "history.csv").write_text("old")
     expected = OutputError if isinstance(error, OSError) else KeyboardInterrupt
     with pytest.raises(expected):
         fill(run, error)
-    assert tree(tmp_path) == (["run", "run/x"] if old else [])
-    assert not old or (run / "x").read_text() == "old"
+    assert tree(tmp_path) == (["run", "run/history.csv"] if old else [])
+    assert not old or (run / "history.csv").read_text() == "old"
 
 
 @pytest.mark.parametrize("error", [OSError(5, "Input/output error"), KeyboardInterrupt()])
 def test_failure_of_the_last_rename_brings_the_old_back(tmp_path, monkeypatch, error):
     run = tmp_path / "run"
     run.mkdir()
-    (run / "x").write_text("old")
+    (run / "history.csv").write_text("old")
     rename = os.rename
 
     def failing(source, target):
@@ -56,8 +56,8 @@ def test_failure_of_the_last_rename_brings_the_old_back(tmp_path, monkeypatch, e
     monkeypatch.setattr(os, "rename", failing)
     with pytest.raises((OutputError, KeyboardInterrupt)):
         fill(run)
-    assert tree(tmp_path) == ["run", "run/x"]
-    assert (run / "x").read_text() == "old"
+    assert tree(tmp_path) == ["run", "run/history.csv"]
+    assert (run / "history.csv").read_text() == "old"
 
 
 def test_folder_in_the_way(tmp_path):
@@ -68,16 +68,20 @@ def test_folder_in_the_way(tmp_path):
         pytest.fail("must not be entered")
 
 
-@pytest.mark.parametrize("kind", ["file", "folder"])
-def test_force_replaces(tmp_path, kind):
+def test_force_replaces_a_folder(tmp_path):
     run = tmp_path / "run"
-    if kind == "file":
-        run.write_text("old")
-    else:
-        run.mkdir()
-        (run / "old").write_text("old")
+    run.mkdir()
+    (run / "flank.csv").write_text("old")
     fill(run)
-    assert tree(tmp_path) == ["run", "run/x"]
+    assert tree(tmp_path) == ["run", "run/history.csv"]
+
+
+def test_force_does_not_replace_a_file(tmp_path):
+    run = tmp_path / "run"
+    run.write_text("old")
+    with pytest.raises(OutputError, match="is a file"):
+        fill(run)
+    assert run.read_text() == "old"
 
 
 def test_parent_is_a_file(tmp_path):
@@ -88,13 +92,13 @@ def test_parent_is_a_file(tmp_path):
     ):
         pytest.fail("must not be entered")
     with pytest.raises(OutputError, match="must be writable"):
-        write_file(tmp_path / "file" / "x.csv", "x", force=False)
+        write_file(tmp_path / "file" / "x.csv", "history.csv", force=False)
     assert tree(tmp_path) == ["file"]
 
 
 def test_name_too_long(tmp_path):
     with pytest.raises(OutputError, match="File name too long"):
-        check_free(tmp_path / ("x" * 300), force=False)
+        check_free(tmp_path / ("history.csv" * 300), force=False)
 
 
 def test_file_is_written_with_the_usual_rights(tmp_path):

@@ -1,5 +1,7 @@
 """The working flank of a sprocket, completed: an evolute one, or one through points."""
 
+import math
+
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
 from wearsim.case.tables import read_points
@@ -13,11 +15,12 @@ from wearsim.geometry.feasibility import (
     smallest_offset,
     tooth_limits,
 )
-from wearsim.geometry.points import contact_range, flank_from_points, working_side
+from wearsim.geometry.points import contact_range, flank_from_points, phase_error, working_side
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05
+_PHASE_TOLERANCE = math.radians(0.1)
 POINTS_NOISE = 1e-4
 """Error of a flank's points assumed where none is given [mm]."""
 
@@ -146,6 +149,7 @@ def points_tooth(
     try:
         flank = working_side(flank_from_points(*points, noise, table.nodes))
         reached = contact_range(flank, strand.height, strand.roller_radius)
+        turned = phase_error(flank, strand)
     except GeometryError as error:
         faults.add("sprocket.points_file", str(error))
         return None
@@ -164,6 +168,12 @@ def points_tooth(
             f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
         )
         return None
+    if abs(turned) > _PHASE_TOLERANCE:
+        case.warnings.append(
+            f"the points are turned by {math.degrees(turned):.3g} degrees against a gap centred on +y: "
+            "turned back for the tooth around them"
+        )
+        flank = flank.rotated(-turned)
     _check_reach(case, (end, start), reached, 0.01 * chain.pitch)
     case.assumptions.append(
         "the flank is a quintic smoothing spline through the points, their error taken as "

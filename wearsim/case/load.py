@@ -126,15 +126,23 @@ def _read(path: Path) -> tuple[str, dict[str, Any]]:
         raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
 
 
+def _bare(raw: str) -> float | str:
+    """Return what is not TOML: a number such as .5, else the text itself."""
+    try:
+        return float(raw)
+    except ValueError:
+        return raw
+
+
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
     key, raw = key.strip(), raw.strip()
-    if not equals or not key:
+    if not equals or not all(key.split(".")):
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:
         value = tomllib.loads(f"value = {raw}")["value"]
     except (ValueError, RecursionError):
-        value = raw
+        value = _bare(raw)
     *tables, last = key.split(".")
     place: Any = data
     for table in tables:

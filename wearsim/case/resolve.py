@@ -14,6 +14,9 @@ from wearsim.contact.hertz import contact_modulus
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
 
+_DEEP = 0.3
+"""Critical depth over tooth thickness above which the tooth itself is in doubt."""
+
 _PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
 
 
@@ -182,6 +185,7 @@ def _condition(case: Resolution, table: WearTable, name: str) -> WearInput:
 def _critical_depth(case: Resolution, drive: StrandDrive | PrescribedDrive | None) -> float:
     given = case.tables.stop.critical_depth_mm
     if given is not None:
+        _check_depth(case, drive, given)
         return given
     if isinstance(drive, StrandDrive):
         depth = float(f"{0.1 * drive.tooth.pitch_line_thickness:.4g}")
@@ -190,11 +194,35 @@ def _critical_depth(case: Resolution, drive: StrandDrive | PrescribedDrive | Non
                 "stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line"
             )
             return depth
+        case.faults.add(
+            "stop.critical_depth_mm",
+            "required: the tooth has no thickness at the pitch line to derive it from: give it, or "
+            "check the points of the flank",
+        )
     if isinstance(drive, PrescribedDrive):
         case.faults.add(
             "stop.critical_depth_mm", "required: a table of loads has no tooth to derive it from"
         )
     return math.nan
+
+
+def _check_depth(
+    case: Resolution, drive: StrandDrive | PrescribedDrive | None, depth: float
+) -> None:
+    """Compare a given critical depth with the tooth that has to bear it."""
+    if not isinstance(drive, StrandDrive):
+        return
+    neck, thickness = drive.tooth.neck, drive.tooth.pitch_line_thickness
+    if depth >= neck > 0.0:
+        case.faults.add(
+            "stop.critical_depth_mm",
+            f"must be below the thickness of the tooth at its neck, {neck:.4g} mm (got {depth:g})",
+        )
+    elif depth > _DEEP * thickness > 0.0:
+        case.warnings.append(
+            f"critical depth {depth:g} mm is more than {_DEEP:g} of the tooth thickness "
+            f"{thickness:.3g} mm at the pitch line: the tooth may break first"
+        )
 
 
 def _check_tip_land(

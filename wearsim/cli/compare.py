@@ -39,9 +39,9 @@ def compare(
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
     pressure and sliding along them, and of depth against hours.
     """
-    from wearsim.output import check_free
+    from wearsim.output import check_folder
 
-    check_free(out, force)
+    check_folder(out, force)
     found = _results(sources, settings, as_json)
     from wearsim.report.compare import distinct, save_comparison
 

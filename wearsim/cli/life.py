@@ -98,12 +98,12 @@ def _with_horizon(case: "Case", hours: float) -> "Case":
 
 
 def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Path | None]:
-    from wearsim.output import check_free
+    from wearsim.output import check_folder
 
     if out is None:
         return [None] * len(cases)
     if len(cases) == 1:
-        check_free(out, force)
+        check_folder(out, force)
         return [out]
     twice = [stem for stem, count in Counter(path.stem for path in cases).items() if count > 1]
     if twice:
@@ -112,7 +112,7 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
         )
     folders: list[Path | None] = []
     for path in cases:
-        check_free(out / path.stem, force)
+        check_folder(out / path.stem, force)
         folders.append(out / path.stem)
     return folders
 

@@ -2,8 +2,10 @@
 
 import errno
 import os
+import signal
 import sys
 import traceback
+from types import FrameType
 
 import click
 
@@ -43,8 +45,21 @@ for _command in (life, check, profile, compare, init, schema, list_table):
     wearsim_command.add_command(_command)
 
 
+class _Interrupt:
+    """Ctrl-C, remembered: compiled code that it hits may raise something else instead."""
+
+    seen = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        self.seen = True
+        raise KeyboardInterrupt
+
+
 def main() -> None:
     """Run the command line and exit with its code."""
+    interrupt = _Interrupt()
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
     try:
         if "_WEARSIM_COMPLETE" in os.environ:
             wearsim_command.main(prog_name="wearsim")
@@ -59,10 +74,7 @@ def main() -> None:
         error.show()
         sys.exit(error.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        click.echo(
-            "interrupted: nothing half-written is left; run the same command again", err=True
-        )
-        sys.exit(130)
+        sys.exit(_interrupted())
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
@@ -70,7 +82,12 @@ def main() -> None:
         show_error(error)
         sys.exit(exit_code(error))
     except Exception as error:
-        sys.exit(_unexpected(error))
+        sys.exit(_interrupted() if interrupt.seen else _unexpected(error))
+
+
+def _interrupted() -> int:
+    click.echo("interrupted: nothing half-written is left; run the same command again", err=True)
+    return 130
 
 
 def _unexpected(error: Exception) -> int:

@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.cli.standard import load_cases, overrides, standard
+from wearsim.errors import OutputError
 
 
 @click.command(short_help="The working flank as a CSV file of points.")
@@ -22,6 +23,8 @@ def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> No
 
     if str(out) != "-":
         check_free(out, force)
+        if out.resolve() == case.resolve():
+            raise OutputError(f"{out}: must not be the case itself: choose another place")
     (loaded,) = load_cases([case], settings, as_json=False)
     from wearsim.report.profile import profile_table
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim.errors import GeometryError
+from wearsim.geometry.evolute import Strand
 from wearsim.geometry.profile import Profile, Vector
 
 if TYPE_CHECKING:
@@ -91,6 +92,33 @@ def working_side(profile: Profile) -> Profile:
     if float(profile.x.mean()) <= 0.0:
         return profile
     return Profile(-profile.x, profile.y)
+
+
+def phase_error(profile: Profile, strand: Strand) -> float:
+    """Return by how much a flank is turned against the gap's centre line on +y.
+
+    The sprocket turns by psi = x/R while the roller comes in, so the turn at which a point
+    touches tells where the centre line of its gap is.
+
+    Parameters
+    ----------
+    profile : Profile
+        The flank, root to tip; a roller on the strand reaches both ends.
+    strand : Strand
+        Sprocket and line of roller centres.
+
+    Returns
+    -------
+    float
+        Angle [rad], counterclockwise positive, median over the points.
+    """
+    centre_x = profile.x + strand.roller_radius * profile.normal_x
+    centre_y = profile.y + strand.roller_radius * profile.normal_y
+    inside = np.maximum(centre_x**2 + centre_y**2 - strand.height**2, 0.0)
+    distance = np.sqrt(inside)
+    turn = np.arctan2(strand.height, -distance) - np.arctan2(centre_y, centre_x)
+    error = distance / strand.centrode_radius - turn
+    return float(np.median(np.angle(np.exp(1j * error))))
 
 
 def contact_range(profile: Profile, height: float, roller_radius: float) -> tuple[float, float]:

@@ -1,5 +1,11 @@
 """The reference run: equations (10) to (12) cycle by cycle."""
 
+import contextlib
+import signal
+import threading
+from collections.abc import Iterator
+from types import FrameType
+
 import numpy as np
 
 from wearsim.contact.engagement import Contact
@@ -12,6 +18,23 @@ from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check
 
 _BLOCK = 50_000
 """Updates between two looks at the keyboard: compiled code does not see an interrupt."""
+
+
+@contextlib.contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold Ctrl-C back until compiled code has returned: numba may swallow it on the way in."""
+    held: list[tuple[int, FrameType | None]] = []
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(before):
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda number, frame: held.append((number, frame)))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if held:
+        before(*held[0])
 
 
 class _Run:
@@ -55,11 +78,12 @@ class _Run:
 
     def _block(self, depth: float, updates: int) -> int:
         done = np.zeros(1)
-        status = run_cycles(
-            self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
-            self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
-            self.cycles_per_update, depth, updates, done,
-        )  # fmt: skip
+        with _interrupts_held():
+            status = run_cycles(
+                self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
+                self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
+                self.cycles_per_update, depth, updates, done,
+            )  # fmt: skip
         self.updates += int(done[0])
         return int(status)
 
