@@ -183,8 +183,10 @@ def _run(
     try:
         check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
     except WearsimError as reason:
-        warnings.append(f"the error of the steps could not be estimated by advance: {reason}")
-        return run, 0.0
+        warnings.append(
+            f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
+        )
+        return run, 1.0
     return run, change + difference(run, check)
 
 
@@ -204,9 +206,9 @@ def _numerical_error(
         error = step_error + grid_error(run, contact, law, criteria, horizon, tolerance)
     except WearsimError as reason:
         warnings.append(
-            f"the error of the grid could not be estimated on half the points: {reason}"
+            f"the error of the grid could not be estimated on half the points, 100 % is stated: {reason}"
         )
-        return step_error
+        return 1.0
     if error > tolerance:
         warnings.append(
             f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes "
