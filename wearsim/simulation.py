@@ -1,7 +1,6 @@
 """The one place that wires case, mechanism, wear engine and result."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from wearsim.geometry.profile import Profile, Vector, area_between
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
+from wearsim.result.folder import with_files
 from wearsim.wear.accuracy import difference, grid_error
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
@@ -102,7 +102,7 @@ def simulate(case: Case) -> WearResult:
         life_tolerance=case.run.life_tolerance,
         assumptions=(*mechanism.assumptions(), *case.assumptions),
         warnings=tuple(warnings),
-        inputs=_portable(case),
+        inputs=with_files(case.inputs, ""),
         input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
         history_columns=history,
         flank_columns=flank,
@@ -323,13 +323,3 @@ def _life(case: Case, run: Trajectory) -> Life | LowerBound:
     cycles = float(run.cycles[-1])
     hours = cycles / case.cycles_per_hour
     return Life(cycles, hours) if run.met else LowerBound(cycles, hours)
-
-
-def _portable(case: Case) -> dict[str, object]:
-    """Return the tables with the names of files that lie beside them."""
-    inputs: dict[str, object] = dict(case.inputs)
-    for table, key in (("sprocket", "points_file"), ("mechanism", "table_file")):
-        values = inputs.get(table)
-        if isinstance(values, dict) and key in values:
-            inputs[table] = {**values, key: Path(str(values[key])).name}
-    return inputs

@@ -68,7 +68,7 @@ def _lock(result: WearResult) -> str:
 
     document = tomlkit.document()
     document.add(tomlkit.comment(f"{result.case} with every default taken by wearsim"))
-    for key, value in _with_files(result.inputs, _INPUTS).items():
+    for key, value in with_files(result.inputs, _INPUTS).items():
         if value != {}:
             document.add(key, value)
     return tomlkit.dumps(document)
@@ -115,7 +115,7 @@ def _stored(folder: Path) -> dict[str, Any]:
             f"{version!r}: read it with the wearsim that wrote it"
         )
     lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
-    inputs = _with_files(lock, "")
+    inputs = with_files(lock, "")
     same = (
         "case", "title", "band", "stop", "stop_value", "cycles_run", "hours_run", "speed_rpm",
         "method", "updates", "numerical_error", "life_tolerance",
@@ -148,8 +148,21 @@ def _named(inputs: Mapping[str, Any]) -> list[str]:
     return [inputs[table][key] for table, key in _FILE_KEYS if key in inputs.get(table, {})]
 
 
-def _with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
-    """Return the tables with the CSV files that they name in another folder."""
+def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
+    """Return the tables of a case with the CSV files that they name in another folder.
+
+    Parameters
+    ----------
+    inputs : mapping
+        Tables of the case.
+    folder : str
+        Folder of the files, empty for beside the case.
+
+    Returns
+    -------
+    dict
+        The tables, with new paths for the files.
+    """
     moved = dict(inputs)
     for table, key in _FILE_KEYS:
         if key in inputs.get(table, {}):
