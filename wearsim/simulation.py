@@ -1,16 +1,19 @@
 """The one place that wires case, mechanism, wear engine and result."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Case, PrescribedDrive, StrandDrive, WearInput
+from wearsim.case.model import Case, PrescribedDrive, StrandDrive, WearInput, WrapDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
-from wearsim.errors import ConvergenceError, WearsimError
+from wearsim.errors import CaseError, ConvergenceError, Fault, WearsimError
 from wearsim.geometry.profile import Profile, Vector, area_between
+from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.mechanisms.wrap import Pull, WrapChain, WrapLoads, WrapMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.wear.accuracy import difference, grid_error
@@ -110,6 +113,140 @@ def simulate(case: Case) -> WearResult:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class ToothLoads:
+    """What the teeth of a case's wrap carry in one phase.
+
+    Attributes
+    ----------
+    case, title : str
+        Of the case.
+    phase, elongation : float
+        Phase of the pitch, relative elongation of the chain.
+    first_link : str
+        ``inner``, ``outer`` or, where all links are alike, ``any``: the link after tooth 1.
+    loads : WrapLoads
+        One entry a tooth.
+    wrap_degrees : float
+        Wrap angle [deg].
+    face_width : float
+        b [mm].
+    slack, centrifugal : float
+        Tension of the slack strand, and what the chain's speed adds to all [N].
+    smallest_slack : float
+        Slack tension below which the chain jumps [N].
+    assumptions, warnings : tuple of str
+        Of the case.
+    """
+
+    case: str
+    title: str
+    phase: float
+    elongation: float
+    first_link: str
+    loads: WrapLoads
+    wrap_degrees: float
+    face_width: float
+    slack: float
+    centrifugal: float
+    smallest_slack: float
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) -> ToothLoads:
+    """Return what the teeth of a sprocket carry that a chain wraps.
+
+    Parameters
+    ----------
+    case : Case
+        A case with ``mechanism.kind = "wrap"``.
+    elongation : float
+        Relative elongation of the chain, from 0.
+    phase : float, optional
+        From 0 (the first roller has just come in) to 1 (the next one is about to); None for
+        that with the largest force, of the phases of the case and both kinds of link.
+
+    Returns
+    -------
+    ToothLoads
+        With an inner link after the first tooth unless the other one loads a tooth more.
+
+    Raises
+    ------
+    CaseError
+        The case has no wrap.
+    ContactError
+        The chain jumps.
+    """
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        message = "'loads' needs a chain that wraps the sprocket: set kind = 'wrap'"
+        raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    mechanism = wrap_mechanism(case, drive)
+    firsts = (0, 1) if drive.joint.alternating and elongation > 0.0 and phase is None else (0,)
+    phases = [phase] if phase is not None else list(np.linspace(0.0, 1.0, drive.phases + 1))
+    found = [
+        (mechanism.loads(part, elongation, first), part, first)
+        for part in phases
+        for first in firsts
+    ]
+    loads, part, first = max(found, key=lambda entry: float(entry[0].force.max()))
+    return ToothLoads(
+        case=case.name,
+        title=case.title,
+        phase=part,
+        elongation=elongation,
+        first_link=("inner", "outer")[first] if drive.joint.alternating else "any",
+        loads=loads,
+        wrap_degrees=float(np.degrees(drive.wrap_angle)),
+        face_width=drive.face_width,
+        slack=drive.slack,
+        centrifugal=drive.centrifugal,
+        smallest_slack=mechanism.smallest_slack_tension(elongation),
+        assumptions=(*mechanism.assumptions(), *case.assumptions),
+        warnings=case.warnings,
+    )
+
+
+def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
+    """Return the mechanism of a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    WrapMechanism
+        Rollers on the unworn gap.
+    """
+    radius = 0.5 * case.chain.roller_diameter
+    return WrapMechanism(
+        outline=drive.outline,
+        path=roller_path(drive.outline, radius, (drive.outline.x.size + 1) // 2),
+        pitch_angle=drive.pitch_angle,
+        wrap_angle=drive.wrap_angle,
+        chain=WrapChain(
+            pitch=case.chain.pitch,
+            roller_radius=radius,
+            bush_radius=drive.bush_radius,
+            link_stiffness=drive.link_stiffness,
+            alternating=drive.joint.alternating,
+        ),
+        pull=Pull(
+            tight=drive.tight,
+            slack=drive.slack,
+            driver=drive.driver,
+            friction_roller_tooth=drive.friction_roller_tooth,
+            friction_roller_bush=drive.friction_roller_bush,
+        ),
+    )
+
+
 def _mechanism(case: Case) -> Mechanism:
     drive = case.drive
     if isinstance(drive, StrandDrive):
@@ -124,6 +261,9 @@ def _mechanism(case: Case) -> Mechanism:
             slip_fraction=drive.slip_fraction,
             modulus=case.modulus,
         )
+    if isinstance(drive, WrapDrive):
+        message = "a life on kind = 'wrap' cannot be calculated yet: 'loads' can"
+        raise CaseError([Fault(message, "mechanism.kind", case.name)])
     return _prescribed(case, drive)
 
 

@@ -2,7 +2,14 @@
 
 import pytest
 
-from wearsim.catalogue.tables import chains, materials, nearest, rows, wear_conditions
+from wearsim.catalogue.tables import (
+    KG_PER_M,
+    chains,
+    materials,
+    nearest,
+    rows,
+    wear_conditions,
+)
 
 # p, d1, b1 [mm] and tensile strength [kN] typed from ISO 606 (ANSI B29.1 for the A series).
 ISO_606 = {
@@ -69,6 +76,102 @@ def test_no_name_stands_twice():
     assert len(set(names)) == len(names) == 74
 
 
+# d2 [mm], bearing area [mm2], q [kg/m], transverse pitch [mm] typed from catalogues.
+JOINTS = {
+    "08B-1": (4.45, 50.3, 0.70, 13.92),
+    "16B-1": (8.28, 210.7, 2.68, 31.88),
+    "08A-1": (3.98, 44.5, 0.60, 14.38),
+    "ANSI 140": (12.71, 472.6, 7.5, 48.87),
+    "ПР-25,4-60": (7.92, 179.7, 2.6, 29.29),
+    "081": (3.66, 21.2, 0.0, 0.0),
+    "60H-1": (5.96, 115.8, 0.0, 26.11),
+    "2ПР-25,4-114": (7.92, 359.4, 0.0, 29.29),
+}
+
+
+@pytest.mark.parametrize("designation", JOINTS)
+def test_joint_and_mass(designation):
+    """0 stands for what the table does not know."""
+    chain, (pin, area, mass, transverse) = chains()[designation], JOINTS[designation]
+    assert (chain.pin_diameter, chain.bearing_area, chain.transverse_pitch) == (
+        pin,
+        area,
+        transverse,
+    )
+    assert chain.mass_per_length / KG_PER_M == pytest.approx(mass, rel=1e-12)
+
+
+def test_mass_is_consistent_with_newton_millimetre_second():
+    """q v^2 of 1 kg/m at 1 m/s is 1 N."""
+    speed = 1000.0
+    assert KG_PER_M * speed**2 == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("alias", "designation"),
+    [("08B", "08B-1"), ("08A", "08A-1"), ("ANSI 40", "08A-1"), ("085", "085-1"), ("60H", "60H-1")],
+)
+def test_aliases(alias, designation):
+    assert chains()[alias] is chains()[designation]
+    assert chains()[alias].designation == designation
+
+
+@pytest.mark.parametrize(
+    ("name", "strands", "area", "tensile", "mass"),
+    [
+        ("08B-2", 2, 100.6, 35_600.0, 1.40),
+        ("08B-3", 3, 150.9, 53_400.0, 2.10),
+        ("16A-2", 2, 358.8, 111_200.0, 5.2),
+        ("ANSI 40-2", 2, 89.0, 27_800.0, 1.2),
+        ("ANSI 140-3", 3, 1417.8, 510_000.0, 22.5),
+    ],
+)
+def test_several_strands_are_so_many_times_the_single_row(name, strands, area, tensile, mass):
+    chain = chains()[name]
+    assert chain.strands == strands
+    assert chain.bearing_area == pytest.approx(area, rel=1e-12)
+    assert chain.tensile == pytest.approx(tensile, rel=1e-12)
+    assert chain.mass_per_length / KG_PER_M == pytest.approx(mass, rel=1e-12)
+    assert f"{strands} times the single row (approximation)" in chain.flag
+
+
+def test_b_chains_of_several_strands_may_break_earlier():
+    """GOST 13568: 2ПР-12,7-31,8 is 08B-2 in all but name and has 31.8/18.2 of one row."""
+    assert "1.75 times" in chains()["08B-2"].flag
+    assert "1.75 times" not in chains()["16A-2"].flag
+    assert round(31.8 / 18.2, 2) == 1.75
+
+
+def test_flag_of_the_single_row_is_kept():
+    assert chains()["05B-2"].flag.startswith("tensile 4.4 ISO / 5.0 DIN 8187")
+
+
+@pytest.mark.parametrize(
+    "name", ["081-2", "085-2", "ANSI 41-2", "ПР-12,7-18,2-2", "2ПР-25,4-114-2"]
+)
+def test_no_strands_without_a_transverse_pitch_or_a_row_of_their_own(name):
+    assert name not in chains()
+
+
+def test_gost_suffix_is_no_count_of_strands():
+    """The last digit of ПР-12,7-10-1 tells designs apart."""
+    assert "ПР-12,7-10" not in chains()
+    assert chains()["ПР-12,7-10-1"].strands == 1
+
+
+def test_bearing_area_is_pin_diameter_times_inner_link_width():
+    """b2 of ISO 606 [mm]; the area is d2 b2 to rounding."""
+    for name, width in {
+        "08B": 11.30,
+        "10B": 13.28,
+        "12B": 15.62,
+        "16B": 25.45,
+        "16A": 22.60,
+    }.items():
+        chain = chains()[name]
+        assert chain.bearing_area == pytest.approx(chain.pin_diameter * width, rel=2e-3)
+
+
 def test_chain_numbers_are_possible():
     for name, chain in chains().items():
         assert 0.0 < chain.roller_diameter < chain.pitch, name
@@ -98,8 +201,10 @@ def test_wear_conditions_are_bands_around_a_typical_value():
 @pytest.mark.parametrize(
     ("name", "hint"),
     [
-        ("16B", "; did you mean '16B-1'?"),
+        ("16b", "; did you mean '16B'"),
         ("ansi 50", "; did you mean 'ANSI 50'"),
+        ("ansi 50-2", "; did you mean 'ANSI 50-2'"),
+        ("16B1", "; did you mean '16B-1'"),
         ("completely different", ""),
         ("", ""),
     ],

@@ -9,6 +9,8 @@ from wearsim.case.schema import SprocketTable
 from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import Chain
 
+FLANK_NODES = 201
+
 _SAFETY = 7.0
 """Breaking load over tension below which a chain is loaded beyond its endurance."""
 
@@ -29,25 +31,26 @@ def resolve_strand(case: Resolution, chain: Chain) -> StrandDrive | None:
         None where there was a fault.
     """
     tables, faults = case.tables, case.faults
-    if tables.mechanism.table_file is not None:
-        faults.add("mechanism.table_file", "belongs to kind = 'prescribed': remove it")
     if tables.sprocket is None:
         faults.add("sprocket", "this table is required and missing")
         return None
     table = tables.sprocket
     centrode = chain.pitch * table.teeth / (2.0 * math.pi * table.engaged_every)
     pull = _pull(case, centrode, chain)
-    face_width = _face_width(case, table, chain)
+    width = face_width(case, table, chain)
+    nodes = table.nodes or FLANK_NODES
+    if table.nodes is None:
+        case.take("sprocket.nodes", nodes, "default")
     tooth_and_range = (
-        evolute_tooth(case, table, chain, centrode)
+        evolute_tooth(case, table, chain, centrode, nodes)
         if table.profile == "evolute"
-        else points_tooth(case, table, chain, centrode)
+        else points_tooth(case, table, chain, centrode, nodes)
     )
     if tooth_and_range is None or pull is None:
         return None
     tooth, contact_end, contact_start = tooth_and_range
-    fraction = tables.mechanism.roller_slip_fraction
-    return StrandDrive(tooth, contact_end, contact_start, face_width, pull, fraction)
+    fraction = slip_fraction(case)
+    return StrandDrive(tooth, contact_end, contact_start, width, pull, fraction)
 
 
 def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | None:
@@ -91,43 +94,128 @@ def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | N
             f"is ill-posed (got {wear.pressure_exponent:g})",
         )
         return None
-    return PrescribedDrive(table, tables.mechanism.roller_slip_fraction)
+    return PrescribedDrive(table, slip_fraction(case))
+
+
+def slip_fraction(case: Resolution, default: float = 1.0) -> float:
+    """Return the part of the sliding of a roller that does not turn.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    default : float
+        What is taken where none is given.
+
+    Returns
+    -------
+    float
+        xi, from 0 to 1.
+    """
+    given = case.tables.mechanism.roller_slip_fraction
+    if given is None:
+        why = "default" if default == 1.0 else "a roller free to turn"
+        case.take("mechanism.roller_slip_fraction", default, why)
+        return default
+    return given
 
 
 def _pull(case: Resolution, centrode: float, chain: Chain) -> float | None:
-    load, faults = case.tables.load, case.faults
+    load = case.tables.load
+    pull = effective_pull(case, 2.0 * math.pi * centrode * load.speed_rpm / 60.0, centrode)
+    if pull is None:
+        return None
+    case.assumptions.append(f"pull on the flank {pull:.6g} N (slack strand without tension)")
+    return pull if within_strength(case, pull, chain) else None
+
+
+def effective_pull(case: Resolution, speed: float, lever: float) -> float | None:
+    """Return the force that the load asks of the chain.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    speed : float
+        Of the chain [mm/s].
+    lever : float
+        Speed over the sprocket's angular speed [mm].
+
+    Returns
+    -------
+    float or None
+        Tension as given, power over speed or torque over lever [N]; None where none is given.
+    """
+    load = case.tables.load
     given = {
         "tension_N": load.tension_N,
         "power_kW": load.power_kW,
         "torque_N_m": load.torque_N_m,
     }
-    keys = [key for key, value in given.items() if value is not None]
-    if not keys:
-        faults.add("load.tension_N", f"give exactly one of {', '.join(given)} (got none)")
-        return None
     if load.tension_N is not None:
-        pull = load.tension_N
-    elif load.power_kW is not None:
-        pull = 1e6 * load.power_kW / (2.0 * math.pi * load.speed_rpm / 60.0 * centrode)
-    else:
-        assert load.torque_N_m is not None
-        pull = 1e3 * load.torque_N_m / centrode
-    case.assumptions.append(f"pull on the flank {pull:.6g} N (slack strand without tension)")
-    if chain.tensile and pull >= chain.tensile:
-        faults.add(
-            f"load.{keys[0]}",
+        return load.tension_N
+    if load.power_kW is not None:
+        return 1e6 * load.power_kW / speed
+    if load.torque_N_m is not None:
+        return 1e3 * load.torque_N_m / lever
+    case.faults.add("load.tension_N", f"give exactly one of {', '.join(given)} (got none)")
+    return None
+
+
+def within_strength(case: Resolution, pull: float, chain: Chain) -> bool:
+    """Compare a pull with the chain's tensile strength: a fault above it, a warning near it.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    pull : float
+        Largest tension [N].
+    chain : Chain
+        The chain.
+
+    Returns
+    -------
+    bool
+        Whether the chain holds.
+    """
+    load = case.tables.load
+    keys = ("tension_N", "power_kW", "torque_N_m")
+    key = next(key for key in keys if getattr(load, key) is not None)
+    if not chain.tensile:
+        case.assumptions.append("tensile strength of the chain not known: the pull is not checked")
+        return True
+    if pull >= chain.tensile:
+        case.faults.add(
+            f"load.{key}",
             f"the pull must stay below the chain's tensile strength {chain.tensile:g} N, is {pull:.4g} N",
         )
-        return None
-    if chain.tensile and pull * _SAFETY > chain.tensile:
+        return False
+    if pull * _SAFETY > chain.tensile:
         case.warnings.append(
             f"the pull of {pull:.4g} N is more than 1/{_SAFETY:g} of the chain's tensile strength "
             f"{chain.tensile:g} N: the plates will not last"
         )
-    return pull
+    return True
 
 
-def _face_width(case: Resolution, table: SprocketTable, chain: Chain) -> float:
+def face_width(case: Resolution, table: SprocketTable, chain: Chain) -> float:
+    """Return the width of the tooth that carries load.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+
+    Returns
+    -------
+    float
+        As given, else the standard's for the chain [mm].
+    """
     if table.face_width_mm is None:
         width = float(f"{chain.face_width:.4g}")
         case.take("sprocket.face_width_mm", width, "standard tooth width for the chain")

@@ -26,7 +26,7 @@ POINTS_NOISE = 1e-4
 
 
 def evolute_tooth(
-    case: Resolution, table: SprocketTable, chain: Chain, centrode: float
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
     """Complete a tooth around an evolute flank.
 
@@ -40,15 +40,14 @@ def evolute_tooth(
         Its chain.
     centrode : float
         Radius of the centrode [mm].
+    nodes : int
+        Points along the flank.
 
     Returns
     -------
     tuple of Tooth and two floats, or None
         The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
     """
-    for key in ("points_file", "points_noise_mm"):
-        if getattr(table, key) is not None:
-            case.faults.add(f"sprocket.{key}", "belongs to profile = 'points': remove it")
     end, start, offset = table.contact_end_mm, table.contact_start_mm, table.evolute_offset_mm
     if end is None:
         end = float(f"{CONTACT_END_PER_PITCH * chain.pitch:.6g}")
@@ -69,7 +68,7 @@ def evolute_tooth(
         case.faults.add(f"sprocket.{name}_mm", f"{message}{advice}")
     if limits:
         return None
-    flank = evolute_flank(strand, end, start, table.nodes).profile
+    flank = evolute_flank(strand, end, start, nodes).profile
     tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
     try:
         thin = tooth_limits(tooth, chain.pitch)
@@ -110,7 +109,7 @@ def _relief(table: SprocketTable, chain: Chain) -> float:
 
 
 def points_tooth(
-    case: Resolution, table: SprocketTable, chain: Chain, centrode: float
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
     """Complete a tooth around a flank given by points.
 
@@ -124,6 +123,8 @@ def points_tooth(
         Its chain.
     centrode : float
         Radius of the centrode [mm].
+    nodes : int
+        Points along the flank.
 
     Returns
     -------
@@ -131,10 +132,8 @@ def points_tooth(
         The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
     """
     faults = case.faults
-    for key in ("points_file", "evolute_offset_mm"):
-        if getattr(table, key) is None:
-            faults.add(f"sprocket.{key}", "profile = 'points' needs this key")
     if table.points_file is None or table.evolute_offset_mm is None:
+        faults.add("sprocket.evolute_offset_mm", "profile = 'points' on a strand needs this key")
         return None
     points = read_points(
         case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults
@@ -147,7 +146,7 @@ def points_tooth(
         return None
     strand = Strand(centrode, 0.5 * chain.roller_diameter, table.evolute_offset_mm)
     try:
-        flank = working_side(flank_from_points(*points, noise, table.nodes))
+        flank = working_side(flank_from_points(*points, noise, nodes))
         reached = contact_range(flank, strand.height, strand.roller_radius)
         turned = phase_error(flank, strand)
     except GeometryError as error:

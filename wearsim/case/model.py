@@ -1,5 +1,6 @@
 """A case with every default filled in: what the layers above work on."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,8 +8,11 @@ from typing import Any
 
 from wearsim.case.tables import PrescribedTable
 from wearsim.catalogue.tables import Chain
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.drive_layout import DriveLayout
+from wearsim.geometry.gap import Gap
+from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.tooth import Tooth
+from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +45,36 @@ class StrandDrive:
         """The working flank."""
         return self.tooth.flank
 
+    @property
+    def pitch_line_thickness(self) -> float:
+        """Chordal thickness of the tooth where the centrode meets it [mm]."""
+        return self.tooth.pitch_line_thickness
+
+    @property
+    def thinnest(self) -> float:
+        """Smallest chordal thickness along the flank [mm]."""
+        return self.tooth.neck
+
+    @property
+    def tip_land(self) -> float:
+        """Length of the tip [mm]."""
+        return self.tooth.tip_land
+
+    def worn_tip_land(self, x: Vector, y: Vector) -> float:
+        """Return the tip land that a worn flank leaves.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm].
+
+        Returns
+        -------
+        float
+            Length along the tip circle [mm].
+        """
+        return self.tooth.worn_tip_land(x, y)
+
 
 @dataclass(frozen=True, eq=False)
 class PrescribedDrive:
@@ -56,6 +90,128 @@ class PrescribedDrive:
 
     table: PrescribedTable
     slip_fraction: float
+
+
+@dataclass(frozen=True)
+class JointInput:
+    """Wear of the chain's joints.
+
+    Attributes
+    ----------
+    coefficient : float
+        Specific wear rate of pin and bush together [mm2/N].
+    pressure : float
+        Tension of the tight strand, the centrifugal part included, over the bearing area [MPa].
+    slack_pressure : float
+        The same of the slack strand [MPa].
+    alternating : bool
+        Whether wear lengthens every other link only, as it does.
+    elongation_limit : float
+        Relative elongation at which the chain's life ends.
+    """
+
+    coefficient: float
+    pressure: float
+    slack_pressure: float
+    alternating: bool
+    elongation_limit: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapDrive:
+    """A chain around a sprocket.
+
+    Attributes
+    ----------
+    outline : Profile
+        The gap from its right tip through the seat to its left tip.
+    gap : Gap or None
+        The exact arcs of a standard form.
+    gaps : int
+        Gaps of the worn sprocket.
+    pitch_angle : float
+        Angle between successive rollers on it [rad].
+    layout : DriveLayout
+        Both sprockets and the chain.
+    driver : bool
+        Whether the worn sprocket drives the chain; it is number 1 of the layout then.
+    wrap_angle : float
+        Of the worn sprocket [rad].
+    face_width : float
+        b [mm].
+    tight, slack, centrifugal : float
+        Tensions of the strands without the centrifugal part, and that part [N].
+    link_stiffness : float
+        Of one link [N/mm].
+    bush_radius : float
+        Outer radius of the bush [mm].
+    phases : int
+        Phases of one pitch.
+    slip_fraction : float
+        Sliding as a fraction of that of a roller that does not turn.
+    friction_roller_tooth, friction_roller_bush : float
+        Coefficients of friction.
+    joint : JointInput
+        Wear of the joints.
+    """
+
+    outline: Profile
+    gap: Gap | None
+    gaps: int
+    pitch_angle: float
+    layout: DriveLayout
+    driver: bool
+    wrap_angle: float
+    face_width: float
+    tight: float
+    slack: float
+    centrifugal: float
+    link_stiffness: float
+    bush_radius: float
+    phases: int
+    slip_fraction: float
+    friction_roller_tooth: float
+    friction_roller_bush: float
+    joint: JointInput
+
+    @property
+    def profile(self) -> Profile:
+        """The outline that wears."""
+        return self.outline
+
+    @property
+    def pitch_line_thickness(self) -> float:
+        """Chordal thickness of the tooth on the pitch circle [mm]."""
+        radius = 0.5 * self.layout.pitch / math.sin(0.5 * self.pitch_angle)
+        return tooth_thickness(self.outline.x, self.outline.y, self.gaps, radius)
+
+    @property
+    def thinnest(self) -> float:
+        """Thickness of the tooth on the pitch circle [mm]: it grows from there to the root."""
+        return self.pitch_line_thickness
+
+    @property
+    def tip_land(self) -> float:
+        """Length of the tip [mm]."""
+        return tip_land(self.outline.x, self.outline.y, self.gaps)
+
+    def worn_tip_land(self, x: Vector, y: Vector) -> float:
+        """Return the tip land that a worn outline leaves.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn outline [mm].
+
+        Returns
+        -------
+        float
+            Length along the tip circle [mm].
+        """
+        return tip_land(x, y, self.gaps)
+
+
+Drive = StrandDrive | PrescribedDrive | WrapDrive
 
 
 @dataclass(frozen=True)
@@ -127,7 +283,7 @@ class Case:
         CSV files that it read.
     chain : Chain
         The chain.
-    drive : StrandDrive or PrescribedDrive
+    drive : StrandDrive, PrescribedDrive or WrapDrive
         What touches the flank.
     modulus : float
         Contact modulus E* [MPa].
@@ -152,7 +308,7 @@ class Case:
     inputs: Mapping[str, Any]
     files: tuple[Path, ...]
     chain: Chain
-    drive: StrandDrive | PrescribedDrive
+    drive: Drive
     modulus: float
     speed_rpm: float
     engaged_every: int

@@ -1,14 +1,25 @@
 """From the tables as given to a complete case: defaults, checks across tables, geometry."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 from wearsim.case.drive import resolve_prescribed, resolve_strand
+from wearsim.case.kind import mechanism_kind
 from wearsim.case.messages import Faults
-from wearsim.case.model import Case, PrescribedDrive, RunInput, StrandDrive, WearInput
+from wearsim.case.model import (
+    Case,
+    Drive,
+    PrescribedDrive,
+    RunInput,
+    StrandDrive,
+    WearInput,
+    WrapDrive,
+)
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import CaseTables, ChainTable, MaterialTable, WearTable
-from wearsim.catalogue.tables import Chain, chains, materials, wear_conditions
+from wearsim.case.wrap import resolve_wrap
+from wearsim.catalogue.tables import KG_PER_M, Chain, chains, materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
 
 DEFAULT_BAND = 3.0
@@ -50,9 +61,12 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     chain = _chain(case, tables.chain)
     modulus = _modulus(case)
     wear = _wear(case, tables.wear)
-    drive: StrandDrive | PrescribedDrive | None
-    if tables.mechanism.kind == "prescribed":
+    kind = mechanism_kind(case)
+    drive: Drive | None
+    if kind == "prescribed":
         drive = resolve_prescribed(case, wear)
+    elif kind == "wrap":
+        drive = resolve_wrap(case, chain)
     else:
         drive = resolve_strand(case, chain)
     critical_depth = _critical_depth(case, drive)
@@ -84,10 +98,9 @@ def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
     """Defaults of the schema itself that matter for the life and were not given."""
     taken: list[tuple[str, str, object]] = []
     wanted = {
-        "mechanism": ("kind", "roller_slip_fraction"),
         "wear": ("law",),
         "run": ("method", "life_tolerance", "horizon_hours"),
-        "sprocket": ("nodes", "back_flank"),
+        "sprocket": ("back_flank",),
     }
     for table, keys in wanted.items():
         model = getattr(tables, table)
@@ -103,8 +116,19 @@ def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
 def _chain(case: Resolution, table: ChainTable) -> Chain:
     if table.designation is None:
         assert table.pitch_mm and table.roller_diameter_mm and table.inner_width_mm
-        return Chain("", table.pitch_mm, table.roller_diameter_mm, table.inner_width_mm)
+        return replace(
+            Chain("", table.pitch_mm, table.roller_diameter_mm, table.inner_width_mm),
+            pin_diameter=table.pin_diameter_mm or 0.0,
+            bearing_area=table.bearing_area_mm2 or 0.0,
+            mass_per_length=KG_PER_M * (table.mass_kg_per_m or 0.0),
+        )
     chain = chains()[table.designation]
+    chain = replace(
+        chain,
+        pin_diameter=chain.pin_diameter or table.pin_diameter_mm or 0.0,
+        bearing_area=chain.bearing_area or table.bearing_area_mm2 or 0.0,
+        mass_per_length=chain.mass_per_length or KG_PER_M * (table.mass_kg_per_m or 0.0),
+    )
     if chain.flag:
         case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.flag}")
     return chain
@@ -182,13 +206,13 @@ def _condition(case: Resolution, table: WearTable, name: str) -> WearInput:
     return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
 
 
-def _critical_depth(case: Resolution, drive: StrandDrive | PrescribedDrive | None) -> float:
+def _critical_depth(case: Resolution, drive: Drive | None) -> float:
     given = case.tables.stop.critical_depth_mm
     if given is not None:
         _check_depth(case, drive, given)
         return given
-    if isinstance(drive, StrandDrive):
-        depth = float(f"{0.1 * drive.tooth.pitch_line_thickness:.4g}")
+    if isinstance(drive, StrandDrive | WrapDrive):
+        depth = float(f"{0.1 * drive.pitch_line_thickness:.4g}")
         if depth > 0.0:
             case.take(
                 "stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line"
@@ -206,17 +230,16 @@ def _critical_depth(case: Resolution, drive: StrandDrive | PrescribedDrive | Non
     return math.nan
 
 
-def _check_depth(
-    case: Resolution, drive: StrandDrive | PrescribedDrive | None, depth: float
-) -> None:
+def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
     """Compare a given critical depth with the tooth that has to bear it."""
-    if not isinstance(drive, StrandDrive):
+    if not isinstance(drive, StrandDrive | WrapDrive):
         return
-    neck, thickness = drive.tooth.neck, drive.tooth.pitch_line_thickness
-    if depth >= neck > 0.0:
+    thinnest, thickness = drive.thinnest, drive.pitch_line_thickness
+    if depth >= thinnest > 0.0:
         case.faults.add(
             "stop.critical_depth_mm",
-            f"must be below the thickness of the tooth at its neck, {neck:.4g} mm (got {depth:g})",
+            f"must be below the thickness of the tooth where it is thinnest, {thinnest:.4g} mm "
+            f"(got {depth:g})",
         )
     elif depth > _DEEP * thickness > 0.0:
         case.warnings.append(
@@ -225,16 +248,14 @@ def _check_depth(
         )
 
 
-def _check_tip_land(
-    case: Resolution, drive: StrandDrive | PrescribedDrive | None, min_tip_land: float
-) -> None:
+def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) -> None:
     key = "stop.min_tip_land_mm"
     if isinstance(drive, PrescribedDrive):
         case.faults.add(key, "a table of loads has no tooth and no tip: remove this key")
-    elif drive is not None and drive.tooth.tip_land <= min_tip_land:
+    elif drive is not None and drive.tip_land <= min_tip_land:
         case.faults.add(
             key,
-            f"must be below the tip land of the new tooth, {drive.tooth.tip_land:.4g} mm "
+            f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm "
             f"(got {min_tip_land:g})",
         )
 

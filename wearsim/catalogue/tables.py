@@ -2,9 +2,12 @@
 
 import csv
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+
+KG_PER_M = 1e-6
+"""A mass per length of 1 kg/m in the units inside, t/mm = N s^2/mm^2."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,25 @@ class Chain:
         Minimum tensile strength [N], 0 where it is not known.
     flag : str
         Doubt about a number of the table.
+    series : str
+        Standard and series as in the table, such as ``ISO606-B``; empty for a chain of one's own.
+    pin_diameter : float
+        d2 [mm], 0 where it is not known.
+    bearing_area : float
+        Projected area of pin in bush, all strands together [mm2], 0 where it is not known.
+    mass_per_length : float
+        q, all strands together [t/mm = N s^2/mm^2], 0 where it is not known: `KG_PER_M` times
+        the kg/m of the table, so that q v^2 with v in mm/s is a force in N.
+    transverse_pitch : float
+        Distance of the strands [mm], 0 where it is not known.
+
+    Examples
+    --------
+    >>> duplex = chains()["08B-2"]
+    >>> duplex.strands, duplex.bearing_area  # 2 * 50.3
+    (2, 100.6)
+    >>> round(duplex.mass_per_length / KG_PER_M, 6)  # 2 * 0.70 kg/m
+    1.4
     """
 
     designation: str
@@ -32,6 +54,11 @@ class Chain:
     strands: int = 1
     tensile: float = 0.0
     flag: str = ""
+    series: str = ""
+    pin_diameter: float = 0.0
+    bearing_area: float = 0.0
+    mass_per_length: float = 0.0
+    transverse_pitch: float = 0.0
 
     @property
     def face_width(self) -> float:
@@ -106,26 +133,67 @@ def chains() -> dict[str, Chain]:
     Returns
     -------
     dict
-        A row ``04C-1 (ANSI 25)`` stands under ``04C-1`` and under ``ANSI 25``.
+        A row ``08A-1 (ANSI 40)`` stands under ``08A-1``, ``08A`` and ``ANSI 40``. A row of
+        ISO 606 with a transverse pitch also stands for its chains of two and three strands,
+        ``08A-2``, ``ANSI 40-2`` and so on: area, tensile strength and mass are then n times
+        the single row, and the flag says so.
+
+    Examples
+    --------
+    >>> chains()["16B"] is chains()["16B-1"]
+    True
+    >>> chains()["ANSI 40-3"].designation
+    '08A-3'
     """
-    found = {}
+    found: dict[str, Chain] = {}
     for row in rows("chains"):
-        designation, _, other = row["designation"].partition(" (")
-        first = designation[0]
-        strands = int(first) if first.isdigit() and designation[1:3] == "ПР" else 1
-        chain = Chain(
-            designation=designation,
-            pitch=float(row["pitch_mm"]),
-            roller_diameter=float(row["roller_diameter_mm"]),
-            inner_width=float(row["inner_width_mm"]),
-            strands=strands,
-            tensile=1000.0 * float(row["tensile_kN"]),
-            flag=row["flag"],
-        )
-        found[designation] = chain
-        if other:
-            found[other.rstrip(")")] = chain
+        chain = _chain(row)
+        _, _, other = row["designation"].partition(" (")
+        ansi = other.rstrip(")")
+        base = chain.designation
+        if chain.series.startswith("ISO606"):
+            base = base.removesuffix("-1")
+        found |= {name: chain for name in (chain.designation, base, ansi) if name}
+        if base == chain.designation or not chain.transverse_pitch:
+            continue
+        for strands in (2, 3):
+            multiple = _multiple(chain, f"{base}-{strands}", strands)
+            found |= {f"{name}-{strands}": multiple for name in (base, ansi) if name}
     return found
+
+
+def _chain(row: dict[str, str]) -> Chain:
+    designation = row["designation"].partition(" (")[0]
+    first = designation[0]
+    return Chain(
+        designation=designation,
+        pitch=float(row["pitch_mm"]),
+        roller_diameter=float(row["roller_diameter_mm"]),
+        inner_width=float(row["inner_width_mm"]),
+        strands=int(first) if first.isdigit() and designation[1:3] == "ПР" else 1,
+        tensile=1000.0 * float(row["tensile_kN"]),
+        flag=row["flag"],
+        series=row["series"],
+        pin_diameter=float(row["pin_diameter_mm"] or 0.0),
+        bearing_area=float(row["bearing_area_mm2"] or 0.0),
+        mass_per_length=KG_PER_M * float(row["mass_kg_per_m"] or 0.0),
+        transverse_pitch=float(row["transverse_pitch_mm"] or 0.0),
+    )
+
+
+def _multiple(single: Chain, designation: str, strands: int) -> Chain:
+    note = f"area, tensile strength and mass are {strands} times the single row (approximation)"
+    if single.series == "ISO606-B":
+        note += "; the tensile strength may be less: 2ПР-12,7-31,8 has 1.75 times the single row"
+    return replace(
+        single,
+        designation=designation,
+        strands=strands,
+        tensile=strands * single.tensile,
+        bearing_area=strands * single.bearing_area,
+        mass_per_length=strands * single.mass_per_length,
+        flag="; ".join(part for part in (single.flag, note) if part),
+    )
 
 
 @cache

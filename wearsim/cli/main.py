@@ -15,6 +15,7 @@ from wearsim.cli.compare import compare
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
+from wearsim.cli.loads import loads
 from wearsim.cli.profile import profile
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
@@ -41,7 +42,7 @@ def wearsim_command() -> None:
     """Group of all commands."""
 
 
-for _command in (life, check, profile, compare, init, schema, list_table):
+for _command in (life, check, loads, profile, compare, init, schema, list_table):
     wearsim_command.add_command(_command)
 
 

@@ -20,6 +20,9 @@ class Kind(Enum):
     LOCAL = "local"
     """Slip is the path [mm] a point slides under the local peak pressure."""
 
+    DWELLING = "dwelling"
+    """A mate rests in the outline and slides a path [mm]; its pressure follows from the gap."""
+
 
 @dataclass(frozen=True)
 class Engagement:

@@ -5,6 +5,8 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator
 
 from wearsim.case.schema.chain import ChainTable
+from wearsim.case.schema.drive import DriveTable
+from wearsim.case.schema.joint import JointTable
 from wearsim.case.schema.load import LoadTable
 from wearsim.case.schema.material import MaterialsTable, MaterialTable
 from wearsim.case.schema.mechanism import MechanismTable
@@ -17,6 +19,8 @@ from wearsim.case.schema.wear import WearTable
 __all__ = [
     "CaseTables",
     "ChainTable",
+    "DriveTable",
+    "JointTable",
     "LoadTable",
     "MaterialTable",
     "MaterialsTable",
@@ -42,7 +46,9 @@ class CaseTables(Table):
     title: str = ""
     chain: ChainTable
     sprocket: SprocketTable | None = None
+    drive: DriveTable | None = None
     mechanism: MechanismTable = MechanismTable()
+    joint: JointTable | None = None
     material: MaterialsTable = MaterialsTable()
     load: LoadTable
     wear: WearTable

@@ -14,6 +14,10 @@ class ChainTable(Table):
     pitch_mm: Positive | None = None
     roller_diameter_mm: Positive | None = None
     inner_width_mm: Positive | None = None
+    pin_diameter_mm: Positive | None = None
+    bush_diameter_mm: Positive | None = None
+    bearing_area_mm2: Positive | None = None
+    mass_kg_per_m: Positive | None = None
 
     @field_validator("designation")
     @classmethod
@@ -25,6 +29,7 @@ class ChainTable(Table):
         own = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
         given = [key for key in own if getattr(self, key) is not None]
         if self.designation is not None:
+            given += [key for key in self._known_by_designation() if getattr(self, key) is not None]
             return [(key, "a designation gives this already: remove one of both") for key in given]
         missing = [key for key in own if key not in given]
         if missing:
@@ -40,4 +45,18 @@ class ChainTable(Table):
                 f"(got {self.roller_diameter_mm:g})"
             )
             return [("roller_diameter_mm", message)]
+        inside = self.bush_diameter_mm or self.pin_diameter_mm
+        if inside and inside > self.roller_diameter_mm:
+            key = "bush_diameter_mm" if self.bush_diameter_mm else "pin_diameter_mm"
+            message = f"must fit into the roller of {self.roller_diameter_mm:g} mm (got {inside:g})"
+            return [(key, message)]
         return []
+
+    def _known_by_designation(self) -> list[str]:
+        chain = chains()[self.designation or ""]
+        values = {
+            "pin_diameter_mm": chain.pin_diameter,
+            "bearing_area_mm2": chain.bearing_area,
+            "mass_kg_per_m": chain.mass_per_length,
+        }
+        return [key for key, value in values.items() if value]

@@ -5,12 +5,15 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wearsim.case.schema.table import Table
-from wearsim.case.units import PositiveNumber
+from wearsim.case.units import NotNegative, PositiveNumber
 
 
 class MechanismTable(Table):
     """The picture of what touches the flank."""
 
-    kind: Literal["strand", "prescribed"] = "strand"
+    kind: Literal["strand", "prescribed", "wrap"] | None = None
     table_file: str | None = None
-    roller_slip_fraction: Annotated[PositiveNumber, Field(le=1.0)] = 1.0
+    phases: Annotated[int, Field(ge=1, le=720)] | None = None
+    roller_slip_fraction: Annotated[PositiveNumber, Field(le=1.0)] | None = None
+    friction_roller_tooth: Annotated[NotNegative, Field(le=1.0)] | None = None
+    friction_roller_bush: Annotated[NotNegative, Field(le=1.0)] | None = None

@@ -1,7 +1,11 @@
 """The table [stop]."""
 
+from typing import Annotated
+
+from pydantic import Field
+
 from wearsim.case.schema.table import Table
-from wearsim.case.units import Positive
+from wearsim.case.units import Positive, PositiveNumber
 
 
 class StopTable(Table):
@@ -9,3 +13,4 @@ class StopTable(Table):
 
     critical_depth_mm: Positive | None = None
     min_tip_land_mm: Positive | None = None
+    elongation_percent: Annotated[PositiveNumber, Field(le=10.0)] | None = None

@@ -1,0 +1,286 @@
+"""Chain length, centre distance, wrap, speed and span tensions against worked handbook drives.
+
+A: Shigley, example 17-5, no. 140, 17 and 34 teeth, 25 pitches. B: a published no. 50 drive, 20
+and 63 teeth, 36 pitches. C: no. 80, 20 and 60 teeth, 40 pitches. D: a conveyor drive with
+ПР-25,4, 27 and 51 teeth, 30 pitches. E: the 19-tooth rating drive of no. 40 and 08B, 40 pitches.
+"""
+
+import math
+
+import pytest
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.chain_length import (
+    belt_centre,
+    belt_links,
+    even_links,
+    handbook_centre,
+    handbook_links,
+    pitch_diameter,
+)
+from wearsim.geometry.drive_layout import (
+    DriveLayout,
+    Meetings,
+    layout_with_centre,
+    layout_with_links,
+    polygon_effect,
+)
+from wearsim.geometry.span_tension import SpanTensions, catenary_tension, centrifugal_tension
+
+# teeth 1, teeth 2, wished centre distance in pitches, links chosen
+DRIVES = {
+    "A": (17, 34, 25.0, 76),
+    "B": (20, 63, 36.0, 114),
+    "C": (20, 60, 40.0, 122),
+    "D": (27, 51, 30.0, 100),
+    "E": (19, 57, 40.0, 120),
+}
+
+
+def radians_per_second(rpm: float) -> float:
+    return 2.0 * math.pi * rpm / 60.0
+
+
+@pytest.mark.parametrize(
+    ("drive", "links", "digits"), [("A", 75.793, 3), ("B", 114.801, 3), ("D", 99.49, 2)]
+)
+def test_handbook_links(drive: str, links: float, digits: int) -> None:
+    one, two, centre, _ = DRIVES[drive]
+    assert round(handbook_links(one, two, centre), digits) == links
+
+
+@pytest.mark.parametrize(
+    ("drive", "centre", "digits"), [("A", 25.1042, 4), ("B", 35.592, 3), ("D", 768.58 / 25.4, 3)]
+)
+def test_handbook_centre(drive: str, centre: float, digits: int) -> None:
+    one, two, _, links = DRIVES[drive]
+    assert round(handbook_centre(one, two, links), digits) == round(centre, digits)
+
+
+def test_belt_of_case_b() -> None:
+    """Three spans and arcs added up: 70.690 + 8.784 + 35.331 pitches."""
+    assert round(belt_links(20, 63, 36.0), 3) == 114.805
+    assert round(belt_centre(20, 63, 114), 3) == 35.590
+    inclination = math.asin((1 / math.sin(math.pi / 63) - 1 / math.sin(math.pi / 20)) / 72.0)
+    straight = 2.0 * 36.0 * math.cos(inclination)
+    arcs = 20 * (math.pi - 2 * inclination) + 63 * (math.pi + 2 * inclination)
+    assert belt_links(20, 63, 36.0) == pytest.approx(straight + arcs / (2 * math.pi), rel=1e-14)
+
+
+def test_case_b_was_printed_half_a_link_off() -> None:
+    """The paper's "exact" 114.305 links is 0.5 short; 35.8447 belongs to 114.5 links, not 114."""
+    assert round(belt_links(20, 63, 36.0) - 114.305, 3) == 0.5
+    assert round(belt_centre(20, 63, 114.5), 4) == 35.8447
+
+
+def test_case_d_was_printed_with_misprints() -> None:
+    """The page has 99.12 links for 99.49 and 1.6 m/s for 1.303."""
+    one, two, centre, links = DRIVES["D"]
+    assert round(handbook_links(one, two, centre), 2) == 99.49 != 99.12
+    layout = layout_with_links(25.4, one, two, links)
+    assert round(1e-3 * layout.chain_speed(radians_per_second(114.0)), 3) == 1.303
+    assert even_links(99.12) == even_links(99.49) == 100
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_formulas_are_inverted_and_agree(drive: str) -> None:
+    one, two, centre, links = DRIVES[drive]
+    assert handbook_links(one, two, handbook_centre(one, two, links)) == pytest.approx(
+        links, rel=1e-13
+    )
+    assert belt_links(one, two, belt_centre(one, two, links)) == pytest.approx(links, rel=1e-12)
+    assert belt_links(two, one, centre) == pytest.approx(belt_links(one, two, centre), rel=1e-14)
+    assert 0.0 < belt_links(one, two, centre) - handbook_links(one, two, centre) < 4.0e-3
+
+
+@pytest.mark.parametrize(("teeth", "short"), [((17, 34), 7.1e-3), ((9, 150), 5.9e-2)])
+def test_handbook_formula_is_short_by_what_its_docstring_says(
+    teeth: tuple[int, int], short: float
+) -> None:
+    centre = 1.6 * (1 / math.sin(math.pi / teeth[1]) - 1 / math.sin(math.pi / teeth[0]))
+    found = belt_links(*teeth, centre) - handbook_links(*teeth, centre)
+    assert found == pytest.approx(short, rel=0.02)
+
+
+@pytest.mark.parametrize("drive", ["A", "C", "D", "E"])
+def test_wished_centre_distance_gives_the_published_links(drive: str) -> None:
+    one, two, centre, links = DRIVES[drive]
+    layout = layout_with_centre(25.4, one, two, 25.4 * centre)
+    assert layout.links == links
+    assert not layout.needs_offset_link
+    assert layout.centre_distance / 25.4 == pytest.approx(
+        handbook_centre(one, two, links), rel=1e-14
+    )
+
+
+def test_case_b_was_rounded_down() -> None:
+    """114.80 became 114 there, and 36 pitches 35.592; the next even number upwards is 116."""
+    assert layout_with_centre(15.875, 20, 63, 36 * 15.875).links == 116
+    layout = layout_with_links(15.875, 20, 63, 114)
+    assert round(layout.centre_distance / 15.875, 3) == 35.592
+
+
+def test_whole_links_stay() -> None:
+    """A centre distance that comes from 120 links gives 120 links again, rounding or not."""
+    for links in range(60, 200, 2):
+        centre = layout_with_links(12.7, 19, 41, links).centre_distance
+        assert layout_with_centre(12.7, 19, 41, centre).links == links
+
+
+def test_wrap_of_case_a() -> None:
+    """167.6 degrees at 25 pitches; both wraps make a full turn, 17 * 167.61/360 pitches engaged."""
+    layout = DriveLayout(44.45, 17, 34, 76, 25 * 44.45)
+    assert round(math.degrees(layout.wrap_1), 1) == 167.6
+    assert layout.wrap_1 + layout.wrap_2 == pytest.approx(2 * math.pi, rel=1e-15)
+    assert layout.engaged_1 == pytest.approx(17 * 167.6097 / 360, rel=1e-6)
+    assert layout.engaged_2 == pytest.approx(34 * (360 - 167.6097) / 360, rel=1e-6)
+
+
+def test_span_and_arcs_make_the_chain() -> None:
+    layout = layout_with_links(15.875, 20, 63, 114)
+    total = 2 * layout.span / 15.875 + layout.engaged_1 + layout.engaged_2
+    centre = layout.centre_distance / 15.875
+    assert total == pytest.approx(belt_links(20, 63, centre), rel=1e-13)
+    legs = (layout.span, 0.5 * (layout.pitch_diameter_2 - layout.pitch_diameter_1))
+    assert math.hypot(*legs) == pytest.approx(layout.centre_distance, rel=1e-14)
+
+
+def test_driver_may_be_the_larger_sprocket() -> None:
+    down, up = layout_with_links(12.7, 19, 57, 120), layout_with_links(12.7, 57, 19, 120)
+    assert up.wrap_1 == pytest.approx(down.wrap_2, rel=1e-15)
+    assert (down.ratio, up.ratio) == (3.0, pytest.approx(1 / 3))
+
+
+@pytest.mark.parametrize(
+    ("pitch", "teeth", "rpm", "speed"),
+    [
+        (44.45, 17, 300, 3.778),
+        (15.875, 20, 1200, 6.35),
+        (25.4, 20, 750, 6.35),
+        (25.4, 27, 114, 1.303),
+    ],
+)
+def test_chain_speed(pitch: float, teeth: int, rpm: float, speed: float) -> None:
+    """Cases A to D [m/s]."""
+    layout = layout_with_links(pitch, teeth, 51, 122)
+    assert round(1e-3 * layout.chain_speed(radians_per_second(rpm)), 3) == speed
+
+
+@pytest.mark.parametrize(
+    ("teeth", "diameter"), [(9, 2.9238), (17, 5.4422), (19, 6.0755), (25, 7.9787), (57, 18.1529)]
+)
+def test_pitch_diameter_of_unit_pitch(teeth: int, diameter: float) -> None:
+    """ISO 606, annex A."""
+    assert round(pitch_diameter(1.0, teeth), 4) == diameter
+
+
+@pytest.mark.parametrize(
+    ("teeth", "percent"), [(9, 6.03), (11, 4.05), (13, 2.91), (17, 1.70), (19, 1.36), (25, 0.79)]
+)
+def test_polygon_effect(teeth: int, percent: float) -> None:
+    assert round(100.0 * polygon_effect(teeth), 2) == percent
+
+
+@pytest.mark.parametrize(("teeth", "links"), [(17, 76), (20, 114), (20, 120), (27, 100), (51, 102)])
+def test_meetings_by_counting(teeth: int, links: int) -> None:
+    """Roll the chain over the sprocket until tooth 0 meets roller 0 again."""
+    pairs, engagement = set(), 0
+    while (engagement % teeth, engagement % links) not in pairs:
+        pairs.add((engagement % teeth, engagement % links))
+        engagement += 1
+    found = Meetings(teeth, links)
+    assert found.rollers_per_tooth == len({roller for tooth, roller in pairs if tooth == 0})
+    assert found.teeth_per_roller == len({tooth for tooth, roller in pairs if roller == 0})
+    assert found.rollers_per_tooth * teeth == engagement
+    assert found.hunts == (len(pairs) == teeth * links)
+    kinds = {roller % 2 for tooth, roller in pairs if tooth == 0}
+    assert found.same_link_kind == (len(kinds) == 1)
+
+
+def test_meetings_belong_to_their_sprocket() -> None:
+    layout = layout_with_links(15.875, 20, 63, 114)
+    assert (layout.meetings_1.teeth, layout.meetings_2.teeth) == (20, 63)
+    assert (layout.meetings_1.links, layout.meetings_2.links) == (114, 114)
+
+
+@pytest.mark.parametrize("sag", [0.005, 0.01, 0.02, 0.03])
+def test_catenary(sag: float) -> None:
+    """f = c (cosh(a/2c) - 1) with H = c q g, solved by bisection: the parabola is 4 f^2/3a^2 low."""
+    low, high = 1.0, 1.0e4
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (
+            (middle, high) if middle * (math.cosh(0.5 / middle) - 1) > sag else (low, middle)
+        )
+    mass, span = 2.6e-6, 800.0
+    horizontal = low * mass * 9806.65 * span
+    found = catenary_tension(mass, span, sag)
+    assert found == pytest.approx(horizontal, rel=1.5 * sag**2)
+    assert found < horizontal
+
+
+def test_catenary_at_two_percent_and_on_a_slope() -> None:
+    """6.25 q g a for 1 kg/m over 1 m; cos 60 deg = 1/2."""
+    assert catenary_tension(1e-6, 1e3) == pytest.approx(6.25 * 9.80665, rel=1e-12)
+    assert catenary_tension(1e-6, 1e3, slope=math.pi / 3) == pytest.approx(
+        0.5 * 6.25 * 9.80665, rel=1e-12
+    )
+
+
+def test_tensions_of_case_b() -> None:
+    """q = 1 kg/m at 6.35 m/s: 40.3 N; the teeth do not feel it."""
+    fast = centrifugal_tension(1e-6, 6350.0)
+    assert fast == pytest.approx(6.35**2, rel=1e-12)
+    spans = SpanTensions(1174.0, catenary_tension(1e-6, 36 * 15.875), fast)
+    assert spans.tight - spans.slack == pytest.approx(1174.0, rel=1e-14)
+    assert spans.tight_on_teeth - spans.slack_on_teeth == pytest.approx(1174.0, rel=1e-14)
+    assert spans.tight - spans.tight_on_teeth == pytest.approx(40.3225, rel=1e-12)
+    assert round(0.4225 * spans.tight_on_teeth) == 511  # P1 at 29 deg pressure angle
+
+
+@pytest.mark.parametrize(
+    ("pitch", "teeth", "links", "message"),
+    [
+        (12.7, (19, 57), 50, "need more than 55.1"),
+        (12.7, (19, 57), 39, "need more than"),
+        (12.7, (19, 57), 58, "use 68 links or more"),
+        (12.7, (4, 57), 120, "at least 5 teeth"),
+        (0.0, (19, 57), 120, "above 0"),
+    ],
+)
+def test_links_that_cannot_be(
+    pitch: float, teeth: tuple[int, int], links: int, message: str
+) -> None:
+    with pytest.raises(GeometryError, match=message):
+        layout_with_links(pitch, *teeth, links)
+
+
+def test_named_links_and_distance_are_enough() -> None:
+    """Tips: 12.7/2 (1.2 + cot(180/19) + cot(180/57)) = 6.35 * 25.318 = 160.769 mm."""
+    assert layout_with_links(12.7, 19, 57, 68).links == 68
+    with pytest.raises(GeometryError, match="use 68 links or more"):
+        layout_with_links(12.7, 19, 57, 66)
+    with pytest.raises(GeometryError, match=r"at least 160\.77 mm") as error:
+        layout_with_centre(12.7, 19, 57, 160.0)
+    least = float(str(error.value).split()[-2])
+    assert layout_with_centre(12.7, 19, 57, least).links == 68
+
+
+def test_chain_must_reach_but_may_sag() -> None:
+    """Case D: 769 mm by the formula, installed at 767 mm."""
+    taut = layout_with_links(25.4, 27, 51, 100)
+    assert round(taut.centre_distance) == 769
+    assert DriveLayout(25.4, 27, 51, 100, 767.0).wrap_1 < taut.wrap_1
+    with pytest.raises(GeometryError, match=r"needs 100\.111 links, are 100: use 102"):
+        DriveLayout(25.4, 27, 51, 100, 770.0)
+
+
+def test_belt_and_sag_that_cannot_be() -> None:
+    with pytest.raises(GeometryError, match="exceed the 63 teeth"):
+        belt_centre(20, 63, 63)
+    with pytest.raises(GeometryError, match="sag must be above 0"):
+        catenary_tension(1e-6, 1e3, sag=0.0)
+
+
+def test_odd_chain_needs_an_offset_link() -> None:
+    assert layout_with_links(12.7, 19, 57, 119).needs_offset_link

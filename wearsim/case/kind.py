@@ -1,0 +1,59 @@
+"""Which mechanism a case is about, and which keys belong to it."""
+
+from wearsim.case.resolution import Resolution
+from wearsim.case.schema import CaseTables
+
+_ON_WRAP = ("iso606", "ansi_b29", "gost591", "dxf")
+"""Tooth forms for a chain that wraps the sprocket."""
+
+_BELONGS_TO = {
+    "mechanism.table_file": "prescribed",
+    "mechanism.phases": "wrap",
+    "mechanism.friction_roller_tooth": "wrap",
+    "mechanism.friction_roller_bush": "wrap",
+    "drive": "wrap",
+    "joint": "wrap",
+    "sprocket.role": "wrap",
+    "stop.elongation_percent": "wrap",
+    "chain.pin_diameter_mm": "wrap",
+    "chain.bush_diameter_mm": "wrap",
+    "chain.bearing_area_mm2": "wrap",
+    "chain.mass_kg_per_m": "wrap",
+}
+
+
+def mechanism_kind(case: Resolution) -> str:
+    """Return the kind of mechanism, and name the keys that belong to another one.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+
+    Returns
+    -------
+    str
+        ``strand``, ``prescribed`` or ``wrap``: as given, else by the tooth form.
+    """
+    tables = case.tables
+    profile = tables.sprocket.profile if tables.sprocket else ""
+    kind = tables.mechanism.kind
+    if kind is None:
+        kind = "wrap" if profile in _ON_WRAP else "strand"
+        case.take("mechanism.kind", kind, "default for this profile")
+    if kind == "strand" and profile in _ON_WRAP:
+        case.faults.add(
+            "sprocket.profile",
+            f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "
+            "use profile = 'evolute' or 'points' on a strand",
+        )
+    for key, owner in _BELONGS_TO.items():
+        if owner != kind and _given(tables, key):
+            case.faults.add(key, f"belongs to kind = {owner!r}: remove it")
+    return kind
+
+
+def _given(tables: CaseTables, key: str) -> bool:
+    table, _, name = key.partition(".")
+    model = getattr(tables, table)
+    return model is not None and (not name or getattr(model, name) is not None)

@@ -1,0 +1,233 @@
+"""A chain around a sprocket, completed: gap, layout of the drive, tensions, joints."""
+
+import math
+
+from wearsim.case.drive import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.gap import gap_shape
+from wearsim.case.model import JointInput, WrapDrive
+from wearsim.case.resolution import Resolution
+from wearsim.case.schema import DriveTable, JointTable
+from wearsim.catalogue.tables import Chain
+from wearsim.errors import GeometryError
+from wearsim.geometry.chain_length import even_links, handbook_links
+from wearsim.geometry.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.geometry.span_tension import catenary_tension, centrifugal_tension
+
+CENTRE_IN_PITCHES = 40.0
+SAG_PERCENT = 2.0
+LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
+SLIP_FRACTION = 0.1
+PHASES = 16
+JOINT_WEAR_RATE = 1.2e-10
+
+
+def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
+    """Complete a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    chain : Chain
+        Its chain.
+
+    Returns
+    -------
+    WrapDrive or None
+        None where there was a fault.
+    """
+    tables, faults = case.tables, case.faults
+    table = tables.sprocket
+    if table is None:
+        faults.add("sprocket", "this table is required and missing")
+        return None
+    before = faults.count
+    _check_chain(case, chain)
+    if table.role is None:
+        case.take("sprocket.role", "driver", "default")
+    layout = _layout(case, chain, tables.drive or DriveTable())
+    shape = gap_shape(case, table, chain)
+    if layout is None or shape is None or faults.count > before:
+        return None
+    driver = table.role != "driven"
+    speed = chain.pitch * table.teeth * tables.load.speed_rpm / (60.0 * table.engaged_every)
+    tensions = _tensions(case, chain, layout, speed)
+    if tensions is None:
+        return None
+    tight, slack, centrifugal = tensions
+    width = face_width(case, table, chain)
+    mechanism = tables.mechanism
+    if mechanism.phases is None:
+        case.take("mechanism.phases", PHASES, "default")
+    frictions = mechanism.friction_roller_tooth, mechanism.friction_roller_bush
+    for key, value in zip(("tooth", "bush"), frictions, strict=True):
+        if value is None:
+            case.take(f"mechanism.friction_roller_{key}", 0.0, "default")
+    return WrapDrive(
+        outline=shape.outline,
+        gap=shape.gap,
+        gaps=table.teeth,
+        pitch_angle=2.0 * math.pi * table.engaged_every / table.teeth,
+        layout=layout,
+        driver=driver,
+        wrap_angle=layout.wrap_1 if driver else layout.wrap_2,
+        face_width=width,
+        tight=tight,
+        slack=slack,
+        centrifugal=centrifugal,
+        link_stiffness=_link_stiffness(case, chain),
+        bush_radius=0.5 * _bush_diameter(case, chain),
+        phases=mechanism.phases or PHASES,
+        slip_fraction=slip_fraction(case, SLIP_FRACTION),
+        friction_roller_tooth=frictions[0] or 0.0,
+        friction_roller_bush=frictions[1] or 0.0,
+        joint=_joint(case, chain, layout, tight + centrifugal, slack + centrifugal),
+    )
+
+
+def _check_chain(case: Resolution, chain: Chain) -> None:
+    for key, value in (
+        ("pin_diameter_mm", chain.pin_diameter),
+        ("bearing_area_mm2", chain.bearing_area),
+        ("mass_kg_per_m", chain.mass_per_length),
+    ):
+        if not value:
+            known = f"the catalogue has none for {chain.designation}" if chain.designation else ""
+            case.faults.add(
+                f"chain.{key}", f"kind = 'wrap' needs this key{': ' if known else ''}{known}"
+            )
+
+
+def _layout(case: Resolution, chain: Chain, table: DriveTable) -> DriveLayout | None:
+    sprocket = case.tables.sprocket
+    assert sprocket is not None
+    if sprocket.engaged_every > 1 and sprocket.teeth % sprocket.engaged_every:
+        case.warnings.append(
+            f"{sprocket.teeth} gaps of which every {sprocket.engaged_every}. carries a roller: the drive "
+            f"is laid out with {sprocket.teeth // sprocket.engaged_every} teeth"
+        )
+    teeth = sprocket.teeth // sprocket.engaged_every
+    mate = table.mate_teeth
+    if mate is None:
+        mate = teeth
+        case.take("drive.mate_teeth", mate, "as many as the sprocket: half a turn of wrap")
+    teeth_1, teeth_2 = (teeth, mate) if sprocket.role != "driven" else (mate, teeth)
+    links = table.links
+    try:
+        if table.centre_distance_mm is not None:
+            layout = layout_with_centre(chain.pitch, teeth_1, teeth_2, table.centre_distance_mm)
+            case.assumptions.append(
+                f"{layout.links} links, the next even number, at a centre distance of "
+                f"{layout.centre_distance:.6g} mm"
+            )
+        else:
+            if links is None:
+                links = even_links(handbook_links(teeth_1, teeth_2, CENTRE_IN_PITCHES))
+                case.take("drive.links", links, "about 40 pitches between the sprockets")
+            layout = layout_with_links(chain.pitch, teeth_1, teeth_2, links)
+    except GeometryError as error:
+        key = "centre_distance_mm" if table.centre_distance_mm is not None else "links"
+        case.faults.add(f"drive.{key}", str(error))
+        return None
+    if layout.needs_offset_link:
+        if _alternating(case):
+            case.faults.add(
+                "drive.links",
+                f"must be even where inner and outer links alternate (got {layout.links}): use "
+                f"{layout.links + 1}, or joint.pitch = 'uniform'",
+            )
+            return None
+        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+    return layout
+
+
+def _alternating(case: Resolution) -> bool:
+    joint = case.tables.joint or JointTable()
+    return joint.pitch != "uniform"
+
+
+def _tensions(
+    case: Resolution, chain: Chain, layout: DriveLayout, speed: float
+) -> tuple[float, float, float] | None:
+    """Return the tensions of the strands without the centrifugal part, and that part."""
+    load, table = case.tables.load, case.tables.drive or DriveTable()
+    lever = 60.0 * speed / (2.0 * math.pi * load.speed_rpm)
+    pull = effective_pull(case, speed, lever)
+    if pull is None:
+        return None
+    slack = table.slack_tension_N
+    if slack is None:
+        sag = table.sag_percent
+        if sag is None:
+            sag = SAG_PERCENT
+            case.take("drive.sag_percent", sag, "default")
+        if table.inclination_deg is None:
+            case.take("drive.inclination_deg", 0.0, "default")
+        slope = math.radians(table.inclination_deg or 0.0)
+        slack = catenary_tension(chain.mass_per_length, layout.span, sag / 100.0, slope)
+        if not slack > 1e-9 * pull:
+            case.faults.add(
+                "drive.inclination_deg",
+                "a vertical span has no sag and no tension of its own: give drive.slack_tension_N",
+            )
+            return None
+    tight = pull if load.tension_N is not None else pull + slack
+    if tight <= slack:
+        key = "load.tension_N" if load.tension_N is not None else "drive.slack_tension_N"
+        case.faults.add(
+            key,
+            f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)",
+        )
+        return None
+    centrifugal = centrifugal_tension(chain.mass_per_length, speed)
+    case.assumptions.append(
+        f"tight strand {tight:.6g} N, slack strand {slack:.4g} N, and {centrifugal:.3g} N in both from "
+        "the chain's own speed, which loads joints but not teeth"
+    )
+    return (
+        (tight, slack, centrifugal) if within_strength(case, tight + centrifugal, chain) else None
+    )
+
+
+def _link_stiffness(case: Resolution, chain: Chain) -> float:
+    given = (case.tables.drive or DriveTable()).link_stiffness_N_per_mm
+    if given is not None:
+        return given
+    stiffness = float(f"{LINK_STIFFNESS_PER_PITCH * chain.pitch:.3g}")
+    why = "5e4 N/mm at a pitch of 12.7 mm, in proportion to the pitch"
+    case.take("drive.link_stiffness_N_per_mm", stiffness, why)
+    return stiffness
+
+
+def _bush_diameter(case: Resolution, chain: Chain) -> float:
+    given = case.tables.chain.bush_diameter_mm
+    if given is not None:
+        return given
+    mean = float(f"{0.5 * (chain.pin_diameter + chain.roller_diameter):.4g}")
+    case.take("chain.bush_diameter_mm", mean, "mean of pin and roller")
+    return mean
+
+
+def _joint(
+    case: Resolution, chain: Chain, layout: DriveLayout, tight: float, slack: float
+) -> JointInput:
+    table = case.tables.joint or JointTable()
+    coefficient = table.specific_wear_rate_mm2_per_N
+    if coefficient is None:
+        coefficient = JOINT_WEAR_RATE
+        why = "clean and well lubricated, 0.9e-10 to 1.5e-10 by the rating at 15 000 h"
+        case.take("joint.specific_wear_rate_mm2_per_N", coefficient, why)
+    if table.pitch is None:
+        case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
+    limit = case.tables.stop.elongation_percent
+    if limit is None:
+        limit = min(3.0, 200.0 / max(layout.teeth_1, layout.teeth_2))
+        limit = float(f"{limit:.4g}")
+        case.take("stop.elongation_percent", limit, "3 %, or 200 % over the larger number of teeth")
+    return JointInput(
+        coefficient=coefficient,
+        pressure=tight / chain.bearing_area,
+        slack_pressure=slack / chain.bearing_area,
+        alternating=_alternating(case),
+        elongation_limit=0.01 * limit,
+    )

@@ -1,0 +1,46 @@
+"""``wearsim loads``: what each tooth of a wrapped sprocket carries."""
+
+import json
+from pathlib import Path
+
+import click
+
+from wearsim.cli.standard import load_cases, overrides, standard, warn
+
+
+@click.command(short_help="Tension, force and place of each roller in the wrap.")
+@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.option(
+    "--elongation", type=click.FloatRange(0.0, 10.0), default=0.0, show_default=True,
+    metavar="PERCENT", help="Elongation of the chain.",
+)  # fmt: skip
+@click.option(
+    "--phase",
+    type=click.FloatRange(0.0, 1.0),
+    metavar="F",
+    help="Part of a pitch gone since the first roller came in; default 1, the end of its articulation.",
+)
+@click.option("--worst", is_flag=True, help="The phase with the largest force on a tooth.")
+@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@overrides
+@standard
+def loads(
+    case: Path, elongation: float, phase: float | None, worst: bool, as_json: bool,
+    settings: tuple[str, ...],
+) -> None:  # fmt: skip
+    """Print what the teeth of CASE carry; tooth 1 is at the tight end."""
+    if worst and phase is not None:
+        raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
+    (loaded,) = load_cases([case], settings, as_json)
+    from wearsim.report.loads import loads_json, loads_table
+    from wearsim.simulation import tooth_loads
+
+    found = tooth_loads(
+        loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase
+    )
+    if as_json:
+        click.echo(json.dumps(loads_json(found), ensure_ascii=False, allow_nan=False))
+    else:
+        click.echo(loads_table(found))
+    for text in loaded.warnings:
+        warn(f"{case}: warning: {text}")

@@ -1,0 +1,148 @@
+"""Wear by contacts that dwell: each event presses its roller on the worn outline and wears it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
+from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+
+if TYPE_CHECKING:
+    from wearsim.kernels.signatures import Vector
+
+# rows of the table of events
+(
+    EVENT_CENTRE_X, EVENT_CENTRE_Y, EVENT_NORMAL_X, EVENT_NORMAL_Y, EVENT_TOUCHED,
+    EVENT_LOAD, EVENT_SLIP, EVENT_SPEED, EVENT_COUNT, EVENT_BODY,
+) = range(10)  # fmt: skip
+EVENT_ROWS = 10
+
+# rows of the table of the unworn outline
+UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)
+UNWORN_ROWS = 6
+
+# numbers of a step
+MATE_RADIUS, COEFFICIENT, PRESSURE_EXPONENT, SPEED_EXPONENT, CYCLES, REACH, TOLERANCE = range(7)
+NUMBERS = 7
+
+# what a step found
+AREA, PEAK_PRESSURE, UNBALANCED = range(3)
+FINDINGS = 3
+
+_MOST_ITERATIONS = 2000.0
+
+
+@kernel(void(VECTOR, TABLE, int64, int64, VECTOR))
+def worn_width(depth: Vector, unworn: Vector, first: int, last: int, width: Vector) -> None:
+    """Write the length of every cell of the worn outline, of which depth leaves a slope."""
+    n = depth.size
+    for j in range(first, last):
+        before, after = max(j - 1, 0), min(j + 1, n - 1)
+        way = 0.5 * (unworn[SPACING, before] + unworn[SPACING, after])
+        way = max((after - before) * way, unworn[SPACING, j])
+        slope = (depth[after] - depth[before]) / way
+        stretch = 1.0 - unworn[UNWORN_CURVATURE, j] * depth[j]
+        width[j] = unworn[SPACING, j] * math.sqrt(stretch * stretch + slope * slope)
+
+
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, TABLE, int64, int64))
+def recede(
+    area: Vector, depth: Vector, x: Vector, y: Vector, unworn: Vector, first: int, last: int
+) -> None:
+    """Write depth and points from the area worn off per length of the unworn outline.
+
+    Along the normals of an outline of curvature kappa the area is d - kappa d^2/2.
+    """
+    for j in range(first, last):
+        left = max(1.0 - 2.0 * unworn[UNWORN_CURVATURE, j] * area[j], 0.0)
+        depth[j] = 2.0 * area[j] / (1.0 + math.sqrt(left))
+        x[j] = unworn[UNWORN_X, j] - depth[j] * unworn[UNWORN_NORMAL_X, j]
+        y[j] = unworn[UNWORN_Y, j] - depth[j] * unworn[UNWORN_NORMAL_Y, j]
+
+
+@kernel(void(int64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, VECTOR, VECTOR, TABLE, TABLE, VECTOR))
+def wear_event(
+    event: int,
+    events: Vector,
+    x: Vector,
+    y: Vector,
+    area: Vector,
+    depth: Vector,
+    unworn: Vector,
+    coefficients: Vector,
+    numbers: Vector,
+    pressures: Vector,
+    work: Vector,
+    findings: Vector,
+) -> None:
+    """Press one roller on its outline, wear it implicitly, and take the wear off."""
+    body, n = int(events[EVENT_BODY, event]), x.shape[1]
+    touched, reach = int(events[EVENT_TOUCHED, event]), int(numbers[REACH])
+    first, last = max(0, touched - reach), min(n, touched + reach + 1)
+    pressure = pressures[event][first:last]
+    width, factor = work[0], work[1][0 : last - first]
+    constants, result = work[2][0:8], work[2][8:15]
+    worn_width(depth[body], unworn, first, last, width)
+    constants[0], constants[1] = events[EVENT_CENTRE_X, event], events[EVENT_CENTRE_Y, event]
+    constants[2] = numbers[MATE_RADIUS]
+    constants[3], constants[4] = events[EVENT_NORMAL_X, event], events[EVENT_NORMAL_Y, event]
+    constants[5], constants[6] = events[EVENT_LOAD, event], numbers[TOLERANCE]
+    constants[7] = _MOST_ITERATIONS
+    exponent, speed = numbers[PRESSURE_EXPONENT], events[EVENT_SPEED, event]
+    worn = numbers[COEFFICIENT] * numbers[CYCLES] * events[EVENT_COUNT, event]
+    worn *= events[EVENT_SLIP, event]
+    if numbers[SPEED_EXPONENT] != 0.0:
+        worn *= speed ** numbers[SPEED_EXPONENT] if speed > 0.0 else 0.0
+    for j in range(last - first):
+        factor[j] = worn
+    status = power_contact(
+        x[body][first:last], y[body][first:last], width[first:last], factor, exponent, coefficients,
+        constants, pressure, work[3:], result,
+    )  # fmt: skip
+    findings[UNBALANCED] += 0.0 if status == CONVERGED else 1.0
+    if status != CONVERGED and status != NOT_CONVERGED:
+        return
+    for j in range(last - first):
+        p = pressure[j]
+        if p > 0.0:
+            removed = worn * (p if exponent == 1.0 else p**exponent) * width[first + j]
+            area[body, first + j] += removed / unworn[SPACING, first + j]
+            findings[AREA] += removed
+            findings[PEAK_PRESSURE] = max(findings[PEAK_PRESSURE], p)
+    recede(area[body], depth[body], x[body], y[body], unworn, first, last)
+
+
+@kernel(void(TABLE, int64, TABLE, TABLE, TABLE, TABLE, TABLE, VECTOR, VECTOR, TABLE, TABLE, VECTOR))
+def wear_events(
+    events: Vector,
+    backwards: int,
+    x: Vector,
+    y: Vector,
+    area: Vector,
+    depth: Vector,
+    unworn: Vector,
+    coefficients: Vector,
+    numbers: Vector,
+    pressures: Vector,
+    work: Vector,
+    findings: Vector,
+) -> None:
+    """Let every event of a cycle wear its outline, ``numbers[CYCLES]`` times at once.
+
+    ``events``: `EVENT_ROWS` rows; an event without load is passed over. ``x``, ``y``,
+    ``area`` (per unworn length) and ``depth``: a row for every worn body. ``pressures``: a
+    row of last pressures for every event. One event after the other meets what those
+    before it left, so a step of any size is stable; ``backwards`` 1 turns the order round.
+    """
+    count = events.shape[1]
+    for i in range(findings.size):
+        findings[i] = 0.0
+    for i in range(count):
+        event = count - 1 - i if backwards == 1 else i
+        if events[EVENT_LOAD, event] > 0.0:
+            wear_event(
+                event, events, x, y, area, depth, unworn, coefficients, numbers, pressures, work,
+                findings,
+            )  # fmt: skip

@@ -1,0 +1,206 @@
+"""What every gap of a wrapped sprocket meets in one revolution."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.contact.dwelling import Events
+from wearsim.contact.engagement import Kind
+from wearsim.errors import ContactError
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.roller_path import roller_path
+from wearsim.kernels.dwelling import EVENT_ROWS
+from wearsim.kernels.wrap import SEATED, WORK_ROWS
+from wearsim.kernels.wrap_cycle import (
+    ARTICULATION_SLIP,
+    CYCLE_NUMBERS,
+    FACE_WIDTH,
+    PATH_SLIP,
+    PHASE_TIME,
+    START,
+    WRAP_ANGLE,
+    wrap_events,
+)
+from wearsim.mechanisms.wrap import WrapMechanism
+
+Rows = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """How far rollers slide on the teeth.
+
+    Attributes
+    ----------
+    fraction : float
+        xi: of the articulation of a roller that does not turn.
+    path_fraction : float
+        Of the way along the flank: xi where the roller rolls up it, 1 where it slides.
+    pitch_time : float
+        Time in which the chain advances by one pitch [s].
+    """
+
+    fraction: float
+    path_fraction: float
+    pitch_time: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapContact:
+    """Contact events of a wrap over one revolution, for the wear engine.
+
+    Attributes
+    ----------
+    mechanism : WrapMechanism
+        Rollers and chain.
+    face_width : float
+        b [mm].
+    phases : int
+        Phases of one pitch.
+    sliding : Sliding
+        How far rollers slide.
+    modulus : float
+        Contact modulus E* [MPa].
+    same_link_kind : bool
+        Whether a tooth meets only inner or only outer links for life.
+    elongation_per_cycle : float
+        Growth of the chain in a revolution of the sprocket.
+    """
+
+    mechanism: WrapMechanism
+    face_width: float
+    phases: int
+    sliding: Sliding
+    modulus: float
+    same_link_kind: bool
+    elongation_per_cycle: float
+    _last: list[Rows] = field(default_factory=list, init=False)
+
+    @property
+    def kind(self) -> Kind:
+        """DWELLING."""
+        return Kind.DWELLING
+
+    @property
+    def profile(self) -> Profile:
+        """Outline of a new gap."""
+        return self.mechanism.outline
+
+    @cached_property
+    def arc_length(self) -> Vector:
+        """Along the outline from its right tip [mm]."""
+        return self.profile.arc_length
+
+    @property
+    def bodies(self) -> int:
+        """Gaps told apart: two where every gap meets only one kind of link."""
+        return 2 if self.mechanism.chain.alternating and self.same_link_kind else 1
+
+    @property
+    def roller_radius(self) -> float:
+        """Radius of the roller [mm]."""
+        return self.mechanism.chain.roller_radius
+
+    @property
+    def most(self) -> int:
+        """Most rollers in the wrap at once."""
+        return self.mechanism.rollers(0.0)
+
+    def coarsened(self) -> "WrapContact":
+        """Return the same contact on every second point of the outline.
+
+        Returns
+        -------
+        WrapContact
+            Both ends are kept.
+        """
+        outline = self.profile
+        points = outline.x.size
+        keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
+        coarse = Profile(outline.x[keep], outline.y[keep])
+        path = roller_path(coarse, self.roller_radius, (keep.size + 1) // 2)
+        return replace(self, mechanism=replace(self.mechanism, outline=coarse, path=path))
+
+    def events(self, x: Rows, y: Rows, elongation: float) -> Events:
+        """Return what worn gaps meet in one revolution.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        elongation : float
+            Relative elongation of the chain.
+
+        Returns
+        -------
+        Events
+            One column for every kind of link, phase and roller.
+
+        Raises
+        ------
+        ContactError
+            The chain jumps.
+        """
+        mechanism, alternating = self.mechanism, self.mechanism.chain.alternating
+        worn = [mechanism.path.worn(x[body], y[body]) for body in range(self.bodies)]
+        configurations, most = 2 if alternating else 1, self.most
+        positions = np.full((configurations, self.phases, most), -1.0)
+        if self._last:
+            positions = self._by_body(self._last[0], [path.node_of for path in worn])
+        loci = np.array([path.locus for path in worn])
+        numbers = np.zeros(CYCLE_NUMBERS)
+        numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
+        numbers[ARTICULATION_SLIP] = (
+            self.sliding.fraction * self.roller_radius * mechanism.pitch_angle
+        )
+        numbers[PATH_SLIP] = self.sliding.path_fraction
+        numbers[PHASE_TIME] = self.sliding.pitch_time / self.phases
+        numbers[START] = mechanism.start(elongation, loci[0])
+        table = np.zeros((EVENT_ROWS, configurations * self.phases * most))
+        status = wrap_events(
+            loci, np.array([path.touched for path in worn]), configurations, self.phases, most, self.bodies / configurations,
+            mechanism.constants(elongation), numbers, positions,
+            np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
+            np.zeros(most), table,
+        )  # fmt: skip
+        if status != SEATED:
+            self._last.clear()
+            raise ContactError(
+                f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but "
+                "it jumps on the worn teeth: raise the slack tension or replace the chain earlier"
+            )
+        self._last[:] = [self._by_body(positions, [path.node_place for path in worn])]
+        return Events(table)
+
+    def _by_body(self, values: Rows, functions: "list[Callable[[Rows], Rows]]") -> Rows:
+        """Apply to the rollers of every body the function of that body."""
+        configuration, _, roller = np.indices(values.shape)
+        found = np.empty_like(values)
+        for body, function in enumerate(functions):
+            where = (configuration + roller) % len(functions) == body
+            found[where] = function(values[where])
+        return found
+
+    def assumptions(self) -> list[str]:
+        """Return what this picture takes for granted.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+        sliding = self.sliding
+        return [
+            *self.mechanism.assumptions(),
+            f"a roller slides {sliding.fraction:g} of the articulation of "
+            f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the last "
+            f"tooth, and {sliding.path_fraction:g} of its way along the flank",
+            "pressure from the half-space contact of the roller in the worn gap; rollers do not wear",
+            "every tooth alike"
+            if self.bodies == 1
+            else "teeth of two kinds: those that meet inner and those that meet outer links",
+        ]

@@ -1,0 +1,1 @@
+"""Handbook calculations beside the wear run: is a drive inside its rating."""

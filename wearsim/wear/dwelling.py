@@ -1,0 +1,377 @@
+"""Wear where mates dwell: implicit steps over many cycles, the chain growing meanwhile.
+
+Every step presses each event of a cycle on the worn outline once and lets it wear as if
+it came as often as the step has cycles. The pressure of an event is that after its own
+wear, and the next event meets what it left, so a step of any size is stable; its size
+is set by the depth it takes off. The answer is first order in that size: runs with half
+of it follow until two agree.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.contact.dwelling import Dwelling
+from wearsim.errors import ContactError, ConvergenceError
+from wearsim.geometry.profile import Vector
+from wearsim.kernels.dwelling import (
+    AREA,
+    COEFFICIENT,
+    CYCLES,
+    EVENT_COUNT,
+    EVENT_LOAD,
+    EVENT_SLIP,
+    FINDINGS,
+    MATE_RADIUS,
+    NUMBERS,
+    PEAK_PRESSURE,
+    PRESSURE_EXPONENT,
+    REACH,
+    SPEED_EXPONENT,
+    TOLERANCE,
+    UNBALANCED,
+    wear_events,
+)
+from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
+from wearsim.wear.criteria import Criterion, first_met
+from wearsim.wear.law import Law
+from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
+
+Rows = NDArray[np.float64]
+
+_FIRST_STEP = 3e-5
+"""Depth of the first step after a start or a new chain, as a part of the limit."""
+
+_GROWTH = 1.25
+_LONGEST_STEP = 0.01
+"""Growth of the depth of a step over the one before, and its most as a part of the limit."""
+
+_ELONGATION_STEPS = 40
+"""Least number of steps in the life of a chain."""
+
+_REACH = 1.2
+"""Half of the stretch of outline that an event may touch, in radii of the mate."""
+
+_MOST_LEVELS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class DwellingTrajectory(Trajectory):
+    """Several outlines and the chain as they wear; ``x``, ``y``, ``depth`` are those worn most.
+
+    Attributes
+    ----------
+    all_depth : numpy.ndarray
+        Depth of every body [mm], shape (snapshots, bodies, points).
+    elongation : numpy.ndarray
+        Relative elongation of the chain in use, shape (snapshots,).
+    chains : numpy.ndarray
+        Number of the chain in use from 1, shape (snapshots,).
+    peak_pressure, sliding_speed : numpy.ndarray
+        Highest pressure [MPa] and sliding speed [mm/s] at each snapshot, shape (snapshots,).
+    area : float
+        Worn off all bodies by the events [mm2].
+    """
+
+    all_depth: Rows
+    elongation: Vector
+    chains: Vector
+    peak_pressure: Vector
+    sliding_speed: Vector
+    area: float
+
+
+class _Bodies:
+    """Worn outlines, the chain, and one step of their wear."""
+
+    def __init__(self, contact: Dwelling, law: Law) -> None:
+        self.contact = contact
+        profile, bodies = contact.profile, contact.bodies
+        points = profile.x.size
+        arc = contact.arc_length
+        spacing = np.zeros(points)
+        spacing[1:] += 0.5 * np.diff(arc)
+        spacing[:-1] += 0.5 * np.diff(arc)
+        self.unworn = np.array(
+            [profile.x, profile.y, profile.normal_x, profile.normal_y, profile.curvature, spacing]
+        )
+        self.x, self.y = np.tile(profile.x, (bodies, 1)), np.tile(profile.y, (bodies, 1))
+        self.area, self.depth = np.zeros((bodies, points)), np.zeros((bodies, points))
+        step = float(arc[-1]) / (points - 1)
+        # Coefficients of a line of unit cells times the size of a cell.
+        self.coefficients = np.empty(2 * points - 1)
+        influence_coefficients(contact.modulus, self.coefficients)
+        self.numbers = np.zeros(NUMBERS)
+        self.numbers[MATE_RADIUS] = contact.roller_radius
+        self.numbers[COEFFICIENT] = law.coefficient
+        self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
+        self.numbers[SPEED_EXPONENT] = law.speed_exponent
+        self.numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
+        self.numbers[TOLERANCE] = 1e-6
+        self.work = np.zeros((3 + WORK_ROWS, points))
+        self.findings = np.zeros(FINDINGS)
+        self.pressures = np.zeros((0, points))
+        self.elongation, self.cycles, self.chain = 0.0, 0.0, 1
+        self.updates, self.removed, self.speed = 0, 0.0, 0.0
+
+    def copy_state(self) -> tuple[Rows, Rows, Rows, float, float, int]:
+        return (
+            self.x.copy(), self.y.copy(), self.depth.copy(), self.elongation, self.cycles, self.chain
+        )  # fmt: skip
+
+    def step(self, cycles: float) -> float:
+        """Wear for so many cycles at once; return the most that any point receded."""
+        table = self.contact.events(self.x, self.y, self.elongation).table
+        if self.pressures.shape[0] != table.shape[1]:
+            self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
+        if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
+            raise ContactError(
+                f"contact at cycle {self.cycles:.6g}: loaded rollers must slide, but none does: without "
+                "load and sliding there is no wear and no life"
+            )
+        self.numbers[CYCLES] = cycles
+        before = self.depth.copy()
+        wear_events(
+            table, self.updates % 2, self.x, self.y, self.area, self.depth, self.unworn,
+            self.coefficients, self.numbers, self.pressures, self.work, self.findings,
+        )  # fmt: skip
+        if self.findings[UNBALANCED] > 0.0 or not np.isfinite(self.depth).all():
+            raise ConvergenceError(
+                f"wear at cycle {self.cycles:.6g}: the pressure of every roller must be found, but "
+                f"{int(self.findings[UNBALANCED])} of {table.shape[1]} were not: use more nodes"
+            )
+        loaded = table[EVENT_LOAD] > 0.0
+        self.speed = float(table[7][loaded].max())
+        self.removed += float(self.findings[AREA])
+        self.elongation += cycles * self.contact.elongation_per_cycle
+        self.cycles += cycles
+        self.updates += 1
+        return float((self.depth - before).max())
+
+
+class _Record:
+    """Snapshots, thinned out as they become too many."""
+
+    def __init__(self) -> None:
+        self.rows: list[tuple[Rows, Rows, Rows, float, float, int, float, float]] = []
+        self.stride, self.count = 1, 0
+
+    def add(self, bodies: _Bodies, last: bool = False) -> None:
+        if last or self.count % self.stride == 0:
+            peak = float(bodies.findings[PEAK_PRESSURE])
+            self.rows.append((*bodies.copy_state(), peak, bodies.speed))
+        self.count += 1
+        if len(self.rows) > 2 * SNAPSHOTS:
+            self.rows = self.rows[::2]
+            self.stride *= 2
+
+    def trajectory(self, bodies: _Bodies, met: Criterion | None) -> DwellingTrajectory:
+        x, y, depth = (np.array([row[k] for row in self.rows]) for k in range(3))
+        worst = int(depth[-1].max(axis=1).argmax())
+        peak = np.array([row[6] for row in self.rows])
+        speed = np.array([row[7] for row in self.rows])
+        peak[0], speed[0] = peak[1], speed[1]
+        return DwellingTrajectory(
+            cycles=np.array([row[4] for row in self.rows]),
+            x=x[:, worst],
+            y=y[:, worst],
+            depth=depth[:, worst],
+            met=met,
+            updates=bodies.updates,
+            all_depth=depth,
+            elongation=np.array([row[3] for row in self.rows]),
+            chains=np.array([float(row[5]) for row in self.rows]),
+            peak_pressure=peak,
+            sliding_speed=speed,
+            area=bodies.removed,
+        )
+
+
+def _step_sizes(depth_limit: float, level: int) -> Iterator[float]:
+    """Depths of successive steps after a start, smaller by half on every level."""
+    depth = _FIRST_STEP * depth_limit / 2**level
+    while True:
+        yield depth
+        depth = min(depth * _GROWTH ** (1.0 / 2**level), _LONGEST_STEP * depth_limit / 2**level)
+
+
+def _margins(criteria: tuple[Criterion, ...], bodies: _Bodies) -> float:
+    return min(
+        criterion.margin(bodies.x[body], bodies.y[body], bodies.depth[body])
+        for criterion in criteria
+        for body in range(bodies.contact.bodies)
+    )
+
+
+def _met(criteria: tuple[Criterion, ...], bodies: _Bodies) -> Criterion | None:
+    found = [
+        first_met(criteria, bodies.x[body], bodies.y[body], bodies.depth[body])
+        for body in range(bodies.contact.bodies)
+    ]
+    return next((criterion for criterion in found if criterion is not None), None)
+
+
+def run_dwelling(
+    contact: Dwelling,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    elongation_limit: float,
+    level: int,
+    cycles_per_step: float = 0.0,
+) -> DwellingTrajectory:
+    """Wear outlines and chain until a criterion is met or the horizon is reached.
+
+    At its elongation limit the chain is replaced by a new one.
+
+    Parameters
+    ----------
+    contact : Dwelling
+        The outlines and their contacts.
+    law : Law
+        The wear law.
+    criteria : tuple of Criterion
+        Limits of the outlines, the depth criterion first.
+    horizon : float
+        Cycles at which the run ends in any case.
+    elongation_limit : float
+        Relative elongation at which a chain is replaced.
+    level : int
+        Steps are smaller by half for each level above 0.
+    cycles_per_step : float
+        Cycles of every step; 0 for steps by the depth that they take off.
+
+    Returns
+    -------
+    DwellingTrajectory
+        The run.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    bodies, record = _Bodies(contact, law), _Record()
+    record.add(bodies)
+    limit, growth = criteria[0].limit, contact.elongation_per_cycle
+    sizes = _step_sizes(limit, level)
+    rate, met = 0.0, None
+    while met is None and bodies.cycles < horizon:
+        before = bodies.copy_state()
+        cycles = cycles_per_step
+        if not cycles_per_step:
+            cycles = (
+                next(sizes) / rate if rate else _first_cycles(contact, bodies, law, next(sizes))
+            )
+            cycles = max(cycles, min(1.0, 1.0 / 2**level))
+        if growth > 0.0:
+            longest = elongation_limit / growth / (_ELONGATION_STEPS * 2**level)
+            cycles = min(cycles, longest, (elongation_limit - bodies.elongation) / growth)
+        cycles = min(cycles, horizon - bodies.cycles)
+        rate = bodies.step(cycles) / cycles
+        met = _met(criteria, bodies)
+        if met is not None:
+            _cut(criteria, bodies, before)
+        elif growth > 0.0 and bodies.elongation >= elongation_limit * (1.0 - 1e-9):
+            record.add(bodies, last=True)
+            bodies.elongation, bodies.chain = 0.0, bodies.chain + 1
+            sizes = _step_sizes(limit, level)
+        else:
+            record.add(bodies, last=not bodies.cycles < horizon)
+    if met is not None:
+        record.add(bodies, last=True)
+    return record.trajectory(bodies, met)
+
+
+def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) -> float:
+    """Cycles that wear about so deep: the area of all events over one roller radius tenth."""
+    table = contact.events(bodies.x, bodies.y, bodies.elongation).table
+    worn = table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]
+    pressure = 300.0 ** (law.pressure_exponent - 1.0)
+    area = law.coefficient * pressure * float(worn.max()) * 4.0
+    return depth * 0.02 * contact.roller_radius / area if area > 0.0 else 1.0
+
+
+def _cut(
+    criteria: tuple[Criterion, ...],
+    bodies: _Bodies,
+    before: tuple[Rows, Rows, Rows, float, float, int],
+) -> None:
+    """Go back on the last step to the place where the first margin vanishes."""
+    after = bodies.copy_state()
+
+    def place(part: float) -> None:
+        bodies.x, bodies.y, bodies.depth = (
+            before[k] + part * (after[k] - before[k]) for k in range(3)
+        )
+        bodies.elongation, bodies.cycles = (
+            before[k] + part * (after[k] - before[k]) for k in (3, 4)
+        )
+
+    low, high = 0.0, 1.0
+    while True:
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        place(middle)
+        low, high = (middle, high) if _margins(criteria, bodies) > 0.0 else (low, middle)
+    place(high)
+
+
+def advance_dwelling(
+    contact: Dwelling,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    elongation_limit: float,
+    life_tolerance: float,
+) -> tuple[DwellingTrajectory, float]:
+    """Wear outlines and chain by steps that are halved until the life settles.
+
+    Parameters
+    ----------
+    contact : Dwelling
+        The outlines and their contacts.
+    law : Law
+        The wear law.
+    criteria : tuple of Criterion
+        Limits of the outlines, the depth criterion first.
+    horizon : float
+        Cycles at which the run ends in any case.
+    elongation_limit : float
+        Relative elongation at which a chain is replaced.
+    life_tolerance : float
+        Relative tolerance of the life.
+
+    Returns
+    -------
+    tuple of DwellingTrajectory and float
+        The finest run, and the relative difference to the one before, which is about
+        its error.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    coarse, change = run_dwelling(contact, law, criteria, horizon, elongation_limit, 0), math.inf
+    for level in range(1, _MOST_LEVELS + 1):
+        fine = run_dwelling(contact, law, criteria, horizon, elongation_limit, level)
+        change = _difference(fine, coarse)
+        coarse = fine
+        if change <= life_tolerance:
+            break
+    return coarse, change
+
+
+def _difference(run: Trajectory, other: Trajectory) -> float:
+    if run.met is not None and other.met is not None:
+        return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
+    return abs(float(other.depth[-1].max() / run.depth[-1].max()) - 1.0)
