@@ -83,6 +83,25 @@ def life_lines(results):
         yield f"| reference run by `advance`, 201 nodes, life_tolerance {tolerance} | {time:.1f} ms |"
 
 
+def wrap_lines(results):
+    """One equilibrium of the wrap, in microseconds, and its ratio to SciPy's minimiser."""
+    yield "| elongation of the chain | warm, us | cold, us |"
+    yield "|---|---|---|"
+    for elongation in ("0.0", "0.01", "0.03"):
+        warm, cold = (
+            1e6 * median(results[f"test_wrap[{elongation}-{start}]"]) for start in ("warm", "cold")
+        )
+        yield f"| {100 * float(elongation):g} % | {warm:.1f} | {cold:.1f} |"
+    yield ""
+    info = results["test_wrap_reaches_its_goal"]["extra_info"]
+    time, ratio = info["microseconds"], info["to_scipy"]
+    yield (
+        f"- 3 %, warm, fastest of nine runs taken in turn: {time:.1f} us (goal 50: "
+        f"{reached(time, 50.0)}), {ratio:.0f} times as fast as BFGS of SciPy on the same energy "
+        f"(goal 50: {reached(50.0, ratio)})"
+    )
+
+
 def process_lines(results):
     """Whole processes and their peak memory."""
     yield "| process | fastest, s | median, s | goal, s | |"
@@ -121,6 +140,12 @@ def lines(cpu, results):
     yield "## Other runs"
     yield ""
     yield from life_lines(results)
+    yield ""
+    yield "## One equilibrium of 12 rollers in the wrap (ANSI 40, 24 teeth)"
+    yield ""
+    yield "Warm starts from the answer at 0.001 % less elongation, cold from one place on the flank."
+    yield ""
+    yield from wrap_lines(results)
     yield ""
     yield "## Processes"
     yield ""

@@ -17,9 +17,12 @@ from numba.core import config
 
 import wearsim
 from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.iso606 import iso606_gap
+from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
 from wearsim.kernels.wear import run_cycles
+from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
 
 STRAND = {
     "format_version": 1,
@@ -87,6 +90,29 @@ def contacts():
     yield "strand argument", strand_contact, flank, constants, np.empty((1, 1))
 
 
+def wraps():
+    """Roller paths and equilibria: links alike, one roller aloft, friction."""
+    gap = iso606_gap(12.7, 8.51, 11, form="max")
+    outline = gap.outline(41)
+    for name, alternating, friction, phase in (
+        ("wrap", False, 0.0, 1.0),
+        ("wrap, roller aloft", True, 0.0, 0.01),
+        ("wrap, friction", True, 0.1, 0.4),
+    ):
+        yield (
+            name,
+            WrapMechanism(
+                outline=outline,
+                path=roller_path(outline, 4.255, 21),
+                pitch_angle=2.0 * np.pi / 11,
+                wrap_angle=np.pi,
+                chain=WrapChain(12.7, 4.255, 3.0, 5e4, alternating),
+                pull=Pull(1000.0, 60.0, True, friction, 1.0),
+            ),
+            phase,
+        )
+
+
 def numbers():
     """All numbers of this mode by name of the run."""
     found = {"interpreted": [float(isinstance(run_cycles, FunctionType))]}
@@ -96,6 +122,11 @@ def numbers():
             last = result.flank.tail(11)
             columns = last[["x_mm", "y_mm", "pressure_MPa"]].to_numpy().ravel()
             found[name] = [result.cycles, result.updates, *columns.tolist()]
+    for name, mechanism, phase in wraps():
+        loads = mechanism.loads(phase, 0.02)
+        rows = [loads.tension, loads.force, loads.pressure_angle, *loads.centre.T]
+        locus = [*mechanism.unworn.locus, mechanism.unworn.touched]
+        found[name] = np.concatenate([*rows, *locus]).tolist()
     law = np.array([1e-7, 0.5, 1.0, 0.0])
     for name, contact, flank, constants, columns in contacts():
         x, y, depth = flank.x.copy(), flank.y.copy(), np.zeros(11)
@@ -123,7 +154,7 @@ def both():
 
 NAMES = (
     "archard", "power, advance", "drozdov", "slip_ratio", "sliding_distance_mm",
-    "prescribed argument", "strand argument",
+    "prescribed argument", "strand argument", "wrap", "wrap, roller aloft", "wrap, friction",
 )  # fmt: skip
 
 

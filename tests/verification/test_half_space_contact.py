@@ -3,9 +3,9 @@
 B1 for E = 2.1e5, nu = 0.3, q = 100 N/mm, roller 6.035: on a flat p0 780.1181 MPa, a 0.081606 mm;
 in the seat 6.09535 p0 77.6247, a 0.820126, here at q = 1 where p0 and a are a tenth of that.
 B4, closed form: 4 a^3 - 3 a a0^2 = 6 R k q s, w0 = (a^2 - a0^2 ln 2)/(2 R), for a above about 2 a0:
-at s = 40.5 (2.0 a0) its depth is 1.2 % high, at 81 0.4 %, at 162 0.15 %. The boundary-element
-depth of 4.8600 um printed for s = 162 is that of a periodic line of 1.6 mm (the solver below
-gives 4.8598 um and 204.75 MPa with that period); without a period it is 4.853 um and 204.5 MPa.
+against the free half-space its depth is 1.2 % high at s = 40.5, 0.5 % at 81, 0.2 % at 162. The
+boundary-element depth of 4.8600 um printed for s = 162 is that of a periodic line: a dense solve
+with a period of 1.6 mm gives 4.8598 um and 204.75 MPa, without a period 4.8526 um and 204.5 MPa.
 """
 
 import numpy as np

@@ -55,6 +55,8 @@ def evolute_tooth(
     if start is None:
         start = float(f"{end + CONTACT_RATIO * chain.pitch:.6g}")
         case.take("sprocket.contact_start_mm", start, "contact ratio 1.05")
+    if "back_flank" not in table.model_fields_set:
+        case.take("sprocket.back_flank", table.back_flank, "default")
     radius = 0.5 * chain.roller_diameter
     if offset is None:
         offset = _default_offset(case, table, chain, centrode, (end, start))
@@ -178,6 +180,8 @@ def points_tooth(
         "the flank is a quintic smoothing spline through the points, their error taken as "
         f"{noise:g} mm; no check that the flank is conjugate to the roller"
     )
+    if "back_flank" not in table.model_fields_set:
+        case.take("sprocket.back_flank", table.back_flank, "default")
     tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
     _doubt_points(case, tooth, noise)
     return tooth, end, start

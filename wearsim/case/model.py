@@ -153,6 +153,10 @@ class WrapDrive:
         Coefficients of friction.
     joint : JointInput
         Wear of the joints.
+    service_factor : float
+        f1 on the power in the ratings.
+    exploitation_factor : float
+        K_e on the joint pressure in the ratings.
     """
 
     outline: Profile
@@ -173,6 +177,8 @@ class WrapDrive:
     friction_roller_tooth: float
     friction_roller_bush: float
     joint: JointInput
+    service_factor: float
+    exploitation_factor: float
 
     @property
     def profile(self) -> Profile:

@@ -28,6 +28,9 @@ DEFAULT_BAND = 3.0
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
+TOLERANCE, WRAP_TOLERANCE = 1e-3, 1e-2
+"""Relative tolerances of a life by default; that of a wrap costs more."""
+
 _PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
 
 
@@ -72,7 +75,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     critical_depth = _critical_depth(case, drive)
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
-    run = _run(case)
+    run = _run(case, kind)
     faults.check()
     assert drive is not None
     return Case(
@@ -99,8 +102,7 @@ def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
     taken: list[tuple[str, str, object]] = []
     wanted = {
         "wear": ("law",),
-        "run": ("method", "life_tolerance", "horizon_hours"),
-        "sprocket": ("back_flank",),
+        "run": ("method", "horizon_hours"),
     }
     for table, keys in wanted.items():
         model = getattr(tables, table)
@@ -260,10 +262,12 @@ def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) 
         )
 
 
-def _run(case: Resolution) -> RunInput:
+def _run(case: Resolution, kind: str) -> RunInput:
     table = case.tables.run
     if table.method == "per_cycle" and table.cycles_per_update is None:
         case.take("run.cycles_per_update", 1, "every cycle")
-    return RunInput(
-        table.method, table.cycles_per_update or 1, table.life_tolerance, table.horizon_hours
-    )
+    tolerance = table.life_tolerance
+    if tolerance is None:
+        tolerance = WRAP_TOLERANCE if kind == "wrap" else TOLERANCE
+        case.take("run.life_tolerance", tolerance, "default")
+    return RunInput(table.method, table.cycles_per_update or 1, tolerance, table.horizon_hours)

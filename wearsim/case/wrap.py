@@ -82,7 +82,20 @@ def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout, tight + centrifugal, slack + centrifugal),
+        service_factor=_factor(case, "service", "smooth load; raises the power in the ratings"),
+        exploitation_factor=_factor(
+            case, "exploitation", "steady, drip oil, one shift; raises the pressure in the ratings"
+        ),
     )
+
+
+def _factor(case: Resolution, name: str, why: str) -> float:
+    key = f"{name}_factor"
+    given: float | None = getattr(case.tables.drive or DriveTable(), key)
+    if given is None:
+        case.take(f"drive.{key}", 1.0, why)
+        return 1.0
+    return given
 
 
 def _check_chain(case: Resolution, chain: Chain) -> None:

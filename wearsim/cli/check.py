@@ -16,19 +16,28 @@ from wearsim.cli.standard import load_cases, overrides, standard
 @overrides
 @standard
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
-    """Check each CASE (.toml): keys, files, feasible geometry; say what it takes for granted."""
-    for path, case in zip(cases, load_cases(cases, settings, as_json), strict=True):
+    """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
+    loaded = load_cases(cases, settings, as_json)
+    from wearsim.report.rating import notes_text, rating_json, rating_table
+    from wearsim.sizing.rating import rating_warnings
+
+    for path, case in zip(cases, loaded, strict=True):
+        warnings = [*case.warnings, *rating_warnings(case)]
         if as_json:
             content = {
                 "schema_version": 1,
                 "case": case.name,
                 "assumptions": list(case.assumptions),
-                "warnings": list(case.warnings),
+                "warnings": warnings,
+                **rating_json(case),
             }
             click.echo(json.dumps(content, ensure_ascii=False))
             continue
         click.echo(f"{path}: ok")
         for text in case.assumptions:
             click.echo(f"  assumes  {text}")
-        for text in case.warnings:
+        for text in (rating_table(case), notes_text(case)):
+            if text:
+                click.echo(text)
+        for text in warnings:
             click.echo(f"  warning  {text}")

@@ -1,11 +1,9 @@
 """The seam between a mechanism whose contacts dwell and the wear engine."""
 
-from dataclasses import dataclass
-from typing import Protocol
-
-from numpy.typing import NDArray
+from abc import ABC, abstractmethod
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wearsim.contact.engagement import Kind
 from wearsim.geometry.profile import Profile, Vector
@@ -13,55 +11,78 @@ from wearsim.geometry.profile import Profile, Vector
 Rows = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Events:
-    """What the worn bodies meet in one cycle, a column an event.
+class Dwelling(ABC):
+    """Contacts that dwell on one or several worn bodies that were alike when new."""
 
-    Attributes
-    ----------
-    table : numpy.ndarray
-        Rows as ``kernels.dwelling`` orders them: centre x, y of the mate and the unit normal
-        out of the outline [mm], place touched [points], load per width [N/mm], path slid
-        [mm] and its speed [mm/s], how often in a cycle, number of the body.
-    """
+    kind = Kind.DWELLING
 
-    table: Rows
+    elongation_per_cycle: float
+    """Growth of the chain in a cycle."""
 
+    elongation_limit: float
+    """Relative elongation at which a new chain is put on."""
 
-class Dwelling(Protocol):
-    """Contacts that dwell on one or several worn bodies that were alike when new.
-
-    Attributes
-    ----------
-    kind : Kind
-        DWELLING.
-    profile : Profile
-        Outline of a new body.
-    arc_length : numpy.ndarray
-        Along it [mm].
-    bodies : int
-        Worn bodies that are told apart.
-    roller_radius : float
-        Radius of the mate [mm].
-    modulus : float
-        Contact modulus E* [MPa].
-    elongation_per_cycle : float
-        Growth of the chain in a cycle.
-    """
+    modulus: float
+    """Contact modulus E* [MPa]."""
 
     @property
-    def kind(self) -> Kind: ...
+    @abstractmethod
+    def profile(self) -> Profile:
+        """Outline of a new body."""
+
     @property
-    def profile(self) -> Profile: ...
+    @abstractmethod
+    def bodies(self) -> int:
+        """Worn bodies that are told apart."""
+
     @property
-    def arc_length(self) -> Vector: ...
+    @abstractmethod
+    def roller_radius(self) -> float:
+        """Radius of the mate [mm]."""
+
     @property
-    def bodies(self) -> int: ...
-    @property
-    def roller_radius(self) -> float: ...
-    @property
-    def modulus(self) -> float: ...
-    @property
-    def elongation_per_cycle(self) -> float: ...
-    def coarsened(self) -> "Dwelling": ...
-    def events(self, x: Rows, y: Rows, elongation: float) -> Events: ...
+    def arc_length(self) -> Vector:
+        """Along the outline of a new body [mm]."""
+        return self.profile.arc_length
+
+    @abstractmethod
+    def coarsened(self) -> "Dwelling":
+        """Return the same contacts on about every second point.
+
+        Returns
+        -------
+        Dwelling
+            Both ends are kept.
+        """
+
+    @abstractmethod
+    def memory(self) -> Rows:
+        """Return what ``events`` is to remember from call to call, as it is before the first.
+
+        Returns
+        -------
+        numpy.ndarray
+            Numbers of the mechanism's own.
+        """
+
+    @abstractmethod
+    def events(self, x: Rows, y: Rows, elongation: float, memory: Rows) -> Rows:
+        """Return what the worn bodies meet in one cycle, a column an event.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        elongation : float
+            Relative elongation of the chain.
+        memory : numpy.ndarray
+            Of this run; changed in place.
+
+        Returns
+        -------
+        numpy.ndarray
+            Rows as ``kernels.dwelling`` orders them: centre x, y of the mate and the unit
+            normal out of the outline [mm], place touched [points], load per width
+            [N/mm], path slid [mm] and its speed [mm/s], how often in a cycle, number of
+            the body.
+        """

@@ -27,13 +27,14 @@ def tooth_thickness(x: Vector, y: Vector, teeth: int, radius: float) -> float:
 
     Examples
     --------
-    A gap with straight sides at +-1 mm on a wheel of 4 gaps, at the radius sqrt(2) mm:
-    each gap takes 90 degrees there and nothing is left of the tooth.
+    A gap with straight sides at +-1 mm takes 90 degrees of the circle of radius sqrt(2) mm.
+    Of the 180 degrees to the next of two gaps a tooth of 90 remains, with a chord of 2 mm;
+    of the 90 to the next of four gaps nothing remains.
 
     >>> import numpy as np
-    >>> x, y = np.array([1.0, 1.0, -1.0, -1.0]), np.array([3.0, 0.5, 0.5, 3.0])
-    >>> abs(round(tooth_thickness(x, y, 4, math.sqrt(2.0)), 12))
-    0.0
+    >>> x, y = np.array([1.0, 1.0, 1.0, -1.0, -1.0]), np.array([3.0, 1.0, 0.5, 1.0, 3.0])
+    >>> [abs(round(tooth_thickness(x, y, z, math.sqrt(2.0)), 12)) for z in (2, 4)]
+    [2.0, 0.0]
     """
     distance, angle = np.hypot(x, y), np.arctan2(x, y)
     bottom = int(distance.argmin())

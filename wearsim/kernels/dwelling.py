@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector

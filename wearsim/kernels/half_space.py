@@ -319,7 +319,9 @@ def balance_forces(
                     deformed[j] = trial_deformed[j]
                 continue
             length = reach
-        for j in range(n):  # the force that ends the step must vanish exactly, or it ends all others
+        for j in range(
+            n
+        ):  # the force that ends the step must vanish exactly, or it ends all others
             gone = step[j] < 0.0 and -force[j] / step[j] <= length
             force[j] = 0.0 if gone else max(force[j] + length * step[j], 0.0)
         for j in range(n):

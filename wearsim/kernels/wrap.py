@@ -25,7 +25,7 @@ PITCH_ANGLE, STIFFNESS, PITCH_EVEN, PITCH_ODD = 0, 1, 2, 3
 TIGHT_TENSION, SLACK_TENSION, FRICTION = 4, 5, 6
 CONSTANTS = 7
 
-_MOST_ITERATIONS = 400
+_MOST_ITERATIONS = 5000
 _MOST_ROUNDS = 200
 _LONGEST_STEP = 12.0
 _ROUNDING = 1e-11
@@ -94,7 +94,8 @@ def balance(
     tight_x, tight_y = -math.cos(tight_angle), -math.sin(tight_angle)
     slack_x = math.cos(angle + slack_angle)
     slack_y = -math.sin(angle + slack_angle)
-    energy, before = 0.0, -1
+    energy: float = 0.0
+    before = -1
     for i in range(rollers):
         work[_FORCE_X, i], work[_FORCE_Y, i] = work[_DRAG_X, i], work[_DRAG_Y, i]
         work[_DIAGONAL, i], work[_OFF, i] = 0.0, 0.0
@@ -298,26 +299,22 @@ def nearest_node(locus: Vector, x: float, y: float, allowed: float) -> float:
     return float(which) if behind > allowed else -1.0
 
 
-@kernel(int64(TABLE, TABLE, int64, int64, VECTOR, float64, float64, VECTOR, TABLE))
-def seat_again(
-    locus: Vector,
-    other: Vector,
+@kernel(void(int64, int64, VECTOR, float64, float64, TABLE))
+def hang_rollers(
     first: int,
     rollers: int,
     constants: Vector,
     tight_angle: float,
     slack_angle: float,
-    position: Vector,
     work: Vector,
-) -> int:
-    """Put rollers back on the tooth that would hang inside it, for good; return how many.
+) -> None:
+    """Write the places of the rollers aloft.
 
     A roller aloft hangs on the straight line between its neighbours in contact, or on the
-    strand beyond the first or last of them.
+    strand beyond the first or last of them; all links of that line stretch alike.
     """
-    angle, back = constants[PITCH_ANGLE], 0
-    end = (rollers - 1) * angle + slack_angle
-    before, after = -1, -1
+    end = (rollers - 1) * constants[PITCH_ANGLE] + slack_angle
+    before = -1
     for i in range(rollers):
         if work[_ALOFT, i] <= 0.0:
             before = i
@@ -325,21 +322,48 @@ def seat_again(
         after = -1
         for j in range(rollers - 1, i, -1):
             after = j if work[_ALOFT, j] <= 0.0 else after
-        way, whole = 0.0, 0.0
+        way, whole, passed, links = 0.0, 0.0, 0, 0
         for j in range(max(before, 0), after if after >= 0 else rollers - 1):
             pitch = constants[PITCH_EVEN] if (j + first) % 2 == 0 else constants[PITCH_ODD]
             whole += pitch
-            way += pitch if (j < i and before >= 0) or (j >= i and before < 0) else 0.0
+            links += 1
+            if (j < i and before >= 0) or (j >= i and before < 0):
+                way += pitch
+                passed += 1
         if before < 0:
+            way += passed * constants[TIGHT_TENSION] / constants[STIFFNESS]
             x = work[CENTRE_X, after] - way * math.cos(tight_angle)
             y = work[CENTRE_Y, after] - way * math.sin(tight_angle)
         elif after < 0:
+            way += passed * constants[SLACK_TENSION] / constants[STIFFNESS]
             x = work[CENTRE_X, before] + way * math.cos(end)
             y = work[CENTRE_Y, before] - way * math.sin(end)
         else:
-            part = way / whole
+            dx = work[CENTRE_X, after] - work[CENTRE_X, before]
+            dy = work[CENTRE_Y, after] - work[CENTRE_Y, before]
+            length = math.sqrt(dx * dx + dy * dy)
+            part = (way + passed * (length - whole) / links) / length
             x = (1.0 - part) * work[CENTRE_X, before] + part * work[CENTRE_X, after]
             y = (1.0 - part) * work[CENTRE_Y, before] + part * work[CENTRE_Y, after]
+        work[CENTRE_X, i], work[CENTRE_Y, i] = x, y
+
+
+@kernel(int64(TABLE, TABLE, int64, int64, VECTOR, VECTOR, TABLE))
+def seat_again(
+    locus: Vector,
+    other: Vector,
+    first: int,
+    rollers: int,
+    constants: Vector,
+    position: Vector,
+    work: Vector,
+) -> int:
+    """Put rollers back on the tooth that hang inside it, for good; return how many."""
+    angle, back = constants[PITCH_ANGLE], 0
+    for i in range(rollers):
+        if work[_ALOFT, i] <= 0.0:
+            continue
+        x, y = work[CENTRE_X, i], work[CENTRE_Y, i]
         cosine, sine = math.cos(i * angle), math.sin(i * angle)
         table = locus if (i + first) % 2 == 0 else other
         node = nearest_node(
@@ -389,7 +413,8 @@ def solve_wrap(
     ``first`` is 0 or 1: roller i sits in gap class (i + first) mod 2 and is followed by a
     link of the even or odd pitch likewise. ``tension`` (rollers + 1) runs from the tight
     strand to the slack one, ``force`` is what each tooth takes. A roller that its links
-    pull off the tooth is left out; its force is zero. Friction, a fraction of the force,
+    pull off the tooth hangs between its neighbours; its force is zero. ``work`` takes the
+    centres and, for rollers in contact, the normals. Friction, a fraction of the force,
     acts on each roller along the path, towards the last node where it is positive.
     """
     friction = constants[FRICTION]
@@ -406,10 +431,8 @@ def solve_wrap(
         lifted = lift_off(rollers, tolerance, work)
         settled = friction == 0.0 or drag(rollers, friction, work) <= tolerance
         if lifted == 0 and (settled or status == STALLED):
-            back = seat_again(
-                locus, other, first, rollers, constants, tight_angle, slack_angle, position, work
-            )
-            if back == 0:
+            hang_rollers(first, rollers, constants, tight_angle, slack_angle, work)
+            if seat_again(locus, other, first, rollers, constants, position, work) == 0:
                 break
         status = STALLED
     for i in range(rollers):

@@ -26,7 +26,6 @@ from wearsim.kernels.wrap import (
     STIFFNESS,
     TIGHT_TENSION,
     WORK_ROWS,
-    place_rollers,
     solve_wrap,
 )
 
@@ -335,20 +334,25 @@ class WrapMechanism:
     ) -> tuple[int, Vector, NDArray[np.float64], Vector, Vector]:
         count = self.rollers(phase)
         constants = self.constants(elongation)
-        position = np.full(count, self.start(elongation, even))
         work, tension, force = np.zeros((WORK_ROWS, count)), np.zeros(count + 1), np.zeros(count)
-        status = solve_wrap(
-            even, odd, first, count, constants, *self.angles(phase),
-            _TOLERANCE * self.pull.tight, position, work, tension, force,
-        )  # fmt: skip
-        place_rollers(even, odd, first, count, position, self.pitch_angle, work)
+        # Near the tips a step from the flank can pass over them: the seat is the second try.
+        for start in (self.start(elongation, even), float(np.hypot(*even[:2]).argmin())):
+            position = np.full(count, start)
+            status = solve_wrap(
+                even, odd, first, count, constants, *self.angles(phase),
+                _TOLERANCE * self.pull.tight, position, work, tension, force,
+            )  # fmt: skip
+            if status == SEATED:
+                break
         return int(status), position, work, tension, force
 
     def _jump(self, phase: float, elongation: float, status: int) -> str:
         what = "a roller climbs over its tooth" if status == JUMPED else "it finds no equilibrium"
         least = self.smallest_slack_tension(elongation)
         remedy = (
-            f"slack tension of at least {least:.3g} N" if least < math.inf else "shorter elongation"
+            f"slack tension of at least {1.005 * least:.3g} N"  # rounded up
+            if least < math.inf
+            else "shorter elongation"
         )
         return (
             f"wrap at an elongation of {100 * elongation:.3g} %, phase {phase:.3g}: the rollers must "

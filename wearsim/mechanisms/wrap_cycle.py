@@ -2,16 +2,14 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import Events
-from wearsim.contact.engagement import Kind
+from wearsim.contact.dwelling import Dwelling
 from wearsim.errors import ContactError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.dwelling import EVENT_ROWS
 from wearsim.kernels.wrap import SEATED, WORK_ROWS
@@ -50,7 +48,7 @@ class Sliding:
 
 
 @dataclass(frozen=True, eq=False)
-class WrapContact:
+class WrapContact(Dwelling):
     """Contact events of a wrap over one revolution, for the wear engine.
 
     Attributes
@@ -69,6 +67,8 @@ class WrapContact:
         Whether a tooth meets only inner or only outer links for life.
     elongation_per_cycle : float
         Growth of the chain in a revolution of the sprocket.
+    elongation_limit : float
+        Relative elongation at which a new chain is put on.
     """
 
     mechanism: WrapMechanism
@@ -78,22 +78,12 @@ class WrapContact:
     modulus: float
     same_link_kind: bool
     elongation_per_cycle: float
-    _last: list[Rows] = field(default_factory=list, init=False)
-
-    @property
-    def kind(self) -> Kind:
-        """DWELLING."""
-        return Kind.DWELLING
+    elongation_limit: float
 
     @property
     def profile(self) -> Profile:
         """Outline of a new gap."""
         return self.mechanism.outline
-
-    @cached_property
-    def arc_length(self) -> Vector:
-        """Along the outline from its right tip [mm]."""
-        return self.profile.arc_length
 
     @property
     def bodies(self) -> int:
@@ -125,7 +115,18 @@ class WrapContact:
         path = roller_path(coarse, self.roller_radius, (keep.size + 1) // 2)
         return replace(self, mechanism=replace(self.mechanism, outline=coarse, path=path))
 
-    def events(self, x: Rows, y: Rows, elongation: float) -> Events:
+    def memory(self) -> Rows:
+        """Return the places where no roller has been found yet.
+
+        Returns
+        -------
+        numpy.ndarray
+            Below zero, shape (kinds of link, phases, most rollers).
+        """
+        configurations = 2 if self.mechanism.chain.alternating else 1
+        return np.full((configurations, self.phases, self.most), -1.0)
+
+    def events(self, x: Rows, y: Rows, elongation: float, memory: Rows) -> Rows:
         """Return what worn gaps meet in one revolution.
 
         Parameters
@@ -134,23 +135,25 @@ class WrapContact:
             Worn outlines [mm], shape (bodies, points).
         elongation : float
             Relative elongation of the chain.
+        memory : numpy.ndarray
+            Where the rollers were last; replaced by where they are.
 
         Returns
         -------
-        Events
-            One column for every kind of link, phase and roller.
+        numpy.ndarray
+            Table of events, a column for every kind of link, phase and roller.
 
         Raises
         ------
         ContactError
             The chain jumps.
         """
-        mechanism, alternating = self.mechanism, self.mechanism.chain.alternating
+        mechanism = self.mechanism
         worn = [mechanism.path.worn(x[body], y[body]) for body in range(self.bodies)]
-        configurations, most = 2 if alternating else 1, self.most
-        positions = np.full((configurations, self.phases, most), -1.0)
-        if self._last:
-            positions = self._by_body(self._last[0], [path.node_of for path in worn])
+        configurations, _, most = memory.shape
+        positions = np.where(
+            memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn])
+        )
         loci = np.array([path.locus for path in worn])
         numbers = np.zeros(CYCLE_NUMBERS)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
@@ -168,13 +171,12 @@ class WrapContact:
             np.zeros(most), table,
         )  # fmt: skip
         if status != SEATED:
-            self._last.clear()
             raise ContactError(
                 f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but "
                 "it jumps on the worn teeth: raise the slack tension or replace the chain earlier"
             )
-        self._last[:] = [self._by_body(positions, [path.node_place for path in worn])]
-        return Events(table)
+        memory[:] = self._by_body(positions, [path.node_place for path in worn])
+        return table
 
     def _by_body(self, values: Rows, functions: "list[Callable[[Rows], Rows]]") -> Rows:
         """Apply to the rollers of every body the function of that body."""

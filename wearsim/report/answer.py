@@ -76,12 +76,27 @@ def answer(result: WearResult, source: str) -> str:
     rows = [
         ("Life", _life(result)),
         ("With the wear coefficient at its low / high end:", _band(result)),
+        *_parts(result),
         ("Worn most", _worst(result)),
         ("Assumes", _assumptions(result)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
     return "\n".join([result.title, *(_row(label, text) for label, text in rows)])
+
+
+def _parts(result: WearResult) -> list[tuple[str, str]]:
+    """Lives of chain and sprocket, and how far every limit is used when the life ends."""
+    if not result.parts:
+        return []
+    lives = ", ".join(f"{name} {hours(life)}" for name, life in result.parts.items())
+    chains = int(result.history_columns["chain"][-1])
+    more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
+    used = ", ".join(
+        f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
+        for state in result.limits
+    )
+    return [("Of which", f"{lives}{more}"), ("Limits", f"at the end of the life {used}")]
 
 
 def _row(label: str, text: str) -> str:
@@ -102,6 +117,7 @@ def _life(result: WearResult) -> str:
         what = {
             "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
             "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
+            "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
         }[result.stop]
         error = result.numerical_error
         bound = max(error, result.life_tolerance)
@@ -140,8 +156,11 @@ def _assumptions(result: WearResult) -> str:
 def _worst(result: WearResult) -> str:
     length = float(result.flank_columns["arc_length_mm"][-1])
     place = f"at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm"
-    if result.inputs["mechanism"]["kind"] == "strand":
+    kind = result.inputs["mechanism"]["kind"]
+    if kind == "strand":
         side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
         place += f" from the root, on the side where the roller {side}"
+    if kind == "wrap":
+        place = f"{_depth(result.max_depth)} mm {place} from the gap's right tip"
     pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
     return f"{place}; peak pressure {pressures}"

@@ -14,24 +14,40 @@ import numpy as np
 from wearsim.errors import OutputError
 from wearsim.geometry.profile import Vector
 from wearsim.output import new_folder
-from wearsim.result.life import Life, LowerBound
+from wearsim.result.life import Life, LimitState, LowerBound
 
 if TYPE_CHECKING:
     from wearsim.result.wear_result import WearResult
 
 SCHEMA_VERSION = 1
 
-HISTORY_COLUMNS = (
+_HISTORY = (
     "cycles", "time_hours", "max_depth_mm", "peak_pressure_MPa", "max_sliding_speed_mm_per_s",
     "removed_area_mm2", "worn_contact_ratio",
 )  # fmt: skip
-FLANK_COLUMNS = (
+_FLANK = (
     "cycles", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm", "pressure_MPa",
     "sliding_speed_mm_per_s", "load_per_width_N_per_mm", "relative_curvature_per_mm",
 )  # fmt: skip
 
+HISTORY_COLUMNS = {
+    "strand": _HISTORY,
+    "prescribed": _HISTORY,
+    "wrap": (
+        "cycles", "time_hours", "max_depth_mm", "elongation_percent", "chain",
+        "peak_pressure_MPa", "max_sliding_speed_mm_per_s", "removed_area_mm2", "tip_land_mm",
+        "over_pins_mm",
+    ),
+}  # fmt: skip
+FLANK_COLUMNS = {
+    "strand": _FLANK,
+    "prescribed": _FLANK,
+    "wrap": ("cycles", "gap_kind", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm"),
+}
+"""Columns of both tables for every kind of mechanism."""
+
 _INPUTS = "inputs"
-_FILE_KEYS = (("sprocket", "points_file"), ("mechanism", "table_file"))
+_FILE_KEYS = (("sprocket", "points_file"), ("sprocket", "dxf_file"), ("mechanism", "table_file"))
 
 
 def write_result(result: WearResult, folder: Path, force: bool) -> None:
@@ -53,7 +69,9 @@ def write_result(result: WearResult, folder: Path, force: bool) -> None:
     """
     with new_folder(folder, force) as place:
         lives = {name: asdict(getattr(result, name)) for name in ("life", "life_low", "life_high")}
-        _write_json(place / "result.json", {**result.summary(), "lives": lives})
+        parts = {name: asdict(life) for name, life in result.parts.items()}
+        stored = {**result.summary(), "lives": lives, "parts": parts}
+        _write_json(place / "result.json", stored)
         _write_json(place / "environment.json", dict(result.environment))
         (place / "case.lock.toml").write_text(_lock(result), encoding="utf-8")
         for name, text in result.input_files.items():
@@ -116,6 +134,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         )
     lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
     inputs = with_files(lock, "")
+    kind = inputs["mechanism"]["kind"]
     same = (
         "case", "title", "band", "stop", "stop_value", "cycles_run", "hours_run", "speed_rpm",
         "method", "updates", "numerical_error", "life_tolerance",
@@ -123,6 +142,8 @@ def _stored(folder: Path) -> dict[str, Any]:
     return {
         **{name: stored[name] for name in same},
         **{name: _life(life) for name, life in stored["lives"].items()},
+        "parts": {name: _life(life) for name, life in stored["parts"].items()},
+        "limits": tuple(LimitState(**state) for state in stored["limits"]),
         "max_depth": stored["max_depth_mm"],
         "max_depth_arc_length": stored["max_depth_arc_length_mm"],
         "initial_peak_pressure": stored["initial_peak_pressure_MPa"],
@@ -133,8 +154,8 @@ def _stored(folder: Path) -> dict[str, Any]:
         "input_files": {
             name: (folder / _INPUTS / name).read_text(encoding="utf-8") for name in _named(inputs)
         },
-        "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS),
-        "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS),
+        "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS[kind]),
+        "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS[kind]),
         "environment": json.loads((folder / "environment.json").read_text(encoding="utf-8")),
     }
 
@@ -184,7 +205,7 @@ def _read_columns(path: Path, names: tuple[str, ...]) -> dict[str, Vector]:
     columns = dict(zip(names, zip(*rows, strict=True), strict=True))
     return {
         name: np.array([int(cell) for cell in cells])
-        if name == "node"
+        if name in ("node", "gap_kind")
         else np.array([float(cell or "nan") for cell in cells])
         for name, cells in columns.items()
     }

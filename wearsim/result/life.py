@@ -64,3 +64,22 @@ class LowerBound:
             f"life: no limit was met within {self.hours_run:g} h ({self.cycles_run:g} cycles), the "
             "life is longer: raise run.horizon_hours"
         )
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """A limit and how near to it the drive is when its life ends.
+
+    Attributes
+    ----------
+    name : str
+        Key of the limit with its unit.
+    limit : float
+        Its value.
+    value : float
+        What the quantity has come to.
+    """
+
+    name: str
+    limit: float
+    value: float

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from importlib import metadata
 from pathlib import Path
@@ -14,7 +14,7 @@ import wearsim
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
-from wearsim.result.life import Life, LowerBound
+from wearsim.result.life import Life, LimitState, LowerBound
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,6 +56,11 @@ class WearResult:
         Estimated relative error of the life by steps and grid.
     life_tolerance : float
         What was asked for.
+    parts : mapping
+        Lives of ``chain`` and ``sprocket`` on a wrap, with chains replaced at their limit;
+        empty otherwise.
+    limits : tuple of LimitState
+        Every limit and what its quantity has come to at the end of the life.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
     inputs : mapping
@@ -87,6 +92,8 @@ class WearResult:
     updates: int
     numerical_error: float
     life_tolerance: float
+    parts: Mapping[str, Life | LowerBound]
+    limits: tuple[LimitState, ...]
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     inputs: Mapping[str, Any]
@@ -137,6 +144,8 @@ class WearResult:
             "band": self.band,
             "stop": self.stop,
             "stop_value": self.stop_value,
+            **{f"{name}_life_hours": _hours(life) for name, life in self.parts.items()},
+            "limits": [asdict(state) for state in self.limits],
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
             "initial_peak_pressure_MPa": self.initial_peak_pressure,

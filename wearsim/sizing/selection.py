@@ -17,6 +17,9 @@ from wearsim.sizing.power_rating import (
     strand_factor,
 )
 
+LARGEST_PITCH = 76.2
+"""Of the chains that the ANSI rating knows, no. 240 [mm]."""
+
 LEAST_SAFETY = 7.0
 """Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
 
@@ -29,8 +32,8 @@ class RatedDrive:
     ----------
     pitch : float
         Chain pitch [mm].
-    teeth : int
-        Gaps of the smaller sprocket.
+    teeth : float
+        Gaps of the smaller sprocket; no whole number where only some gaps carry a roller.
     speed : float
         Speed of the smaller sprocket [rpm].
     power : float
@@ -61,7 +64,7 @@ class RatedDrive:
     """
 
     pitch: float
-    teeth: int
+    teeth: float
     speed: float
     power: float
     strands: int = 1
@@ -223,6 +226,8 @@ def assess(
 
 
 def _power_findings(drive: RatedDrive, service_factor: float) -> list[Finding]:
+    if drive.pitch > LARGEST_PITCH:
+        return []
     note = rating_note(drive.series)
     several = strand_factor(drive.strands)
     required = drive.power * service_factor

@@ -1,33 +1,16 @@
 """How wrong a life may be numerically: by its steps and by its grid."""
 
+from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
-from wearsim.wear.trajectory import Trajectory
-
-
-def difference(run: Trajectory, other: Trajectory) -> float:
-    """Return the relative difference of two runs of one case.
-
-    Parameters
-    ----------
-    run, other : Trajectory
-        The runs.
-
-    Returns
-    -------
-    float
-        Of their lives; of their greatest depths where a run did not reach its limit.
-    """
-    if run.met is not None and other.met is not None:
-        return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
-    return abs(float(other.depth[-1].max() / run.depth[-1].max()) - 1.0)
+from wearsim.wear.trajectory import Trajectory, difference
 
 
 def grid_error(
     run: Trajectory,
-    contact: Contact,
+    contact: Contact | Dwelling,
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
@@ -39,7 +22,7 @@ def grid_error(
     ----------
     run : Trajectory
         The run on all points.
-    contact : Contact
+    contact : Contact or Dwelling
         The flank and its contact.
     law : Law
         The wear law.

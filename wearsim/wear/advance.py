@@ -15,12 +15,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.integrate import LSODA, DenseOutput
 
+from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.flank import flank_frame
 from wearsim.kernels.wear import wear_depth
 from wearsim.wear.criteria import Criterion, first_met
+from wearsim.wear.dwelling import advance_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
@@ -180,7 +182,7 @@ def _progress(solution: _Solution) -> float:
 
 
 def run_advance(
-    contact: Contact,
+    contact: Contact | Dwelling,
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
@@ -194,7 +196,7 @@ def run_advance(
 
     Parameters
     ----------
-    contact : Contact
+    contact : Contact or Dwelling
         The flank and its contact.
     law : Law
         The wear law.
@@ -217,6 +219,8 @@ def run_advance(
     ContactError
         The flank conforms to the roller, or the contact is gone.
     """
+    if not isinstance(contact, Contact):
+        return advance_dwelling(contact, law, criteria, horizon, life_tolerance)
     rate = _Rate(contact, law)
     profile = contact.profile
     check_touch(contact, profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size), 0.0)

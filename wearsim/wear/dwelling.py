@@ -8,7 +8,10 @@ of it follow until two agree.
 """
 
 import math
-from collections.abc import Iterator
+import os
+import threading
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +27,7 @@ from wearsim.kernels.dwelling import (
     EVENT_COUNT,
     EVENT_LOAD,
     EVENT_SLIP,
+    EVENT_SPEED,
     FINDINGS,
     MATE_RADIUS,
     NUMBERS,
@@ -38,7 +42,7 @@ from wearsim.kernels.dwelling import (
 from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
-from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
+from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, difference
 
 Rows = NDArray[np.float64]
 
@@ -84,6 +88,20 @@ class DwellingTrajectory(Trajectory):
     area: float
 
 
+@dataclass(frozen=True, eq=False)
+class _State:
+    """Outlines, depth, chain and cycles at one time, with pressure and speed of the last step."""
+
+    x: Rows
+    y: Rows
+    depth: Rows
+    elongation: float
+    cycles: float
+    chain: int
+    pressure: float
+    speed: float
+
+
 class _Bodies:
     """Worn outlines, the chain, and one step of their wear."""
 
@@ -114,17 +132,20 @@ class _Bodies:
         self.work = np.zeros((3 + WORK_ROWS, points))
         self.findings = np.zeros(FINDINGS)
         self.pressures = np.zeros((0, points))
+        self.memory = contact.memory()
         self.elongation, self.cycles, self.chain = 0.0, 0.0, 1
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
 
-    def copy_state(self) -> tuple[Rows, Rows, Rows, float, float, int]:
-        return (
-            self.x.copy(), self.y.copy(), self.depth.copy(), self.elongation, self.cycles, self.chain
+    def state(self) -> "_State":
+        """Return a copy of all that changes."""
+        return _State(
+            self.x.copy(), self.y.copy(), self.depth.copy(), self.elongation, self.cycles,
+            self.chain, float(self.findings[PEAK_PRESSURE]), self.speed,
         )  # fmt: skip
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles at once; return the most that any point receded."""
-        table = self.contact.events(self.x, self.y, self.elongation).table
+        table = self.contact.events(self.x, self.y, self.elongation, self.memory)
         if self.pressures.shape[0] != table.shape[1]:
             self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
         if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
@@ -143,8 +164,7 @@ class _Bodies:
                 f"wear at cycle {self.cycles:.6g}: the pressure of every roller must be found, but "
                 f"{int(self.findings[UNBALANCED])} of {table.shape[1]} were not: use more nodes"
             )
-        loaded = table[EVENT_LOAD] > 0.0
-        self.speed = float(table[7][loaded].max())
+        self.speed = float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max())
         self.removed += float(self.findings[AREA])
         self.elongation += cycles * self.contact.elongation_per_cycle
         self.cycles += cycles
@@ -156,35 +176,37 @@ class _Record:
     """Snapshots, thinned out as they become too many."""
 
     def __init__(self) -> None:
-        self.rows: list[tuple[Rows, Rows, Rows, float, float, int, float, float]] = []
+        self.states: list[_State] = []
         self.stride, self.count = 1, 0
 
     def add(self, bodies: _Bodies, last: bool = False) -> None:
         if last or self.count % self.stride == 0:
-            peak = float(bodies.findings[PEAK_PRESSURE])
-            self.rows.append((*bodies.copy_state(), peak, bodies.speed))
+            self.states.append(bodies.state())
         self.count += 1
-        if len(self.rows) > 2 * SNAPSHOTS:
-            self.rows = self.rows[::2]
+        if len(self.states) > 2 * SNAPSHOTS:
+            self.states = self.states[::2]
             self.stride *= 2
 
     def trajectory(self, bodies: _Bodies, met: Criterion | None) -> DwellingTrajectory:
-        x, y, depth = (np.array([row[k] for row in self.rows]) for k in range(3))
+        states = self.states
+        x, y, depth = (
+            np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth")
+        )
         worst = int(depth[-1].max(axis=1).argmax())
-        peak = np.array([row[6] for row in self.rows])
-        speed = np.array([row[7] for row in self.rows])
-        peak[0], speed[0] = peak[1], speed[1]
+        pressure = np.array([state.pressure for state in states])
+        speed = np.array([state.speed for state in states])
+        pressure[0], speed[0] = pressure[1], speed[1]
         return DwellingTrajectory(
-            cycles=np.array([row[4] for row in self.rows]),
+            cycles=np.array([state.cycles for state in states]),
             x=x[:, worst],
             y=y[:, worst],
             depth=depth[:, worst],
             met=met,
             updates=bodies.updates,
             all_depth=depth,
-            elongation=np.array([row[3] for row in self.rows]),
-            chains=np.array([float(row[5]) for row in self.rows]),
-            peak_pressure=peak,
+            elongation=np.array([state.elongation for state in states]),
+            chains=np.array([float(state.chain) for state in states]),
+            peak_pressure=pressure,
             sliding_speed=speed,
             area=bodies.removed,
         )
@@ -219,9 +241,9 @@ def run_dwelling(
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
-    elongation_limit: float,
     level: int,
     cycles_per_step: float = 0.0,
+    stop: threading.Event | None = None,
 ) -> DwellingTrajectory:
     """Wear outlines and chain until a criterion is met or the horizon is reached.
 
@@ -237,12 +259,12 @@ def run_dwelling(
         Limits of the outlines, the depth criterion first.
     horizon : float
         Cycles at which the run ends in any case.
-    elongation_limit : float
-        Relative elongation at which a chain is replaced.
     level : int
         Steps are smaller by half for each level above 0.
     cycles_per_step : float
         Cycles of every step; 0 for steps by the depth that they take off.
+    stop : threading.Event, optional
+        Ends the run early when it is set; what comes back then is not complete.
 
     Returns
     -------
@@ -259,10 +281,11 @@ def run_dwelling(
     bodies, record = _Bodies(contact, law), _Record()
     record.add(bodies)
     limit, growth = criteria[0].limit, contact.elongation_per_cycle
+    elongation_limit = contact.elongation_limit
     sizes = _step_sizes(limit, level)
     rate, met = 0.0, None
-    while met is None and bodies.cycles < horizon:
-        before = bodies.copy_state()
+    while met is None and bodies.cycles < horizon and not (stop and stop.is_set()):
+        before = bodies.state()
         cycles = cycles_per_step
         if not cycles_per_step:
             cycles = (
@@ -290,28 +313,23 @@ def run_dwelling(
 
 def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) -> float:
     """Cycles that wear about so deep: the area of all events over one roller radius tenth."""
-    table = contact.events(bodies.x, bodies.y, bodies.elongation).table
+    table = contact.events(bodies.x, bodies.y, bodies.elongation, bodies.memory)
     worn = table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]
     pressure = 300.0 ** (law.pressure_exponent - 1.0)
     area = law.coefficient * pressure * float(worn.max()) * 4.0
     return depth * 0.02 * contact.roller_radius / area if area > 0.0 else 1.0
 
 
-def _cut(
-    criteria: tuple[Criterion, ...],
-    bodies: _Bodies,
-    before: tuple[Rows, Rows, Rows, float, float, int],
-) -> None:
+def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> None:
     """Go back on the last step to the place where the first margin vanishes."""
-    after = bodies.copy_state()
+    after = bodies.state()
 
     def place(part: float) -> None:
-        bodies.x, bodies.y, bodies.depth = (
-            before[k] + part * (after[k] - before[k]) for k in range(3)
-        )
-        bodies.elongation, bodies.cycles = (
-            before[k] + part * (after[k] - before[k]) for k in (3, 4)
-        )
+        bodies.x = before.x + part * (after.x - before.x)
+        bodies.y = before.y + part * (after.y - before.y)
+        bodies.depth = before.depth + part * (after.depth - before.depth)
+        bodies.elongation = before.elongation + part * (after.elongation - before.elongation)
+        bodies.cycles = before.cycles + part * (after.cycles - before.cycles)
 
     low, high = 0.0, 1.0
     while True:
@@ -323,12 +341,55 @@ def _cut(
     place(high)
 
 
+def run_together(
+    contacts: Sequence[tuple[Dwelling, int]],
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+) -> list[DwellingTrajectory]:
+    """Run several contacts side by side, each with its own size of steps.
+
+    Parameters
+    ----------
+    contacts : sequence of tuple
+        Outlines with their contacts, and the level of each run.
+    law : Law
+        The wear law.
+    criteria : tuple of Criterion
+        Limits of the outlines, the depth criterion first.
+    horizon : float
+        Cycles at which the runs end in any case.
+
+    Returns
+    -------
+    list of DwellingTrajectory
+        In the order of the contacts.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    stop = threading.Event()
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        runs = [
+            pool.submit(run_dwelling, contact, law, criteria, horizon, level, 0.0, stop)
+            for contact, level in contacts
+        ]
+        try:
+            return [run.result() for run in runs]
+        except BaseException:
+            stop.set()
+            raise
+
+
 def advance_dwelling(
     contact: Dwelling,
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
-    elongation_limit: float,
     life_tolerance: float,
 ) -> tuple[DwellingTrajectory, float]:
     """Wear outlines and chain by steps that are halved until the life settles.
@@ -343,8 +404,6 @@ def advance_dwelling(
         Limits of the outlines, the depth criterion first.
     horizon : float
         Cycles at which the run ends in any case.
-    elongation_limit : float
-        Relative elongation at which a chain is replaced.
     life_tolerance : float
         Relative tolerance of the life.
 
@@ -361,17 +420,53 @@ def advance_dwelling(
     ConvergenceError
         A pressure cannot be found.
     """
-    coarse, change = run_dwelling(contact, law, criteria, horizon, elongation_limit, 0), math.inf
-    for level in range(1, _MOST_LEVELS + 1):
-        fine = run_dwelling(contact, law, criteria, horizon, elongation_limit, level)
-        change = _difference(fine, coarse)
-        coarse = fine
-        if change <= life_tolerance:
-            break
-    return coarse, change
+    levels = ((contact, 1), (contact, 0))
+    fine, coarse = run_together(levels, law, criteria, horizon)
+    return halve_steps(contact, law, criteria, horizon, life_tolerance, (coarse, fine))
 
 
-def _difference(run: Trajectory, other: Trajectory) -> float:
-    if run.met is not None and other.met is not None:
-        return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
-    return abs(float(other.depth[-1].max() / run.depth[-1].max()) - 1.0)
+def halve_steps(
+    contact: Dwelling,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    life_tolerance: float,
+    runs: tuple[DwellingTrajectory, DwellingTrajectory],
+) -> tuple[DwellingTrajectory, float]:
+    """Go on from runs of the levels 0 and 1 until two successive lives agree.
+
+    Parameters
+    ----------
+    contact : Dwelling
+        The outlines and their contacts.
+    law : Law
+        The wear law.
+    criteria : tuple of Criterion
+        Limits of the outlines, the depth criterion first.
+    horizon : float
+        Cycles at which the run ends in any case.
+    life_tolerance : float
+        Relative tolerance of the life.
+    runs : tuple of DwellingTrajectory
+        Those of the levels 0 and 1.
+
+    Returns
+    -------
+    tuple of DwellingTrajectory and float
+        The finest run, and the relative difference to the one before, which is about
+        its error.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    coarse, fine = runs
+    change, level = difference(fine, coarse), 1
+    while change > 0.5 * life_tolerance and level < _MOST_LEVELS:
+        level += 1
+        coarse, fine = fine, run_dwelling(contact, law, criteria, horizon, level)
+        change = difference(fine, coarse)
+    return fine, change

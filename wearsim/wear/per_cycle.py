@@ -8,11 +8,13 @@ from types import FrameType
 
 import numpy as np
 
+from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.wear import CONFORMING, RUNNING, UNSTABLE, VANISHED, run_cycles
 from wearsim.wear.criteria import Criterion, first_met
+from wearsim.wear.dwelling import run_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
@@ -103,7 +105,7 @@ class _Run:
 
 
 def run_per_cycle(
-    contact: Contact,
+    contact: Contact | Dwelling,
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
@@ -113,7 +115,7 @@ def run_per_cycle(
 
     Parameters
     ----------
-    contact : Contact
+    contact : Contact or Dwelling
         The flank and its contact.
     law : Law
         The wear law.
@@ -137,6 +139,8 @@ def run_per_cycle(
     ContactError
         The flank conforms to the roller, or the contact is gone.
     """
+    if not isinstance(contact, Contact):
+        return run_dwelling(contact, law, criteria, horizon, 0, float(cycles_per_update))
     run = _Run(contact, law, cycles_per_update, criteria[0].limit)
     check_touch(contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]

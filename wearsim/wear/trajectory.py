@@ -37,6 +37,24 @@ class Trajectory:
     updates: int
 
 
+def difference(run: Trajectory, other: Trajectory) -> float:
+    """Return the relative difference of two runs of one case.
+
+    Parameters
+    ----------
+    run, other : Trajectory
+        The runs.
+
+    Returns
+    -------
+    float
+        Of their lives; of their greatest depths where a run did not reach its limit.
+    """
+    if run.met is not None and other.met is not None:
+        return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
+    return abs(float(other.depth[-1].max() / run.depth[-1].max()) - 1.0)
+
+
 def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float) -> None:
     """Raise where the contact of a worn flank is outside Hertz's theory or gone.
 

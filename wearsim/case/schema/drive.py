@@ -9,7 +9,7 @@ from wearsim.case.units import NotNegative, Positive, PositiveNumber
 
 
 class DriveTable(Table):
-    """The other sprocket, the length of the chain and its slack span."""
+    """The other sprocket, the length of the chain, its slack span and how hard the drive is used."""
 
     mate_teeth: Annotated[int, Field(ge=5, le=1000)] | None = None
     links: Annotated[int, Field(ge=10, le=100000)] | None = None
@@ -18,6 +18,8 @@ class DriveTable(Table):
     sag_percent: Annotated[PositiveNumber, Field(le=20.0)] | None = None
     inclination_deg: Annotated[NotNegative, Field(le=90.0)] | None = None
     link_stiffness_N_per_mm: Positive | None = None
+    service_factor: Annotated[PositiveNumber, Field(ge=1.0, le=10.0)] | None = None
+    exploitation_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -1,27 +1,23 @@
-"""The one place that wires case, mechanism, wear engine and result."""
-
-from collections.abc import Callable
-from dataclasses import dataclass
+"""Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
 import numpy as np
 
-from wearsim.case.model import Case, PrescribedDrive, StrandDrive, WearInput, WrapDrive
+from wearsim.case.model import Case, PrescribedDrive, StrandDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
-from wearsim.errors import CaseError, ConvergenceError, Fault, WearsimError
+from wearsim.errors import ConvergenceError, WearsimError
 from wearsim.geometry.profile import Profile, Vector, area_between
-from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapLoads, WrapMechanism
-from wearsim.result import Life, LowerBound, WearResult, environment
+from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
-from wearsim.wear.accuracy import difference, grid_error
+from wearsim.simulation.law import wear_law
+from wearsim.wear.accuracy import grid_error
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
-from wearsim.wear.law import Law, archard, drozdov, power
+from wearsim.wear.law import Law
 from wearsim.wear.per_cycle import run_per_cycle
-from wearsim.wear.trajectory import Trajectory
+from wearsim.wear.trajectory import Trajectory, difference
 
 _FEW_CYCLES = 1000
 """Life below which a coefficient is doubtful."""
@@ -30,8 +26,8 @@ _WIDE = 0.1
 """Half-width over roller radius above which Hertz's half-spaces are doubtful."""
 
 
-def simulate(case: Case) -> WearResult:
-    """Wear the flank of a case until its first limit and return its life.
+def simulate_points(case: Case) -> WearResult:
+    """Wear the flank of a case on a strand or under a table of loads.
 
     Parameters
     ----------
@@ -49,23 +45,9 @@ def simulate(case: Case) -> WearResult:
         The contact leaves Hertz's theory or vanishes.
     ConvergenceError
         The life would be wrong.
-
-    Examples
-    --------
-    >>> import wearsim
-    >>> case = wearsim.load_case({
-    ...     "format_version": 1,
-    ...     "chain": {"designation": "16B-1"},
-    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
-    ...     "load": {"power_kW": 3, "speed_rpm": 100},
-    ...     "wear": {"condition": "hardened, oiled"},
-    ... })
-    >>> result = wearsim.simulate(case)
-    >>> result.life.hours == result.life.cycles / (60 * 100)
-    True
     """
     mechanism = _mechanism(case)
-    law, criteria = _law(case.wear, case.wear.coefficient), _criteria(case)
+    law, criteria = wear_law(case.wear, case.wear.coefficient), _criteria(case)
     horizon = case.run.horizon_hours * case.cycles_per_hour
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
@@ -103,6 +85,8 @@ def simulate(case: Case) -> WearResult:
         updates=run.updates,
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
+        parts={},
+        limits=_limits(case, criteria, run),
         assumptions=(*mechanism.assumptions(), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -110,140 +94,6 @@ def simulate(case: Case) -> WearResult:
         history_columns=history,
         flank_columns=flank,
         environment=environment(),
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class ToothLoads:
-    """What the teeth of a case's wrap carry in one phase.
-
-    Attributes
-    ----------
-    case, title : str
-        Of the case.
-    phase, elongation : float
-        Phase of the pitch, relative elongation of the chain.
-    first_link : str
-        ``inner``, ``outer`` or, where all links are alike, ``any``: the link after tooth 1.
-    loads : WrapLoads
-        One entry a tooth.
-    wrap_degrees : float
-        Wrap angle [deg].
-    face_width : float
-        b [mm].
-    slack, centrifugal : float
-        Tension of the slack strand, and what the chain's speed adds to all [N].
-    smallest_slack : float
-        Slack tension below which the chain jumps [N].
-    assumptions, warnings : tuple of str
-        Of the case.
-    """
-
-    case: str
-    title: str
-    phase: float
-    elongation: float
-    first_link: str
-    loads: WrapLoads
-    wrap_degrees: float
-    face_width: float
-    slack: float
-    centrifugal: float
-    smallest_slack: float
-    assumptions: tuple[str, ...]
-    warnings: tuple[str, ...]
-
-
-def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) -> ToothLoads:
-    """Return what the teeth of a sprocket carry that a chain wraps.
-
-    Parameters
-    ----------
-    case : Case
-        A case with ``mechanism.kind = "wrap"``.
-    elongation : float
-        Relative elongation of the chain, from 0.
-    phase : float, optional
-        From 0 (the first roller has just come in) to 1 (the next one is about to); None for
-        that with the largest force, of the phases of the case and both kinds of link.
-
-    Returns
-    -------
-    ToothLoads
-        With an inner link after the first tooth unless the other one loads a tooth more.
-
-    Raises
-    ------
-    CaseError
-        The case has no wrap.
-    ContactError
-        The chain jumps.
-    """
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
-        message = "'loads' needs a chain that wraps the sprocket: set kind = 'wrap'"
-        raise CaseError([Fault(message, "mechanism.kind", case.name)])
-    mechanism = wrap_mechanism(case, drive)
-    firsts = (0, 1) if drive.joint.alternating and elongation > 0.0 and phase is None else (0,)
-    phases = [phase] if phase is not None else list(np.linspace(0.0, 1.0, drive.phases + 1))
-    found = [
-        (mechanism.loads(part, elongation, first), part, first)
-        for part in phases
-        for first in firsts
-    ]
-    loads, part, first = max(found, key=lambda entry: float(entry[0].force.max()))
-    return ToothLoads(
-        case=case.name,
-        title=case.title,
-        phase=part,
-        elongation=elongation,
-        first_link=("inner", "outer")[first] if drive.joint.alternating else "any",
-        loads=loads,
-        wrap_degrees=float(np.degrees(drive.wrap_angle)),
-        face_width=drive.face_width,
-        slack=drive.slack,
-        centrifugal=drive.centrifugal,
-        smallest_slack=mechanism.smallest_slack_tension(elongation),
-        assumptions=(*mechanism.assumptions(), *case.assumptions),
-        warnings=case.warnings,
-    )
-
-
-def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
-    """Return the mechanism of a chain around a sprocket.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-
-    Returns
-    -------
-    WrapMechanism
-        Rollers on the unworn gap.
-    """
-    radius = 0.5 * case.chain.roller_diameter
-    return WrapMechanism(
-        outline=drive.outline,
-        path=roller_path(drive.outline, radius, (drive.outline.x.size + 1) // 2),
-        pitch_angle=drive.pitch_angle,
-        wrap_angle=drive.wrap_angle,
-        chain=WrapChain(
-            pitch=case.chain.pitch,
-            roller_radius=radius,
-            bush_radius=drive.bush_radius,
-            link_stiffness=drive.link_stiffness,
-            alternating=drive.joint.alternating,
-        ),
-        pull=Pull(
-            tight=drive.tight,
-            slack=drive.slack,
-            driver=drive.driver,
-            friction_roller_tooth=drive.friction_roller_tooth,
-            friction_roller_bush=drive.friction_roller_bush,
-        ),
     )
 
 
@@ -261,9 +111,7 @@ def _mechanism(case: Case) -> Mechanism:
             slip_fraction=drive.slip_fraction,
             modulus=case.modulus,
         )
-    if isinstance(drive, WrapDrive):
-        message = "a life on kind = 'wrap' cannot be calculated yet: 'loads' can"
-        raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    assert isinstance(drive, PrescribedDrive)
     return _prescribed(case, drive)
 
 
@@ -285,21 +133,6 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> PrescribedMechanism:
         roller_radius=0.5 * case.chain.roller_diameter,
         modulus=case.modulus,
     )
-
-
-def _law(wear: WearInput, coefficient: float) -> Law:
-    laws: dict[str, Callable[[], Law]] = {
-        "archard": lambda: archard(coefficient),
-        "power": lambda: power(coefficient, wear.pressure_exponent),
-        "drozdov": lambda: drozdov(
-            coefficient,
-            wear.pressure_exponent,
-            wear.hardness,
-            wear.reference_speed,
-            wear.speed_exponent,
-        ),
-    }
-    return laws[wear.law]()
 
 
 def _criteria(case: Case) -> tuple[Criterion, ...]:
@@ -402,6 +235,15 @@ def _tables(
     return history, flank
 
 
+def _limits(case: Case, criteria: tuple[Criterion, ...], run: Trajectory) -> tuple[LimitState, ...]:
+    """Return what is left of every limit at the end of the run."""
+    depth = LimitState("critical_depth_mm", case.critical_depth, float(run.depth[-1].max()))
+    if len(criteria) == 1 or not isinstance(case.drive, StrandDrive):
+        return (depth,)
+    land = case.drive.worn_tip_land(run.x[-1], run.y[-1])
+    return depth, LimitState("min_tip_land_mm", case.min_tip_land, land)
+
+
 def _validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
     """Return a warning for every limit of the theory that the run passes."""
     found = []
@@ -448,7 +290,7 @@ def _band(
             for factor in (case.wear.high, case.wear.low)
         )
         return low, high
-    law = _law(case.wear, case.wear.coefficient * case.wear.high)
+    law = wear_law(case.wear, case.wear.coefficient * case.wear.high)
     try:
         worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
     except WearsimError as reason:

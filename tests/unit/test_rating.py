@@ -1,0 +1,109 @@
+"""The drive of a case as the ratings see it."""
+
+import pytest
+
+import wearsim
+from wearsim.sizing.rating import rated_drive, rating, rating_warnings, warning
+from wearsim.sizing.selection import Finding, RatedDrive, assess
+
+WRAP = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 80-2"},
+    "sprocket": {"teeth": 20, "profile": "ansi_b29"},
+    "drive": {"mate_teeth": 60, "links": 122},
+    "load": {"power_kW": 30, "speed_rpm": 750},
+    "wear": {"condition": "hardened, oiled"},
+}
+
+
+def case(**tables):
+    merged = {name: {**WRAP.get(name, {}), **table} for name, table in tables.items()}
+    return wearsim.load_case({**WRAP, **merged})
+
+
+def test_numbers_of_the_catalogue_and_the_load():
+    """Two strands of 179.4 mm2 and 55.6 kN; 20 * 25.4 mm * 750 rpm = 6.35 m/s."""
+    drive = case().drive
+    found = rated_drive(case(), drive)
+    assert (found.pitch, found.teeth, found.speed, found.strands) == (25.4, 20.0, 750.0, 2)
+    assert (found.bearing_area, found.tensile, found.light) == (358.8, 111_200.0, False)
+    assert found.power == pytest.approx(30.0, rel=1e-12)
+    assert found.pull == pytest.approx(30e6 / 6350.0, rel=1e-12)
+    assert found.own_tension == drive.slack + drive.centrifugal
+    assert found.series == "ISO606-A/ANSI B29.1"
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        {"torque_N_m": 30e3 / (2 * 3.141592653589793 * 12.5), "speed_rpm": 750},
+        {"tension_N": 30e6 / 6350.0 + 200.0, "speed_rpm": 750},
+    ],
+    ids=["torque", "tension"],
+)
+def test_power_of_other_loads(load):
+    """P = T omega = (T_t - T_s) v."""
+    tables = {**WRAP, "load": load, "drive": {**WRAP["drive"], "slack_tension_N": 200.0}}
+    found = wearsim.load_case(tables)
+    assert rated_drive(found, found.drive).power == pytest.approx(30.0, rel=1e-12)
+
+
+def test_no_41_is_the_light_chain():
+    chain = {"designation": "085-1", "mass_kg_per_m": 0.4}
+    found = case(chain=chain, load={"power_kW": 0.2, "speed_rpm": 100})
+    assert rated_drive(found, found.drive).light
+
+
+def test_every_other_gap_of_an_odd_number_is_half_a_tooth():
+    """27 gaps: 13.5 teeth, laid out with 13; against 11 teeth the others are the smaller ones."""
+    track = {
+        "pitch_mm": 203.2,
+        "roller_diameter_mm": 66.0,
+        "inner_width_mm": 90.0,
+        "pin_diameter_mm": 44.0,
+        "bearing_area_mm2": 6600.0,
+        "mass_kg_per_m": 60.0,
+    }
+    for mate, teeth, speed in ((13, 13.5, 10.0), (11, 11.0, 10.0 * 13.5 / 11)):
+        found = wearsim.load_case(
+            {
+                **WRAP,
+                "chain": track,
+                "sprocket": {"teeth": 27, "engaged_every": 2, "profile": "gost591"},
+                "drive": {"mate_teeth": mate, "links": 42},
+                "load": {"power_kW": 30, "speed_rpm": 10},
+            }
+        )
+        rated = rated_drive(found, found.drive)
+        assert (rated.teeth, rated.speed) == pytest.approx((teeth, speed))
+        assert rated.power == pytest.approx(30.0, rel=1e-12)
+
+
+def test_ansi_formula_ends_with_its_largest_chain():
+    """No. 240 has a pitch of 3 in."""
+    names = [found.name for found in assess(RatedDrive(76.2, 17, 100.0, 10.0))]
+    assert names[:3] == ["plate fatigue", "roller impact", "corrected power"]
+    assert assess(RatedDrive(76.3, 17, 100.0, 10.0)) == ()
+
+
+def test_a_strand_has_no_rating():
+    sprocket = {"teeth": 20, "profile": "evolute"}
+    tables = {**WRAP, "sprocket": sprocket}
+    del tables["drive"]
+    strand = wearsim.load_case(tables)
+    assert (rating(strand), rating_warnings(strand)) == ((), [])
+
+
+def test_warnings_are_of_what_is_outside():
+    """Two strands carry 1.7 * 29.33 = 49.9 kW; K_e = 3 asks 4724 * 3 * 2/(358.8 * 1.7) = 46 MPa."""
+    power = case(drive={"service_factor": 1.7})
+    assert [found.ok for found in rating(power)][:3] == [False, True, False]
+    joints = case(drive={"exploitation_factor": 3.0})
+    (text,) = rating_warnings(joints)
+    assert text.startswith("outside a rating: joint pressure 46.47 MPa, allowed at most 21.62 MPa")
+    assert text.endswith("(GOST practice (Dunaev); indicative here)")
+
+
+def test_lower_limit_in_words():
+    found = Finding("safety", 6.0, 7.0, "", "iwis", at_least=True)
+    assert warning(found) == "outside a rating: safety 6, allowed at least 7 (iwis)"

@@ -1,0 +1,333 @@
+"""Lives of a sprocket that a chain wraps, and of the chain."""
+
+import math
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import ConvergenceError
+from wearsim.geometry.measuring import measurement_over_pins
+from wearsim.geometry.profile import Vector, area_between
+from wearsim.geometry.roller_path import roller_path
+from wearsim.mechanisms.joint import elongation_per_loop
+from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap_cycle import Sliding, WrapContact
+from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
+from wearsim.result.folder import with_files
+from wearsim.simulation.law import wear_law
+from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
+from wearsim.wear.dwelling import DwellingTrajectory, halve_steps, run_dwelling, run_together
+from wearsim.wear.law import Law
+from wearsim.wear.trajectory import difference
+
+_FLANKS = 40
+"""Worn outlines kept in flank.csv, about."""
+
+_MOST_UPDATES = 200_000
+"""Updates of a cycle-by-cycle run, each of some milliseconds."""
+
+
+def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
+    """Wear the gaps of a wrapped sprocket and its chain until the first limit.
+
+    The run goes on to the sprocket's own limit, with a new chain whenever one has grown
+    to its limit; chain and sprocket life are both reported and the shorter is the life.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    WearResult
+        Complete: lives, band, history and worn outlines.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found, or the run would take too many updates.
+    """
+    contact = wrap_contact(case, drive)
+    law, criteria = wear_law(case.wear, case.wear.coefficient), _criteria(case, drive)
+    horizon = case.run.horizon_hours * case.cycles_per_hour
+    warnings = list(case.warnings)
+    run, error = _run(case, contact, law, criteria, horizon, warnings)
+    chain = _chain_life(case, contact, horizon)
+    sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
+    life, stop, stop_value = _first(case, drive, run, chain, sprocket)
+    history, flank = _tables(case, contact, drive, run)
+    deepest = int(run.depth[-1].argmax())
+    return WearResult(
+        case=case.name,
+        title=case.title,
+        life=life,
+        life_low=_scaled(life, case.wear.high, case, horizon),
+        life_high=_scaled(life, case.wear.low, case, horizon),
+        band=f"{case.wear.band}, of teeth and joints alike",
+        stop=stop,
+        stop_value=stop_value,
+        cycles_run=float(run.cycles[-1]),
+        hours_run=float(run.cycles[-1]) / case.cycles_per_hour,
+        max_depth=float(run.depth[-1, deepest]),
+        max_depth_arc_length=float(contact.arc_length[deepest]),
+        initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
+        final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
+        speed_rpm=case.speed_rpm,
+        method=case.run.method,
+        updates=run.updates,
+        numerical_error=error,
+        life_tolerance=case.run.life_tolerance,
+        parts={"chain": chain, "sprocket": sprocket},
+        limits=_limits(case, drive, criteria, run, life),
+        assumptions=(*contact.assumptions(), *case.assumptions),
+        warnings=tuple(warnings),
+        inputs=with_files(case.inputs, ""),
+        input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
+        history_columns=history,
+        flank_columns=flank,
+        environment=environment(),
+    )
+
+
+def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
+    """Return the mechanism of a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    WrapMechanism
+        Rollers on the unworn gap.
+    """
+    radius = 0.5 * case.chain.roller_diameter
+    return WrapMechanism(
+        outline=drive.outline,
+        path=roller_path(drive.outline, radius, (drive.outline.x.size + 1) // 2),
+        pitch_angle=drive.pitch_angle,
+        wrap_angle=drive.wrap_angle,
+        chain=WrapChain(
+            pitch=case.chain.pitch,
+            roller_radius=radius,
+            bush_radius=drive.bush_radius,
+            link_stiffness=drive.link_stiffness,
+            alternating=drive.joint.alternating,
+        ),
+        pull=Pull(
+            tight=drive.tight,
+            slack=drive.slack,
+            driver=drive.driver,
+            friction_roller_tooth=drive.friction_roller_tooth,
+            friction_roller_bush=drive.friction_roller_bush,
+        ),
+    )
+
+
+def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
+    """Return the contact events of a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    WrapContact
+        For the wear engine.
+    """
+    mechanism = wrap_mechanism(case, drive)
+    pull, chain = mechanism.pull, mechanism.chain
+    rolls = (
+        pull.friction_roller_tooth * chain.roller_radius
+        > pull.friction_roller_bush * chain.bush_radius
+    )
+    teeth = 2.0 * math.pi / drive.pitch_angle
+    layout, joint = drive.layout, drive.joint
+    meetings = layout.meetings_1 if drive.driver else layout.meetings_2
+    per_loop = elongation_per_loop(
+        joint.coefficient,
+        (joint.pressure, joint.slack_pressure),
+        case.chain.pin_diameter,
+        case.chain.pitch,
+        (layout.teeth_1, layout.teeth_2),
+    )
+    return WrapContact(
+        mechanism=mechanism,
+        face_width=drive.face_width,
+        phases=drive.phases,
+        sliding=Sliding(
+            fraction=drive.slip_fraction,
+            path_fraction=drive.slip_fraction if rolls else 1.0,
+            pitch_time=60.0 / (case.speed_rpm * teeth),
+        ),
+        modulus=case.modulus,
+        same_link_kind=case.engaged_every == 1 and meetings.same_link_kind,
+        elongation_per_cycle=per_loop * teeth / layout.links,
+        elongation_limit=joint.elongation_limit,
+    )
+
+
+def _criteria(case: Case, drive: WrapDrive) -> tuple[Criterion, ...]:
+    depth = depth_criterion(case.critical_depth)
+    if case.min_tip_land:
+        return depth, tip_land_criterion(case.min_tip_land, drive.worn_tip_land)
+    return (depth,)
+
+
+def _run(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    warnings: list[str],
+) -> tuple[DwellingTrajectory, float]:
+    """Run the case; the error is that of the steps and of the grid."""
+    tolerance = case.run.life_tolerance
+    levels = ((contact, 1), (contact.coarsened(), 1), (contact, 0))
+    fine, sparse, coarse = run_together(levels, law, criteria, horizon)
+    run, error = halve_steps(contact, law, criteria, horizon, tolerance, (coarse, fine))
+    if case.run.method == "per_cycle":
+        check = run
+        run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]))
+        error += difference(run, check)
+    error += difference(fine, sparse)
+    if error > tolerance:
+        warnings.append(
+            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"
+        )
+    return run, error
+
+
+def _per_cycle(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    expected: float,
+) -> DwellingTrajectory:
+    """Run the case with steps of given cycles; about so many are expected in all."""
+    cycles = float(case.run.cycles_per_update)
+    if expected > _MOST_UPDATES * cycles:
+        least = math.ceil(expected / _MOST_UPDATES)
+        raise ConvergenceError(
+            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MOST_UPDATES} updates, takes "
+            f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
+        )
+    return run_dwelling(contact, law, criteria, horizon, 0, cycles)
+
+
+def _chain_life(case: Case, contact: WrapContact, horizon: float) -> Life | LowerBound:
+    """Life of a chain: its joints wear at a constant rate."""
+    cycles = contact.elongation_limit / contact.elongation_per_cycle
+    return _life(case, min(cycles, horizon), cycles <= horizon)
+
+
+def _life(case: Case, cycles: float, reached: bool) -> Life | LowerBound:
+    hours = cycles / case.cycles_per_hour
+    return Life(cycles, hours) if reached else LowerBound(cycles, hours)
+
+
+def _first(
+    case: Case,
+    drive: WrapDrive,
+    run: DwellingTrajectory,
+    chain: Life | LowerBound,
+    sprocket: Life | LowerBound,
+) -> tuple[Life | LowerBound, str, float]:
+    """Return the shorter of both lives with the limit that ended it."""
+    if isinstance(chain, Life) and not (
+        isinstance(sprocket, Life) and sprocket.cycles <= chain.cycles
+    ):
+        return chain, "elongation_percent", 100.0 * drive.joint.elongation_limit
+    if run.met is not None:
+        return sprocket, run.met.name, run.met.limit
+    return sprocket, "horizon_hours", case.run.horizon_hours
+
+
+def _scaled(
+    life: Life | LowerBound, factor: float, case: Case, horizon: float
+) -> Life | LowerBound:
+    """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
+    if isinstance(life, Life):
+        return Life(life.cycles / factor, life.hours / factor)
+    return LowerBound(life.cycles_run / factor, life.hours_run / factor)
+
+
+def _limits(
+    case: Case,
+    drive: WrapDrive,
+    criteria: tuple[Criterion, ...],
+    run: DwellingTrajectory,
+    life: Life | LowerBound,
+) -> tuple[LimitState, ...]:
+    """Return what is left of every limit when the life ends."""
+    cycles = life.cycles if isinstance(life, Life) else life.cycles_run
+    at = int(np.searchsorted(run.cycles, cycles * (1.0 - 1e-9)))
+    at = min(at, run.cycles.size - 1)
+    depth = float(np.interp(cycles, run.cycles, run.depth.max(axis=1)))
+    limit = 100.0 * drive.joint.elongation_limit
+    found = [
+        LimitState("critical_depth_mm", case.critical_depth, depth),
+        LimitState("elongation_percent", limit, 100.0 * float(run.elongation[at])),
+    ]
+    if len(criteria) > 1:
+        land = drive.worn_tip_land(run.x[at], run.y[at])
+        found.append(LimitState("min_tip_land_mm", case.min_tip_land, land))
+    return tuple(found)
+
+
+def _tables(
+    case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Return the columns of history.csv and flank.csv."""
+    profile, points = contact.profile, contact.profile.x.size
+    seat = [
+        float(np.hypot(*contact.mechanism.path.worn(x, y).locus[:2]).min())
+        for x, y in zip(run.x, run.y, strict=True)
+    ]
+    diameter = 2.0 * contact.roller_radius
+    history = {
+        "cycles": run.cycles,
+        "time_hours": run.cycles / case.cycles_per_hour,
+        "max_depth_mm": run.depth.max(axis=1),
+        "elongation_percent": 100.0 * run.elongation,
+        "chain": run.chains,
+        "peak_pressure_MPa": run.peak_pressure,
+        "max_sliding_speed_mm_per_s": run.sliding_speed,
+        "removed_area_mm2": np.array(
+            [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+        "tip_land_mm": np.array(
+            [drive.worn_tip_land(x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+        "over_pins_mm": np.array(
+            [measurement_over_pins(radius, diameter, drive.gaps) for radius in seat]
+        ),
+    }
+    shots = np.unique(np.linspace(0, run.cycles.size - 1, _FLANKS).round().astype(int))
+    bodies = contact.bodies
+    depth = run.all_depth[shots]
+    flank = {
+        "cycles": np.repeat(run.cycles[shots], bodies * points),
+        "gap_kind": np.tile(np.repeat(np.arange(1, bodies + 1), points), shots.size),
+        "node": np.tile(np.arange(1, points + 1), shots.size * bodies),
+        "arc_length_mm": np.tile(contact.arc_length, shots.size * bodies),
+        "x_mm": (profile.x - depth * profile.normal_x).ravel(),
+        "y_mm": (profile.y - depth * profile.normal_y).ravel(),
+        "depth_mm": depth.ravel(),
+    }
+    return history, flank
