@@ -53,7 +53,7 @@ def test_stdout_by_default(cli, tmp_path):
 @pytest.mark.parametrize(
     ("options", "start", "words"),
     [
-        (("--chain", "16B"), "--chain: no such chain", "did you mean '16B-1'?"),
+        (("--chain", "16Bx"), "--chain: no such chain", "did you mean '16B"),
         (("--teeth", "4"), "--teeth: must be ", "(got 4)"),
         (("--teeth", "7"), "--teeth: ", "try a shorter contact range"),
         (("--chain", "08B-1", "--teeth", "13"), "--teeth: ", "teeth = 14 will do"),

@@ -15,7 +15,9 @@ from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import rows
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
+from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
+from wearsim.simulation import tooth_loads
 
 CASE = {
     "format_version": 1,
@@ -30,6 +32,7 @@ UNITS = {
     "mm": "mm", "mm2": "mm^2", "N": "N", "MPa": "MPa", "kW": "kW", "kN": "kN", "rpm": "rpm",
     "deg": "deg", "hours": "h", "hours_low": "h", "hours_high": "h", "hours_run": "h",
     "N_m": "N*m", "per_mm": "1/mm", "mm_per_s": "mm/s", "mm2_per_N": "mm^2/N", "N_per_mm": "N/mm",
+    "kg_per_m": "kg/m",
 }  # fmt: skip
 
 
@@ -65,6 +68,20 @@ def prescribed_columns(folder):
         yield from names
 
 
+def wrapped():
+    """Every column and key of a chain around a sprocket."""
+    case = load_case(
+        {
+            **CASE,
+            "sprocket": {"teeth": 12, "profile": "iso606", "nodes": 101},
+            "mechanism": {"phases": 1},
+            "run": {"horizon_hours": 10},
+        }
+    )
+    result, loads = wearsim.simulate(case), loads_json(tooth_loads(case))
+    yield from (*result.history, *result.flank, *result.summary(), *loads, *loads["teeth"][0])
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """Every column and key that goes out."""
@@ -78,6 +95,7 @@ def written(tmp_path_factory):
         *schema["$defs"]["life"]["properties"],
         *profile_table(case),
         *comparison_table([result]),
+        *wrapped(),
         *catalogue_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
     }

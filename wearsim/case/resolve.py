@@ -240,7 +240,7 @@ def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
     if depth >= thinnest > 0.0:
         case.faults.add(
             "stop.critical_depth_mm",
-            f"must be below the thickness of the tooth where it is thinnest, {thinnest:.4g} mm "
+            f"must be below the thickness of the tooth at its neck, {thinnest:.4g} mm "
             f"(got {depth:g})",
         )
     elif depth > _DEEP * thickness > 0.0:

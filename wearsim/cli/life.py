@@ -1,7 +1,6 @@
 """``wearsim life``: the life of one or several cases."""
 
 import json
-import math
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ from wearsim.cli.standard import (
     SOME_FAILED,
     error_json,
     exit_code,
+    finite,
     load_cases,
     overrides,
     show_error,
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
     "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
-    callback=lambda context, parameter, value: _finite(value),
+    callback=finite,
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
@@ -76,12 +76,6 @@ def life(
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
-
-
-def _finite(hours: float | None) -> float | None:
-    if hours is None or math.isfinite(hours):
-        return hours
-    raise click.BadParameter(f"{hours} is not a finite number.")
 
 
 def _with_horizon(case: "Case", hours: float) -> "Case":

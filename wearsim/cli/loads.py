@@ -5,19 +5,20 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.standard import load_cases, overrides, standard, warn
+from wearsim.cli.standard import finite, load_cases, overrides, standard, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
 @click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
 @click.option(
     "--elongation", type=click.FloatRange(0.0, 10.0), default=0.0, show_default=True,
-    metavar="PERCENT", help="Elongation of the chain.",
+    metavar="PERCENT", callback=finite, help="Elongation of the chain.",
 )  # fmt: skip
 @click.option(
     "--phase",
     type=click.FloatRange(0.0, 1.0),
     metavar="F",
+    callback=finite,
     help="Part of a pitch gone since the first roller came in; default 1, the end of its articulation.",
 )
 @click.option("--worst", is_flag=True, help="The phase with the largest force on a tooth.")

@@ -1,6 +1,7 @@
 """What commands share: options, exit codes and the form of a failed case."""
 
 import json
+import math
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -183,7 +184,9 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
     cases, failed = [], False
     for path in paths:
         try:
-            cases.append(load_case(path, settings))
+            case = load_case(path, settings)
+            _check_hold(case)
+            cases.append(case)
         except (CaseError, GeometryError) as error:
             failed = True
             if as_json:
@@ -192,3 +195,33 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
     if failed:
         raise click.exceptions.Exit(BAD_INPUT)
     return cases
+
+
+def _check_hold(case: "Case") -> None:
+    """Find a chain that jumps, which takes the solver but no run."""
+    if case.inputs["mechanism"]["kind"] == "wrap":
+        from wearsim.simulation import check_hold
+
+        check_hold(case)
+
+
+def finite(context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    """Refuse nan and infinity, which click's ranges let pass.
+
+    Parameters
+    ----------
+    context : click.Context
+        Not used.
+    parameter : click.Parameter
+        Not used.
+    value : float or None
+        What was given.
+
+    Returns
+    -------
+    float or None
+        The value.
+    """
+    if value is None or math.isfinite(value):
+        return value
+    raise click.BadParameter(f"{value} is not a finite number.")

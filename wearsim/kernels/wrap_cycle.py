@@ -50,7 +50,7 @@ CYCLE_NUMBERS = 7
 @kernel(int64(float64, float64, float64))
 def engaged(wrap_angle: float, pitch_angle: float, phase: float) -> int:
     """Return the number of rollers between the straight strands."""
-    return max(1, int(math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9)))
+    return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
 
 
 @kernel(

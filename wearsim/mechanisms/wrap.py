@@ -398,18 +398,18 @@ class WrapMechanism:
         """
         difference = self.pull.tight - self.pull.slack
 
-        def holding(slack: float) -> bool:
+        def _holding(slack: float) -> bool:
             pull = replace(self.pull, tight=difference + slack, slack=slack)
             return replace(self, pull=pull).holds(elongation)
 
         low, high = 1e-9 * self.pull.tight, max(difference, self.pull.slack)
-        if not holding(high):
+        if not _holding(high):
             return math.inf
-        if holding(low):
+        if _holding(low):
             return low
         while high > 1.01 * low:
             middle = math.sqrt(low * high)
-            low, high = (low, middle) if holding(middle) else (middle, high)
+            low, high = (low, middle) if _holding(middle) else (middle, high)
         return high
 
     def assumptions(self) -> list[str]:

@@ -165,7 +165,8 @@ class WrapContact(Dwelling):
         numbers[START] = mechanism.start(elongation, loci[0])
         table = np.zeros((EVENT_ROWS, configurations * self.phases * most))
         status = wrap_events(
-            loci, np.array([path.touched for path in worn]), configurations, self.phases, most, self.bodies / configurations,
+            loci, np.array([path.touched for path in worn]), configurations, self.phases, most,
+            self.bodies / configurations,
             mechanism.constants(elongation), numbers, positions,
             np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
             np.zeros(most), table,
@@ -199,8 +200,8 @@ class WrapContact(Dwelling):
         return [
             *self.mechanism.assumptions(),
             f"a roller slides {sliding.fraction:g} of the articulation of "
-            f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the last "
-            f"tooth, and {sliding.path_fraction:g} of its way along the flank",
+            f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the "
+            f"last tooth, and {sliding.path_fraction:g} of its way along the flank",
             "pressure from the half-space contact of the roller in the worn gap; rollers do not wear",
             "every tooth alike"
             if self.bodies == 1

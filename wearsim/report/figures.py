@@ -11,6 +11,7 @@ from matplotlib.patches import Circle
 
 from wearsim.case.load import load_case
 from wearsim.case.model import StrandDrive
+from wearsim.catalogue.tables import chains
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.report.answer import grouped
 from wearsim.result import Life, WearResult
@@ -90,7 +91,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     x = new.x + enlarged * (last["x_mm"] - new.x)
     y = new.y + enlarged * (last["y_mm"] - new.y)
     deepest = int(last["depth_mm"].argmax())
-    radius = 1.0 / float(np.median(first["relative_curvature_per_mm"] - new.curvature))
+    radius = _roller_radius(result)
     centre_x = new.x[deepest] + radius * new.normal_x[deepest]
     centre_y = new.y[deepest] + radius * new.normal_y[deepest]
     panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
@@ -110,9 +111,9 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
         color="tab:red",
         arrowprops={"arrowstyle": "-", "color": "tab:red", "linewidth": 0.8},
     )
-    reach = 1.6 * extent
+    reach, aside = 1.6 * extent, 0.2 if result.parts else 0.8
     panel.set_xlim(
-        new.x.min() - 0.8 * extent,
+        new.x.min() - aside * extent,
         new.x.max() + min(reach, centre_x + radius + 0.15 * extent - new.x.max()),
     )
     panel.set_ylim(
@@ -127,8 +128,17 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.legend(loc="lower right", frameon=False, fontsize=8)
 
 
+def _roller_radius(result: WearResult) -> float:
+    chain = result.inputs["chain"]
+    if "designation" in chain:
+        return 0.5 * chains()[chain["designation"]].roller_diameter
+    return 0.5 * float(chain["roller_diameter_mm"])
+
+
 def _outline(result: WearResult) -> tuple[Vector, Vector]:
-    """Points of the new wheel; none where the result knows a flank only."""
+    """Points of the new wheel, or of the teeth beside a gap; none where only a flank is known."""
+    if result.inputs["mechanism"]["kind"] == "wrap":
+        return _beside_gap(result)
     sprocket = result.inputs.get("sprocket", {})
     strand = result.inputs["mechanism"]["kind"] == "strand"
     if not strand or sprocket["profile"] != "evolute":
@@ -139,8 +149,22 @@ def _outline(result: WearResult) -> tuple[Vector, Vector]:
     return points[:, 0], points[:, 1]
 
 
+def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
+    """Half of the teeth on both sides of a gap, down to a roller radius below it."""
+    first = _snapshot(result, 0)
+    x, y = first["x_mm"], first["y_mm"]
+    half = np.pi / result.inputs["sprocket"]["teeth"]
+    tip, low = float(np.hypot(x[0], y[0])), float(y.min()) - _roller_radius(result)
+    left, right = np.array([-np.sin(half), np.cos(half)]), np.array([np.sin(half), np.cos(half)])
+    corners = np.array([tip * left, low * left, low * right, tip * right])
+    return np.append(x, corners[:, 0]), np.append(y, corners[:, 1])
+
+
 def _run_time(result: WearResult) -> str:
-    reached = "life" if isinstance(result.life, Life) else "limit not reached"
+    if result.parts:
+        reached = "sprocket worn" if isinstance(result.parts["sprocket"], Life) else "run ends"
+    else:
+        reached = "life" if isinstance(result.life, Life) else "limit not reached"
     return f"{grouped(result.hours_run)} h ({reached})"
 
 
@@ -157,23 +181,33 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     matplotlib.figure.Figure
         Pressure and sliding of the new flank are dashed.
     """
-    figure = Figure(figsize=(8.0, 8.5), layout="constrained")
-    panels = figure.subplots(3, 1, sharex=True)
+    shown = [("depth_mm", "depth, mm")]
+    if any("pressure_MPa" in result.flank_columns for result in results):
+        shown += [
+            ("pressure_MPa", "Hertz pressure, MPa"),
+            ("sliding_speed_mm_per_s", "sliding speed, mm/s"),
+        ]
+    figure = Figure(figsize=(8.0, 2.2 + 2.1 * len(shown)), layout="constrained")
+    panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
         first, last = _snapshot(result, 0), _snapshot(result, -1)
         (line,) = panels[0].plot(last["arc_length_mm"], last["depth_mm"], label=result.title)
-        for panel, name in zip(panels[1:], ("pressure_MPa", "sliding_speed_mm_per_s"), strict=True):
-            panel.plot(last["arc_length_mm"], last[name], color=line.get_color())
-            panel.plot(first["arc_length_mm"], first[name], "--", color=line.get_color(), lw=0.9)
-    for panel, label in zip(
-        panels, ("depth, mm", "Hertz pressure, MPa", "sliding speed, mm/s"), strict=True
-    ):
+        for panel, (name, _) in zip(panels[1:], shown[1:], strict=True):
+            if name in last:
+                panel.plot(last["arc_length_mm"], last[name], color=line.get_color())
+                panel.plot(
+                    first["arc_length_mm"], first[name], "--", color=line.get_color(), lw=0.9
+                )
+    for panel, (_, label) in zip(panels, shown, strict=True):
         panel.set_ylabel(label)
         panel.grid(alpha=0.3)
         panel.set_ylim(bottom=0.0)
     panels[0].legend(frameon=False, fontsize=8)
-    panels[1].set_title("solid: at the end of the run, dashed: new", fontsize=9, loc="left")
-    panels[2].set_xlabel("arc length from the root, mm")
+    if len(shown) > 1:
+        panels[1].set_title("solid: at the end of the run, dashed: new", fontsize=9, loc="left")
+    panels[-1].set_xlabel(
+        "arc length from the root of the flank (from the gap's right tip on a wrap), mm"
+    )
     return figure
 
 
@@ -190,25 +224,38 @@ def depth_figure(results: list[WearResult]) -> Figure:
     matplotlib.figure.Figure
         A dot marks a life, an arrow a run that went on.
     """
-    figure = Figure(figsize=(8.0, 4.8), layout="constrained")
-    panel = figure.subplots()
+    shown = [("max_depth_mm", "greatest depth, mm")]
+    if any("elongation_percent" in result.history_columns for result in results):
+        shown.append(("elongation_percent", "elongation of the chain, %"))
+    figure = Figure(figsize=(8.0, 2.4 + 2.4 * len(shown)), layout="constrained")
+    panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
-        time, depth = (result.history_columns[name] for name in ("time_hours", "max_depth_mm"))
-        reached = isinstance(result.life, Life)
-        (line,) = panel.plot(time, depth, label=result.title)
-        panel.plot(time[-1], depth[-1], "o" if reached else ">", color=line.get_color())
-    panel.set_xlabel("running time, h")
-    panel.set_ylabel("greatest depth, mm")
-    panel.set_xlim(left=0.0)
-    panel.set_ylim(bottom=0.0)
-    panel.grid(alpha=0.3)
-    panel.set_title("dot: life reached; arrow: run ends at the horizon", fontsize=9, loc="left")
-    panel.legend(frameon=False, fontsize=8)
+        time = result.history_columns["time_hours"]
+        (line,) = panels[0].plot([], [], label=result.title)
+        for panel, (name, _) in zip(panels, shown, strict=True):
+            if name in result.history_columns:
+                panel.plot(time, result.history_columns[name], color=line.get_color())
+        reached = result.parts.get("sprocket", result.life)
+        mark = "o" if isinstance(reached, Life) else ">"
+        depth = result.history_columns["max_depth_mm"]
+        panels[0].plot(time[-1], depth[-1], mark, color=line.get_color())
+    for panel, (_, label) in zip(panels, shown, strict=True):
+        panel.set_ylabel(label)
+        panel.set_xlim(left=0.0)
+        panel.set_ylim(bottom=0.0)
+        panel.grid(alpha=0.3)
+    panels[-1].set_xlabel("running time, h")
+    title = "dot: limit of the sprocket reached; arrow: run ends at the horizon"
+    panels[0].set_title(title, fontsize=9, loc="left")
+    panels[0].legend(frameon=False, fontsize=8)
     return figure
 
 
 def _snapshot(result: WearResult, index: int) -> dict[str, Vector]:
-    """Columns of the flank at one snapshot."""
+    """Columns of the flank at one snapshot; of the kind of gap that wears most."""
     cycles = result.flank_columns["cycles"]
     at = cycles == np.unique(cycles)[index]
+    if "gap_kind" in result.flank_columns:
+        kinds = result.flank_columns["gap_kind"]
+        at &= kinds == kinds[int(result.flank_columns["depth_mm"].argmax())]
     return {name: values[at] for name, values in result.flank_columns.items()}

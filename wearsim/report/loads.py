@@ -92,7 +92,7 @@ def loads_table(found: ToothLoads) -> str:
     """
     columns = loads_columns(found)
     lines = [
-        f"{found.title}: {found.loads.force.size} rollers in the wrap of {found.wrap_degrees:.1f} degrees, "
+        f"{found.title}: {found.loads.force.size} rollers in a wrap of {found.wrap_degrees:.1f} degrees, "
         f"elongation {100 * found.elongation:g} %, phase {found.phase:.3g}, "
         f"{found.first_link} link after tooth 1",
         "  tooth  tension    force     load  pressure   shift  contact",

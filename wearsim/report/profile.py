@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from wearsim.case.model import Case, StrandDrive
+from wearsim.case.model import Case, StrandDrive, WrapDrive
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Profile, Vector
 
@@ -28,10 +28,10 @@ def profile_table(case: Case) -> pd.DataFrame:
     CaseError
         The case has no sprocket.
     """
+    if isinstance(case.drive, WrapDrive):
+        return _gap_table(case.drive)
     if not isinstance(case.drive, StrandDrive):
-        message = (
-            "the case must have a flank on a strand, a table of loads has none: nothing to write"
-        )
+        message = "the case must have a sprocket, a table of loads has none: nothing to write"
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     flank, strand = case.drive.profile, case.drive.tooth.strand
     if case.inputs["sprocket"]["profile"] == "evolute":
@@ -56,6 +56,27 @@ def profile_table(case: Case) -> pd.DataFrame:
             "pressure_angle_deg": np.degrees(angle),
             "evolute_x_mm": evolute[:, 0],
             "evolute_y_mm": evolute[:, 1],
+        }
+    )
+
+
+def _gap_table(drive: WrapDrive) -> pd.DataFrame:
+    """Points of a whole gap from its right tip to its left one; no radius where it is straight."""
+    outline = drive.outline
+    theta = np.arctan2(np.abs(outline.normal_x), outline.normal_y)
+    bent = np.abs(outline.curvature) > 1e-9
+    curvature = np.where(bent, outline.curvature, np.nan)
+    return pd.DataFrame(
+        {
+            "node": np.arange(1, outline.x.size + 1),
+            "x_mm": outline.x,
+            "y_mm": outline.y,
+            "arc_length_mm": outline.arc_length,
+            "curvature_per_mm": np.where(bent, curvature, 0.0),
+            "flank_radius_mm": 1.0 / np.abs(curvature),
+            "pressure_angle_deg": 90.0 - np.degrees(theta + 0.5 * drive.pitch_angle),
+            "evolute_x_mm": outline.x - outline.normal_x / curvature,
+            "evolute_y_mm": outline.y - outline.normal_y / curvature,
         }
     )
 

@@ -2,11 +2,11 @@
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.result import WearResult
-from wearsim.simulation.loads import ToothLoads, tooth_loads
+from wearsim.simulation.loads import ToothLoads, check_hold, tooth_loads
 from wearsim.simulation.pointwise import simulate_points
 from wearsim.simulation.wrap import simulate_wrap
 
-__all__ = ["ToothLoads", "simulate", "tooth_loads"]
+__all__ = ["ToothLoads", "check_hold", "simulate", "tooth_loads"]
 
 
 def simulate(case: Case) -> WearResult:

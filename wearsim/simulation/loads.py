@@ -1,13 +1,17 @@
 """What the teeth of a wrapped sprocket carry."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from wearsim.case.model import Case, WrapDrive
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError, ContactError, Fault
 from wearsim.mechanisms.wrap import WrapLoads
 from wearsim.simulation.wrap import wrap_mechanism
+
+_PHASES = 9
+"""Phases of a pitch at which a new drive is checked for jumping."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +92,7 @@ def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) 
         for part in phases
         for first in firsts
     ]
-    loads, part, first = max(found, key=lambda entry: float(entry[0].force.max()))
+    loads, part, first = max(found, key=lambda entry: (float(entry[0].force.max()), entry[1]))
     return ToothLoads(
         case=case.name,
         title=case.title,
@@ -104,3 +108,29 @@ def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) 
         assumptions=(*mechanism.assumptions(), *case.assumptions),
         warnings=case.warnings,
     )
+
+
+def check_hold(case: Case) -> None:
+    """Raise where the chain of a case jumps on new teeth, at no or at its limit of elongation.
+
+    Parameters
+    ----------
+    case : Case
+        Any case; only a chain around a sprocket can jump.
+
+    Raises
+    ------
+    CaseError
+        With the slack tension that would hold it.
+    """
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        return
+    mechanism = wrap_mechanism(case, drive)
+    kinds = (0, 1) if drive.joint.alternating else (0,)
+    states = product((0.0, drive.joint.elongation_limit), kinds, np.linspace(0.0, 1.0, _PHASES))
+    for elongation, first, phase in states:
+        try:
+            mechanism.loads(float(phase), elongation, first)
+        except ContactError as error:
+            raise CaseError([Fault(str(error), "drive.slack_tension_N", case.name)]) from None

@@ -15,6 +15,7 @@ from wearsim.mechanisms.wrap_cycle import Sliding, WrapContact
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import wear_law
+from wearsim.sizing.rating import rating_warnings
 from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
 from wearsim.wear.dwelling import DwellingTrajectory, halve_steps, run_dwelling, run_together
 from wearsim.wear.law import Law
@@ -55,7 +56,7 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
     contact = wrap_contact(case, drive)
     law, criteria = wear_law(case.wear, case.wear.coefficient), _criteria(case, drive)
     horizon = case.run.horizon_hours * case.cycles_per_hour
-    warnings = list(case.warnings)
+    warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings)
     chain = _chain_life(case, contact, horizon)
     sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
@@ -174,7 +175,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
         ),
         modulus=case.modulus,
         same_link_kind=case.engaged_every == 1 and meetings.same_link_kind,
-        elongation_per_cycle=per_loop * teeth / layout.links,
+        elongation_per_cycle=per_loop * drive.gaps / layout.links,
         elongation_limit=joint.elongation_limit,
     )
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import Dwelling
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.dwelling import (
     AREA,
     COEFFICIENT,
@@ -89,6 +89,25 @@ class DwellingTrajectory(Trajectory):
 
 
 @dataclass(frozen=True, eq=False)
+class Start:
+    """Worn outlines and a used chain that a run may begin with.
+
+    Attributes
+    ----------
+    depth : numpy.ndarray
+        Depth of every body along the normals of the new outline [mm], shape (bodies, points).
+    elongation : float
+        Relative elongation of the chain.
+    chain : int
+        Its number from 1.
+    """
+
+    depth: Rows
+    elongation: float
+    chain: int
+
+
+@dataclass(frozen=True, eq=False)
 class _State:
     """Outlines, depth, chain and cycles at one time, with pressure and speed of the last step."""
 
@@ -105,7 +124,7 @@ class _State:
 class _Bodies:
     """Worn outlines, the chain, and one step of their wear."""
 
-    def __init__(self, contact: Dwelling, law: Law) -> None:
+    def __init__(self, contact: Dwelling, law: Law, start: Start | None) -> None:
         self.contact = contact
         profile, bodies = contact.profile, contact.bodies
         points = profile.x.size
@@ -135,6 +154,15 @@ class _Bodies:
         self.memory = contact.memory()
         self.elongation, self.cycles, self.chain = 0.0, 0.0, 1
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
+        if start is not None:
+            self._begin(profile, start)
+
+    def _begin(self, profile: Profile, start: Start) -> None:
+        self.depth = start.depth.copy()
+        self.area = self.depth * (1.0 - 0.5 * profile.curvature * self.depth)
+        self.x = profile.x - self.depth * profile.normal_x
+        self.y = profile.y - self.depth * profile.normal_y
+        self.elongation, self.chain = start.elongation, start.chain
 
     def state(self) -> "_State":
         """Return a copy of all that changes."""
@@ -244,6 +272,7 @@ def run_dwelling(
     level: int,
     cycles_per_step: float = 0.0,
     stop: threading.Event | None = None,
+    start: Start | None = None,
 ) -> DwellingTrajectory:
     """Wear outlines and chain until a criterion is met or the horizon is reached.
 
@@ -265,6 +294,8 @@ def run_dwelling(
         Cycles of every step; 0 for steps by the depth that they take off.
     stop : threading.Event, optional
         Ends the run early when it is set; what comes back then is not complete.
+    start : Start, optional
+        Worn outlines and a used chain to begin with; new ones otherwise.
 
     Returns
     -------
@@ -278,7 +309,7 @@ def run_dwelling(
     ConvergenceError
         A pressure cannot be found.
     """
-    bodies, record = _Bodies(contact, law), _Record()
+    bodies, record = _Bodies(contact, law, start), _Record()
     record.add(bodies)
     limit, growth = criteria[0].limit, contact.elongation_per_cycle
     elongation_limit = contact.elongation_limit
@@ -346,6 +377,7 @@ def run_together(
     law: Law,
     criteria: tuple[Criterion, ...],
     horizon: float,
+    start: Start | None = None,
 ) -> list[DwellingTrajectory]:
     """Run several contacts side by side, each with its own size of steps.
 
@@ -359,6 +391,8 @@ def run_together(
         Limits of the outlines, the depth criterion first.
     horizon : float
         Cycles at which the runs end in any case.
+    start : Start, optional
+        Worn outlines and a used chain to begin with; contacts on the same points then.
 
     Returns
     -------
@@ -375,7 +409,7 @@ def run_together(
     stop = threading.Event()
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         runs = [
-            pool.submit(run_dwelling, contact, law, criteria, horizon, level, 0.0, stop)
+            pool.submit(run_dwelling, contact, law, criteria, horizon, level, 0.0, stop, start)
             for contact, level in contacts
         ]
         try:
@@ -391,6 +425,7 @@ def advance_dwelling(
     criteria: tuple[Criterion, ...],
     horizon: float,
     life_tolerance: float,
+    start: Start | None = None,
 ) -> tuple[DwellingTrajectory, float]:
     """Wear outlines and chain by steps that are halved until the life settles.
 
@@ -406,6 +441,8 @@ def advance_dwelling(
         Cycles at which the run ends in any case.
     life_tolerance : float
         Relative tolerance of the life.
+    start : Start, optional
+        Worn outlines and a used chain to begin with; new ones otherwise.
 
     Returns
     -------
@@ -421,8 +458,9 @@ def advance_dwelling(
         A pressure cannot be found.
     """
     levels = ((contact, 1), (contact, 0))
-    fine, coarse = run_together(levels, law, criteria, horizon)
-    return halve_steps(contact, law, criteria, horizon, life_tolerance, (coarse, fine))
+    fine, coarse = run_together(levels, law, criteria, horizon, start)
+    runs = coarse, fine
+    return halve_steps(contact, law, criteria, horizon, life_tolerance, runs, start)
 
 
 def halve_steps(
@@ -432,6 +470,7 @@ def halve_steps(
     horizon: float,
     life_tolerance: float,
     runs: tuple[DwellingTrajectory, DwellingTrajectory],
+    start: Start | None = None,
 ) -> tuple[DwellingTrajectory, float]:
     """Go on from runs of the levels 0 and 1 until two successive lives agree.
 
@@ -449,6 +488,8 @@ def halve_steps(
         Relative tolerance of the life.
     runs : tuple of DwellingTrajectory
         Those of the levels 0 and 1.
+    start : Start, optional
+        What they began with.
 
     Returns
     -------
@@ -467,6 +508,8 @@ def halve_steps(
     change, level = difference(fine, coarse), 1
     while change > 0.5 * life_tolerance and level < _MOST_LEVELS:
         level += 1
-        coarse, fine = fine, run_dwelling(contact, law, criteria, horizon, level)
+        coarse, fine = (
+            fine, run_dwelling(contact, law, criteria, horizon, level, start=start)
+        )  # fmt: skip
         change = difference(fine, coarse)
     return fine, change

@@ -6,11 +6,14 @@ from pydantic import BeforeValidator
 
 from wearsim.case.schema.chain import ChainTable
 from wearsim.case.schema.drive import DriveTable
+from wearsim.case.schema.duty import DutyBlock
 from wearsim.case.schema.joint import JointTable
 from wearsim.case.schema.load import LoadTable
+from wearsim.case.schema.maintenance import MaintenanceTable
 from wearsim.case.schema.material import MaterialsTable, MaterialTable
 from wearsim.case.schema.mechanism import MechanismTable
 from wearsim.case.schema.run import RunTable
+from wearsim.case.schema.service import ServiceTable
 from wearsim.case.schema.sprocket import SprocketTable
 from wearsim.case.schema.stop import StopTable
 from wearsim.case.schema.table import Table
@@ -20,12 +23,15 @@ __all__ = [
     "CaseTables",
     "ChainTable",
     "DriveTable",
+    "DutyBlock",
     "JointTable",
     "LoadTable",
+    "MaintenanceTable",
     "MaterialTable",
     "MaterialsTable",
     "MechanismTable",
     "RunTable",
+    "ServiceTable",
     "SprocketTable",
     "StopTable",
     "Table",
@@ -50,7 +56,10 @@ class CaseTables(Table):
     mechanism: MechanismTable = MechanismTable()
     joint: JointTable | None = None
     material: MaterialsTable = MaterialsTable()
-    load: LoadTable
+    load: LoadTable = LoadTable()
+    duty: list[DutyBlock] = []
     wear: WearTable
     stop: StopTable = StopTable()
     run: RunTable = RunTable()
+    maintenance: MaintenanceTable | None = None
+    service: ServiceTable | None = None

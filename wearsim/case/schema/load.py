@@ -1,21 +1,61 @@
 """The table [load]."""
 
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, WithJsonSchema
+
 from wearsim.case.schema.table import Table
 from wearsim.case.units import Positive
 
+LOAD_KEYS = ("tension_N", "power_kW", "torque_N_m")
+"""Keys of which exactly one gives a load."""
+
+_MOST_BINS = 100
+
+
+def _bins(value: object) -> object:
+    whole = isinstance(value, list) and all(type(entry) is int for entry in value)
+    if not whole or len(value) != 2 or not all(1 <= entry <= _MOST_BINS for entry in value):  # type: ignore[arg-type]
+        raise ValueError(
+            f"must be two whole numbers from 1 to {_MOST_BINS}, bins of the tension and of the speed, "
+            "such as [20, 8]"
+        )
+    return value
+
+
+_BINS: dict[str, Any] = {
+    "type": "array",
+    "items": {"type": "integer", "minimum": 1, "maximum": _MOST_BINS},
+    "minItems": 2,
+    "maxItems": 2,
+}
+
 
 class LoadTable(Table):
-    """Load and speed of this sprocket; one of tension, power and torque."""
+    """Load and speed of this sprocket: constant, by a typical regime, or by a log."""
 
     tension_N: Positive | None = None
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
-    speed_rpm: Positive
+    speed_rpm: Positive | None = None
+    regime: Literal["0", "I", "II", "III", "IV", "V"] | None = None
+    duty_file: str | None = None
+    duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        keys = ("tension_N", "power_kW", "torque_N_m")
-        given = [key for key in keys if getattr(self, key) is not None]
-        if len(given) < 2:
-            return []
-        return [(given[1], f"give exactly one of {', '.join(keys)} (got {', '.join(given)})")]
+        if self.duty_file is not None:
+            keys = (*LOAD_KEYS, "speed_rpm", "regime")
+            return [
+                (key, "duty_file gives load and speed: remove one of both")
+                for key in keys
+                if getattr(self, key) is not None
+            ]
+        found = []
+        if self.duty_bins is not None:
+            found.append(("duty_bins", "belongs to duty_file: remove it"))
+        given = [key for key in LOAD_KEYS if getattr(self, key) is not None]
+        if len(given) > 1:
+            message = f"give exactly one of {', '.join(LOAD_KEYS)} (got {', '.join(given)})"
+            found.append((given[1], message))
+        return found

@@ -54,7 +54,9 @@ class SprocketTable(Table):
             for key, profiles in _BELONGS_TO.items()
             if key in self.model_fields_set and self.profile not in profiles
         ]
-        for key in ("points_file", "dxf_file"):
-            if self.profile in _BELONGS_TO[key] and getattr(self, key) is None:
-                found.append((key, f"profile = {self.profile!r} needs this key"))
+        found += [
+            (key, f"profile = {self.profile!r} needs this key")
+            for key in ("points_file", "dxf_file")
+            if self.profile in _BELONGS_TO[key] and getattr(self, key) is None
+        ]
         return found
