@@ -15,6 +15,10 @@ class ContactError(WearsimError, ArithmeticError):
     """A contact outside the theory that describes it: conforming or vanished."""
 
 
+class JumpError(ContactError):
+    """The chain jumps over the teeth of its sprocket."""
+
+
 class ConvergenceError(WearsimError, RuntimeError):
     """A calculation that would report a wrong life if it went on."""
 

@@ -76,3 +76,16 @@ def test_file_in_the_way(cli, tmp_path):
     assert path.read_text() == "mine"
     assert cli("init", "--out", path, "--force").code == 0
     assert "format_version = 1" in path.read_text()
+
+
+@pytest.mark.parametrize(
+    ("chain", "form"), [("16B-1", "iso606"), ("ANSI 40", "ansi_b29"), ("ПР-25,4-60", "gost591")]
+)
+def test_wrap_case_is_one_of_the_chains_standard_and_loads(cli, tmp_path, chain, form):
+    path = tmp_path / "wrap.toml"
+    options = ("--kind", "wrap", "--chain", chain, "--teeth", "21", "--out", path)
+    assert cli("init", *options).code == 0
+    case = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert (case["mechanism"]["kind"], case["sprocket"]["profile"]) == ("wrap", form)
+    assert cli("check", path).code == 0
+    assert cli("loads", path).code == 0

@@ -1,6 +1,7 @@
 """Every mechanism under one signature, so that no test knows which one it looks at."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -9,8 +10,11 @@ from wearsim.contact.engagement import Kind, Mechanism
 from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.geometry.points import flank_from_points
 from wearsim.geometry.profile import Profile
+from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 """Contact modulus of steel on steel [MPa]."""
@@ -78,7 +82,53 @@ def sliding_distance(
     return prescribed(Kind.LOCAL, nodes, length, load, slip)
 
 
-MECHANISMS = (evolute, points, slip_ratio, sliding_distance)
+@dataclass(frozen=True)
+class Wrapped:
+    """A wrap under the signature of the others."""
+
+    contact: WrapContact
+
+    def worn_contact_ratio(self, x: np.ndarray, y: np.ndarray) -> float:
+        return np.nan
+
+    def assumptions(self) -> list[str]:
+        return self.contact.assumptions()
+
+
+def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    """Two rollers in wide round gaps of eight teeth, about the loaded stretch of the outline.
+
+    Large rollers on soft teeth: 0.05 mm off changes little of the contact, so that steps of the
+    first order come near enough to their limit.
+    """
+    pitch, radius, seat = length * 1000.0, length * 200.0, length * 400.0
+    lowest = 0.5 * pitch / np.sin(np.pi / 8.0) - radius
+    angle = np.radians(np.linspace(10.0, -20.0, nodes))
+    outline = Profile(seat * np.sin(angle), lowest + seat * (1.0 - np.cos(angle)))
+    mechanism = WrapMechanism(
+        outline=outline,
+        path=roller_path(outline, radius, (nodes + 1) // 2),
+        pitch_angle=0.25 * np.pi,
+        wrap_angle=0.225 * np.pi,
+        chain=WrapChain(pitch, radius, 0.5 * radius, 5e7 / length, alternating=False),
+        pull=Pull(load * 2e6, load * 1.8e6, driver=True, friction_roller_tooth=0.0,
+                  friction_roller_bush=0.0),
+    )  # fmt: skip
+    return Wrapped(
+        WrapContact(
+            blocks=(WrapBlock(1.0, mechanism, pitch_time=0.1, wear_factor=1.0),),
+            face_width=length * 10.0,
+            phases=1,
+            sliding=Sliding(0.0058 * slip, 0.0058 * slip),
+            modulus=0.1 * MODULUS / length**2,
+            same_link_kind=False,
+            elongation_per_cycle=0.0,
+            elongation_limit=0.03,
+        )
+    )
+
+
+MECHANISMS = (evolute, points, slip_ratio, sliding_distance, wrap)
 
 
 @pytest.fixture(params=MECHANISMS, ids=lambda build: build.__name__)

@@ -2,6 +2,7 @@
 
 import typing
 
+import ezdxf
 import numpy as np
 import pandas as pd
 import pytest
@@ -15,6 +16,8 @@ from wearsim.report.profile import profile_table
 
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",
+    "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",
+    "drive.exploitation_factor": "only the rating that check prints (test_cli_check_rating.py)",
     "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
 }
 
@@ -42,8 +45,51 @@ def edited(base, **tables):
     return {name: value for name, value in {**base, **tables}.items() if value is not None}
 
 
+WRAP = {
+    "format_version": 1,
+    "title": "wrap",
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 101},
+    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
+    "mechanism": {"phases": 2, "friction_roller_tooth": 0.1, "friction_roller_bush": 0.1},
+    "joint": {"specific_wear_rate_mm2_per_N": 1e-9},
+    "load": {"tension_N": 800, "speed_rpm": 200},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+    "stop": {"critical_depth_mm": 0.05},
+    "run": {"horizon_hours": 100},
+}
+OWN_CHAIN = {
+    "pitch_mm": 12.7,
+    "roller_diameter_mm": 8.51,
+    "inner_width_mm": 7.75,
+    "pin_diameter_mm": 4.45,
+    "bearing_area_mm2": 50.3,
+    "mass_kg_per_m": 0.7,
+}
+
 BASES = {
     "strand": STRAND,
+    "wrap": WRAP,
+    "own wrap": edited(
+        WRAP,
+        chain=OWN_CHAIN,
+        drive={"mate_teeth": 20, "links": 60},
+        load={"power_kW": 0.4, "speed_rpm": 200},
+    ),
+    "distance": edited(
+        WRAP, drive={"mate_teeth": 20, "centre_distance_mm": 270, "slack_tension_N": 30}
+    ),
+    "gost": edited(WRAP, sprocket={"teeth": 13, "profile": "gost591", "nodes": 101}),
+    "drawing": edited(
+        WRAP,
+        sprocket={
+            "teeth": 13,
+            "profile": "dxf",
+            "dxf_file": "gap.dxf",
+            "dxf_layer": "first",
+            "nodes": 101,
+        },
+    ),
     "catalogue": edited(STRAND, sprocket={"teeth": 20, "profile": "evolute", "nodes": 61}),
     "crawler": edited(
         STRAND,
@@ -118,8 +164,13 @@ CHANGES = {
     "chain.pitch_mm": [("own chain", 25.0), ("strand", 25.4, "chain.pitch_mm")],
     "chain.roller_diameter_mm": [("own chain", 15.0)],
     "chain.inner_width_mm": [("default width", 16.0)],
-    "sprocket.teeth": [("strand", 21), ("strand", 4, "sprocket.teeth")],
-    "sprocket.profile": [("strand", "points", "sprocket.points_file")],
+    "sprocket.teeth": [
+        ("wrap", 14),
+        ("strand", 21), ("strand", 4, "sprocket.teeth")],
+    "sprocket.profile": [
+        ("wrap", "ansi_b29", "sprocket.profile"),
+        ("strand", "iso606", "sprocket.evolute_offset_mm"),
+        ("strand", "points", "sprocket.points_file")],
     "sprocket.engaged_every": [("crawler", 1)],
     "sprocket.points_file": [
         ("points", "other.csv"),
@@ -133,13 +184,17 @@ CHANGES = {
     "sprocket.evolute_offset_mm": [("strand", 5.6), ("points", 5.45)],
     "sprocket.contact_start_mm": [("strand", 30.6), ("points", 30.5)],
     "sprocket.contact_end_mm": [("strand", 4.1), ("points", 4.2)],
-    "sprocket.nodes": [("strand", 71), ("points", 71)],
+    "sprocket.nodes": [
+        ("wrap", 111),
+        ("strand", 71), ("points", 71)],
     "mechanism.kind": [("strand", "prescribed", "mechanism.table_file")],
     "mechanism.table_file": [
         ("prescribed", "other_loads.csv"),
         ("strand", "loads.csv", "mechanism.table_file"),
     ],
-    "mechanism.roller_slip_fraction": [("strand", 0.5), ("prescribed", 0.5)],
+    "mechanism.roller_slip_fraction": [
+        ("wrap", 0.2),
+        ("strand", 0.5), ("prescribed", 0.5)],
     "material.sprocket.name": [("strand", "grey cast iron"), ("prescribed", "bronze")],
     "material.sprocket.youngs_modulus_MPa": [("strand", 1e5)],
     "material.sprocket.poissons_ratio": [("strand", 0.25)],
@@ -177,9 +232,108 @@ CHANGES = {
         ("tip land", 9.08),
         ("prescribed", 1.0, "stop.min_tip_land_mm"),
     ],
+    "chain.pin_diameter_mm": [
+        ("own wrap", 4.4),
+        ("wrap", 4.4, "chain.pin_diameter_mm"),
+        ("own chain", 4.4, "chain.pin_diameter_mm"),
+    ],
+    "chain.bush_diameter_mm": [
+        ("wrap", 6.0),
+        ("own wrap", 9.0, "chain.bush_diameter_mm"),
+    ],
+    "chain.bearing_area_mm2": [
+        ("own wrap", 50.0),
+        ("wrap", 50.0, "chain.bearing_area_mm2"),
+    ],
+    "chain.mass_kg_per_m": [
+        ("own wrap", 0.71),
+        ("wrap", 0.71, "chain.mass_kg_per_m"),
+    ],
+    "sprocket.role": [
+        ("wrap", "driven"),
+        ("strand", "driven", "sprocket.role"),
+    ],
+    "sprocket.form": [
+        ("wrap", "max"),
+        ("gost", "max", "sprocket.form"),
+    ],
+    "sprocket.displaced": [
+        ("gost", True),
+        ("wrap", True, "sprocket.displaced"),
+    ],
+    "sprocket.seat_centre": [
+        ("wrap", "root_diameter"),
+        ("gost", "root_diameter"),
+        ("strand", "root_diameter", "sprocket.seat_centre"),
+    ],
+    "sprocket.tip_diameter_mm": [
+        ("wrap", 57.0),
+        ("drawing", 57.0, "sprocket.tip_diameter_mm"),
+    ],
+    "sprocket.dxf_file": [
+        ("drawing", "other.dxf"),
+        ("wrap", "gap.dxf", "sprocket.dxf_file"),
+    ],
+    "sprocket.dxf_layer": [
+        ("drawing", "second"),
+        ("drawing", "third", "sprocket.dxf_file"),
+    ],
+    "drive.mate_teeth": [
+        ("wrap", 21),
+        ("strand", 21, "drive.mate_teeth"),
+    ],
+    "drive.links": [
+        ("wrap", 62),
+        ("wrap", 61, "drive.links"),
+        ("distance", 60, "drive.centre_distance_mm"),
+    ],
+    "drive.centre_distance_mm": [
+        ("distance", 300),
+        ("distance", 20, "drive.centre_distance_mm"),
+    ],
+    "drive.slack_tension_N": [
+        ("wrap", 31),
+        ("wrap", 0.01, "drive.slack_tension_N"),
+    ],
+    "drive.sag_percent": [
+        ("own wrap", 1.9),
+        ("wrap", 2, "drive.sag_percent"),
+    ],
+    "drive.inclination_deg": [
+        ("own wrap", 30),
+        ("own wrap", 90, "drive.inclination_deg"),
+        ("wrap", 30, "drive.inclination_deg"),
+    ],
+    "drive.link_stiffness_N_per_mm": [
+        ("wrap", 4e4),
+    ],
+    "mechanism.phases": [
+        ("wrap", 3),
+        ("strand", 3, "mechanism.phases"),
+    ],
+    "mechanism.friction_roller_tooth": [
+        ("wrap", 0.02),
+        ("strand", 0.02, "mechanism.friction_roller_tooth"),
+    ],
+    "mechanism.friction_roller_bush": [
+        ("wrap", 0.02),
+        ("strand", 0.02, "mechanism.friction_roller_bush"),
+    ],
+    "joint.specific_wear_rate_mm2_per_N": [
+        ("wrap", 1.1e-9),
+        ("strand", 1e-9, "joint.specific_wear_rate_mm2_per_N"),
+    ],
+    "joint.pitch": [
+        ("wrap", "uniform"),
+    ],
+    "stop.elongation_percent": [
+        ("wrap", 0.01),
+        ("strand", 1.0, "stop.elongation_percent"),
+    ],
     "run.method": [("per cycle", "advance", "run.cycles_per_update"), ("archard", "per_cycle")],
     "run.cycles_per_update": [("per cycle", 2), ("strand", 2, "run.cycles_per_update")],
-    "run.life_tolerance": [("strand", 1e-5)],
+    "run.life_tolerance": [
+        ("strand", 1e-5)],
     "run.horizon_hours": [("strand", 100)],
 }
 
@@ -206,6 +360,17 @@ def test_every_base_and_every_law_profile_and_mechanism_takes_part():
     assert {change[0] for changes in CHANGES.values() for change in changes} == set(BASES)
 
 
+def draw(path, layers):
+    """A gap as a polyline, on every layer receded by so much."""
+    drawing = ezdxf.new(units=4)
+    outline = load_case({**WRAP, "sprocket": {"teeth": 13, "profile": "iso606"}}).drive.outline
+    for layer, depth in layers.items():
+        moved = outline.recede(depth)
+        points = np.column_stack([moved.x, moved.y])
+        drawing.modelspace().add_lwpolyline(points, dxfattribs={"layer": layer})
+    drawing.saveas(path)
+
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """Function that runs a mapping in a folder with the CSV files, each mapping once."""
@@ -226,6 +391,8 @@ def run(tmp_path_factory):
     loads.to_csv(folder / "loads.csv", index=False)
     loads["slip_ratio"] = 0.6
     loads.to_csv(folder / "other_loads.csv", index=False)
+    draw(folder / "gap.dxf", {"first": 0.0, "second": 0.01})
+    draw(folder / "other.dxf", {"first": 0.02})
     done = {}
 
     def run(tables):

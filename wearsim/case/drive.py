@@ -2,8 +2,9 @@
 
 import math
 
+from wearsim.case.duty import Duty, LoadBlock
 from wearsim.case.flank import evolute_tooth, points_tooth
-from wearsim.case.model import PrescribedDrive, StrandDrive, WearInput
+from wearsim.case.model import Block, PrescribedDrive, StrandDrive, WearInput, heaviest
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
 from wearsim.case.tables import read_prescribed
@@ -15,7 +16,7 @@ _SAFETY = 7.0
 """Breaking load over tension below which a chain is loaded beyond its endurance."""
 
 
-def resolve_strand(case: Resolution, chain: Chain) -> StrandDrive | None:
+def resolve_strand(case: Resolution, chain: Chain, duty: Duty | None) -> StrandDrive | None:
     """Complete a sprocket on a straight strand.
 
     Parameters
@@ -24,6 +25,8 @@ def resolve_strand(case: Resolution, chain: Chain) -> StrandDrive | None:
         The case so far.
     chain : Chain
         Its chain.
+    duty : Duty or None
+        Its duty, None where that was at fault.
 
     Returns
     -------
@@ -36,7 +39,7 @@ def resolve_strand(case: Resolution, chain: Chain) -> StrandDrive | None:
         return None
     table = tables.sprocket
     centrode = chain.pitch * table.teeth / (2.0 * math.pi * table.engaged_every)
-    pull = _pull(case, centrode, chain)
+    blocks = _blocks(case, duty, centrode, chain) if duty is not None else None
     width = face_width(case, table, chain)
     nodes = table.nodes or FLANK_NODES
     if table.nodes is None:
@@ -46,11 +49,11 @@ def resolve_strand(case: Resolution, chain: Chain) -> StrandDrive | None:
         if table.profile == "evolute"
         else points_tooth(case, table, chain, centrode, nodes)
     )
-    if tooth_and_range is None or pull is None:
+    if tooth_and_range is None or blocks is None:
         return None
     tooth, contact_end, contact_start = tooth_and_range
     fraction = slip_fraction(case)
-    return StrandDrive(tooth, contact_end, contact_start, width, pull, fraction)
+    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction)
 
 
 def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | None:
@@ -120,22 +123,30 @@ def slip_fraction(case: Resolution, default: float = 1.0) -> float:
     return given
 
 
-def _pull(case: Resolution, centrode: float, chain: Chain) -> float | None:
-    load = case.tables.load
-    pull = effective_pull(case, 2.0 * math.pi * centrode * load.speed_rpm / 60.0, centrode)
-    if pull is None:
-        return None
-    case.assumptions.append(f"pull on the flank {pull:.6g} N (slack strand without tension)")
-    return pull if within_strength(case, pull, chain) else None
+def _blocks(
+    case: Resolution, duty: Duty, centrode: float, chain: Chain
+) -> tuple[Block, ...] | None:
+    """Return the blocks of a duty with their pulls."""
+    found = []
+    for block in duty.blocks:
+        speed = 2.0 * math.pi * centrode * block.speed_rpm / 60.0
+        pull = block.part * effective_pull(block, speed, centrode)
+        found.append(Block(block.share, block.speed_rpm, pull, 0.0, block.wear_factor))
+    blocks = tuple(found)
+    pull, least = heaviest(blocks).tension, min(block.tension for block in blocks)
+    shown = f"{pull:.6g} N" if len(blocks) == 1 else f"{least:.4g} to {pull:.6g} N"
+    case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
+    key = duty.blocks[blocks.index(heaviest(blocks))].key
+    return blocks if within_strength(case, pull, chain, key) else None
 
 
-def effective_pull(case: Resolution, speed: float, lever: float) -> float | None:
-    """Return the force that the load asks of the chain.
+def effective_pull(block: LoadBlock, speed: float, lever: float) -> float:
+    """Return the force that the load of a block asks of the chain.
 
     Parameters
     ----------
-    case : Resolution
-        The case so far.
+    block : LoadBlock
+        A part of the duty.
     speed : float
         Of the chain [mm/s].
     lever : float
@@ -143,26 +154,17 @@ def effective_pull(case: Resolution, speed: float, lever: float) -> float | None
 
     Returns
     -------
-    float or None
-        Tension as given, power over speed or torque over lever [N]; None where none is given.
+    float
+        Tension as given, power over speed or torque over lever [N].
     """
-    load = case.tables.load
-    given = {
-        "tension_N": load.tension_N,
-        "power_kW": load.power_kW,
-        "torque_N_m": load.torque_N_m,
-    }
-    if load.tension_N is not None:
-        return load.tension_N
-    if load.power_kW is not None:
-        return 1e6 * load.power_kW / speed
-    if load.torque_N_m is not None:
-        return 1e3 * load.torque_N_m / lever
-    case.faults.add("load.tension_N", f"give exactly one of {', '.join(given)} (got none)")
-    return None
+    if block.kind == "tension_N":
+        return block.value
+    if block.kind == "power_kW":
+        return 1e6 * block.value / speed
+    return 1e3 * block.value / lever
 
 
-def within_strength(case: Resolution, pull: float, chain: Chain) -> bool:
+def within_strength(case: Resolution, pull: float, chain: Chain, key: str) -> bool:
     """Compare a pull with the chain's tensile strength: a fault above it, a warning near it.
 
     Parameters
@@ -173,21 +175,20 @@ def within_strength(case: Resolution, pull: float, chain: Chain) -> bool:
         Largest tension [N].
     chain : Chain
         The chain.
+    key : str
+        Of the load, for the fault.
 
     Returns
     -------
     bool
         Whether the chain holds.
     """
-    load = case.tables.load
-    keys = ("tension_N", "power_kW", "torque_N_m")
-    key = next(key for key in keys if getattr(load, key) is not None)
     if not chain.tensile:
         case.assumptions.append("tensile strength of the chain not known: the pull is not checked")
         return True
     if pull >= chain.tensile:
         case.faults.add(
-            f"load.{key}",
+            key,
             f"the pull must stay below the chain's tensile strength {chain.tensile:g} N, is {pull:.4g} N",
         )
         return False

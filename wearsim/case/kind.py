@@ -47,13 +47,17 @@ def mechanism_kind(case: Resolution) -> str:
             f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "
             "use profile = 'evolute' or 'points' on a strand",
         )
-    for key, owner in _BELONGS_TO.items():
-        if owner != kind and _given(tables, key):
+    for place, owner in _BELONGS_TO.items():
+        for key in _given(tables, place) if owner != kind else ():
             case.faults.add(key, f"belongs to kind = {owner!r}: remove it")
     return kind
 
 
-def _given(tables: CaseTables, key: str) -> bool:
-    table, _, name = key.partition(".")
+def _given(tables: CaseTables, place: str) -> list[str]:
+    """Return the keys that were given of a table, or the one key that is named."""
+    table, _, name = place.partition(".")
     model = getattr(tables, table)
-    return model is not None and (not name or getattr(model, name) is not None)
+    if model is None:
+        return []
+    names = sorted(model.model_fields_set) if not name else [name]
+    return [f"{table}.{key}" for key in names if getattr(model, key) is not None]

@@ -68,6 +68,7 @@ def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str]
     faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
     for item in overrides:
         _override(data, item)
+    _check_load(data, faults)
     try:
         tables = CaseTables.model_validate(data)
     except ValidationError as error:
@@ -81,10 +82,24 @@ def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str]
     return resolve(tables, name, folder, faults)
 
 
+def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
+    """Name what is missing of the load unless tables of [[duty]] or a log give it."""
+    if data.get("duty"):
+        return
+    if "load" not in data:
+        faults.add("load", "this table is required and missing")
+    elif isinstance(data["load"], dict) and not data["load"].keys() & {"speed_rpm", "duty_file"}:
+        faults.add("load.speed_rpm", "this key is required and missing")
+
+
 def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
-    sound = copy.deepcopy(data)
+    sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
+    if "duty" in wrong:
+        sound.pop("duty", None)
     for entry in error.errors():
+        if entry["loc"][0] == "duty":
+            continue
         *tables, last = entry["loc"]
         conflicting = [name for name, _ in entry.get("ctx", {}).get("faults", ())]
         place: Any = sound
@@ -92,7 +107,7 @@ def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | No
             place = place.get(table, {})
         for name in conflicting or [last]:
             place.pop(name, None)
-    sound |= {name: _STAND_INS[name] for name in _wrong_tables(data, error) & set(_STAND_INS)}
+    sound |= {name: _STAND_INS[name] for name in wrong & set(_STAND_INS)}
     try:
         return CaseTables.model_validate(sound)
     except ValidationError:
@@ -104,6 +119,8 @@ def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
     wrong = {str(entry["loc"][0]) for entry in error.errors()}
     if "chain" in wrong:
         wrong |= {"load"} | ({"sprocket"} & data.keys())
+    if wrong & {"load", "duty"}:
+        wrong |= {"load"} | ({"duty"} & data.keys())
     return wrong | {"stop"} if "sprocket" in wrong else wrong
 
 

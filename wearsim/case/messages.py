@@ -44,7 +44,7 @@ class Faults:
         Parameters
         ----------
         key : str
-            Dotted key.
+            Dotted key; tables of an array count from 1.
         message : str
             What must hold, what it is, what to do.
         """
@@ -69,7 +69,9 @@ class Faults:
         """
         names = known_keys(model)
         for entry in error.errors(include_url=False):
-            key = ".".join(str(part) for part in entry["loc"])
+            key = ".".join(
+                str(part + 1 if isinstance(part, int) else part) for part in entry["loc"]
+            )
             if entry["type"] == "conflicts":
                 for name, message in entry["ctx"]["faults"]:
                     self.add(f"{key}.{name}", message)
@@ -159,7 +161,7 @@ def _shown(value: object) -> str:
 
 def _similar(key: str, names: list[str]) -> str:
     """Name the keys like an unknown one: of its own table first, then the same word elsewhere."""
-    table, _, last = key.rpartition(".")
+    table, _, last = ".".join(part for part in key.split(".") if not part.isdigit()).rpartition(".")
     siblings = {name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table}
     close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
     if close:
@@ -177,7 +179,8 @@ def line_of(text: str, key: str) -> int:
     text : str
         A valid TOML document, or nothing.
     key : str
-        Dotted key; where it is not there, the line of the first key of its table counts.
+        Dotted key, tables of an array counted from 1; where it is not there, the line of the
+        first key of its table counts, or that of the header in an array of tables.
 
     Returns
     -------
@@ -201,7 +204,12 @@ def _line_of_value(text: str, parts: list[str]) -> int:
     document: Any = tomlkit.parse(text)
     place = document
     for part in parts[:-1]:
-        place = place.get(part) if isinstance(place, Mapping) else None
+        if isinstance(place, list) and part.isdigit() and 0 < int(part) <= len(place):
+            place = place[int(part) - 1]
+        else:
+            place = place.get(part) if isinstance(place, Mapping) else None
+    if isinstance(place, AoT) and parts[-1].isdigit():
+        return _line_of_header(text, ".".join(parts[:-1]), int(parts[-1]))
     if not isinstance(place, Mapping) or parts[-1] not in place:
         return 0
     value = place[parts[-1]]
@@ -217,6 +225,8 @@ def _line_of_value(text: str, parts: list[str]) -> int:
     return before.count("\n") + 1 if found else 0
 
 
-def _line_of_header(text: str, name: str) -> int:
+def _line_of_header(text: str, name: str, which: int = 1) -> int:
+    """Return the line of one of the headers of an array of tables, counted from 1."""
     lines = enumerate(text.splitlines(), start=1)
-    return next((number for number, line in lines if line.strip().startswith(f"[[{name}]]")), 0)
+    found = [number for number, line in lines if line.strip().startswith(f"[[{name}]]")]
+    return found[which - 1] if which <= len(found) else 0

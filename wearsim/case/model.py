@@ -15,6 +15,47 @@ from wearsim.geometry.tooth import Tooth
 from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
 
 
+@dataclass(frozen=True)
+class Block:
+    """A part of the duty in which load and speed are constant; a constant drive is one block.
+
+    Attributes
+    ----------
+    share : float
+        Of the cycles; those of all blocks sum to 1.
+    speed_rpm : float
+        Speed of the sprocket.
+    tension : float
+        Of the tight strand without the centrifugal part, on a straight strand the pull [N].
+    centrifugal : float
+        Tension that the chain's own speed adds [N], 0 on a straight strand.
+    wear_factor : float
+        On the wear coefficient of the tooth.
+    """
+
+    share: float
+    speed_rpm: float
+    tension: float
+    centrifugal: float
+    wear_factor: float
+
+
+def heaviest(blocks: tuple[Block, ...]) -> Block:
+    """Return the block of the largest tension.
+
+    Parameters
+    ----------
+    blocks : tuple of Block
+        A duty.
+
+    Returns
+    -------
+    Block
+        The first of them where several are alike.
+    """
+    return max(blocks, key=lambda block: block.tension)
+
+
 @dataclass(frozen=True, eq=False)
 class StrandDrive:
     """A sprocket on a straight strand.
@@ -27,8 +68,8 @@ class StrandDrive:
         Range of contact x_min, x_max [mm].
     face_width : float
         b [mm].
-    pull : float
-        F_t [N].
+    blocks : tuple of Block
+        The duty.
     slip_fraction : float
         Sliding as a fraction of that of a roller that does not turn.
     """
@@ -37,8 +78,18 @@ class StrandDrive:
     contact_end: float
     contact_start: float
     face_width: float
-    pull: float
+    blocks: tuple[Block, ...]
     slip_fraction: float
+
+    @property
+    def heaviest(self) -> Block:
+        """The block of the largest pull."""
+        return heaviest(self.blocks)
+
+    @property
+    def pull(self) -> float:
+        """F_t of the heaviest block [N]."""
+        return self.heaviest.tension
 
     @property
     def profile(self) -> Profile:
@@ -100,10 +151,8 @@ class JointInput:
     ----------
     coefficient : float
         Specific wear rate of pin and bush together [mm2/N].
-    pressure : float
-        Tension of the tight strand, the centrifugal part included, over the bearing area [MPa].
-    slack_pressure : float
-        The same of the slack strand [MPa].
+    bearing_area : float
+        Projected area of pin in bush [mm2].
     alternating : bool
         Whether wear lengthens every other link only, as it does.
     elongation_limit : float
@@ -111,8 +160,7 @@ class JointInput:
     """
 
     coefficient: float
-    pressure: float
-    slack_pressure: float
+    bearing_area: float
     alternating: bool
     elongation_limit: float
 
@@ -139,8 +187,10 @@ class WrapDrive:
         Of the worn sprocket [rad].
     face_width : float
         b [mm].
-    tight, slack, centrifugal : float
-        Tensions of the strands without the centrifugal part, and that part [N].
+    blocks : tuple of Block
+        The duty.
+    slack : float
+        Tension of the slack strand without the centrifugal part [N].
     link_stiffness : float
         Of one link [N/mm].
     bush_radius : float
@@ -167,9 +217,8 @@ class WrapDrive:
     driver: bool
     wrap_angle: float
     face_width: float
-    tight: float
+    blocks: tuple[Block, ...]
     slack: float
-    centrifugal: float
     link_stiffness: float
     bush_radius: float
     phases: int
@@ -179,6 +228,21 @@ class WrapDrive:
     joint: JointInput
     service_factor: float
     exploitation_factor: float
+
+    @property
+    def heaviest(self) -> Block:
+        """The block of the largest tension."""
+        return heaviest(self.blocks)
+
+    @property
+    def tight(self) -> float:
+        """Tension of the tight strand in the heaviest block without the centrifugal part [N]."""
+        return self.heaviest.tension
+
+    @property
+    def centrifugal(self) -> float:
+        """Tension that the chain's own speed adds in the heaviest block [N]."""
+        return self.heaviest.centrifugal
 
     @property
     def profile(self) -> Profile:
@@ -294,7 +358,7 @@ class Case:
     modulus : float
         Contact modulus E* [MPa].
     speed_rpm : float
-        Speed of the sprocket.
+        Speed of the sprocket, the mean over the time of its duty.
     engaged_every : int
         Every which gap carries a roller.
     wear : WearInput

@@ -29,14 +29,14 @@ class Resolution:
         self.assumptions: list[str] = []
         self.warnings: list[str] = []
 
-    def take(self, key: str, value: float | int | str, why: str) -> None:
+    def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
         """Record a default that the case takes.
 
         Parameters
         ----------
         key : str
             Dotted key.
-        value : float, int or str
+        value : float, int, str or list of int
             Its value.
         why : str
             Where it comes from.

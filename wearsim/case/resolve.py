@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from wearsim.case.drive import resolve_prescribed, resolve_strand
+from wearsim.case.duty import resolve_duty
 from wearsim.case.kind import mechanism_kind
 from wearsim.case.messages import Faults
 from wearsim.case.model import (
@@ -65,19 +66,20 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     modulus = _modulus(case)
     wear = _wear(case, tables.wear)
     kind = mechanism_kind(case)
+    duty = resolve_duty(case, kind, chain)
     drive: Drive | None
     if kind == "prescribed":
         drive = resolve_prescribed(case, wear)
     elif kind == "wrap":
-        drive = resolve_wrap(case, chain)
+        drive = resolve_wrap(case, chain, duty)
     else:
-        drive = resolve_strand(case, chain)
+        drive = resolve_strand(case, chain, duty)
     critical_depth = _critical_depth(case, drive)
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     run = _run(case, kind)
     faults.check()
-    assert drive is not None
+    assert drive is not None and duty is not None
     return Case(
         name=name,
         title=tables.title or name,
@@ -86,7 +88,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         chain=chain,
         drive=drive,
         modulus=modulus,
-        speed_rpm=tables.load.speed_rpm,
+        speed_rpm=duty.speed_rpm,
         engaged_every=tables.sprocket.engaged_every if tables.sprocket else 1,
         wear=wear,
         critical_depth=critical_depth,

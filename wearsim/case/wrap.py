@@ -3,8 +3,9 @@
 import math
 
 from wearsim.case.drive import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.duty import Duty, LoadBlock
 from wearsim.case.gap import gap_shape
-from wearsim.case.model import JointInput, WrapDrive
+from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import DriveTable, JointTable
 from wearsim.catalogue.tables import Chain
@@ -21,7 +22,7 @@ PHASES = 16
 JOINT_WEAR_RATE = 1.2e-10
 
 
-def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
+def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive | None:
     """Complete a chain around a sprocket.
 
     Parameters
@@ -30,6 +31,8 @@ def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
         The case so far.
     chain : Chain
         Its chain.
+    duty : Duty or None
+        Its duty, None where that was at fault.
 
     Returns
     -------
@@ -47,14 +50,13 @@ def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
         case.take("sprocket.role", "driver", "default")
     layout = _layout(case, chain, tables.drive or DriveTable())
     shape = gap_shape(case, table, chain)
-    if layout is None or shape is None or faults.count > before:
+    if layout is None or shape is None or duty is None or faults.count > before:
         return None
     driver = table.role != "driven"
-    speed = chain.pitch * table.teeth * tables.load.speed_rpm / (60.0 * table.engaged_every)
-    tensions = _tensions(case, chain, layout, speed)
+    tensions = _tensions(case, chain, layout, duty)
     if tensions is None:
         return None
-    tight, slack, centrifugal = tensions
+    blocks, slack = tensions
     width = face_width(case, table, chain)
     mechanism = tables.mechanism
     if mechanism.phases is None:
@@ -72,16 +74,15 @@ def resolve_wrap(case: Resolution, chain: Chain) -> WrapDrive | None:
         driver=driver,
         wrap_angle=layout.wrap_1 if driver else layout.wrap_2,
         face_width=width,
-        tight=tight,
+        blocks=blocks,
         slack=slack,
-        centrifugal=centrifugal,
         link_stiffness=_link_stiffness(case, chain),
         bush_radius=0.5 * _bush_diameter(case, chain),
         phases=mechanism.phases or PHASES,
         slip_fraction=slip_fraction(case, SLIP_FRACTION),
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
-        joint=_joint(case, chain, layout, tight + centrifugal, slack + centrifugal),
+        joint=_joint(case, chain, layout),
         service_factor=_factor(case, "service", "smooth load; raises the power in the ratings"),
         exploitation_factor=_factor(
             case, "exploitation", "steady, drip oil, one shift; raises the pressure in the ratings"
@@ -160,46 +161,87 @@ def _alternating(case: Resolution) -> bool:
 
 
 def _tensions(
-    case: Resolution, chain: Chain, layout: DriveLayout, speed: float
-) -> tuple[float, float, float] | None:
-    """Return the tensions of the strands without the centrifugal part, and that part."""
-    load, table = case.tables.load, case.tables.drive or DriveTable()
-    lever = 60.0 * speed / (2.0 * math.pi * load.speed_rpm)
-    pull = effective_pull(case, speed, lever)
-    if pull is None:
-        return None
-    slack = table.slack_tension_N
+    case: Resolution, chain: Chain, layout: DriveLayout, duty: Duty
+) -> tuple[tuple[Block, ...], float] | None:
+    """Return the blocks of the duty with their tensions, and the tension of the slack strand."""
+    pulls = [_pull(case, chain, block) for block in duty.blocks]
+    slack = _slack(case, chain, layout, max(pulls))
     if slack is None:
-        sag = table.sag_percent
-        if sag is None:
-            sag = SAG_PERCENT
-            case.take("drive.sag_percent", sag, "default")
-        if table.inclination_deg is None:
-            case.take("drive.inclination_deg", 0.0, "default")
-        slope = math.radians(table.inclination_deg or 0.0)
-        slack = catenary_tension(chain.mass_per_length, layout.span, sag / 100.0, slope)
-        if not slack > 1e-9 * pull:
-            case.faults.add(
-                "drive.inclination_deg",
-                "a vertical span has no sag and no tension of its own: give drive.slack_tension_N",
-            )
-            return None
-    tight = pull if load.tension_N is not None else pull + slack
-    if tight <= slack:
-        key = "load.tension_N" if load.tension_N is not None else "drive.slack_tension_N"
-        case.faults.add(
-            key,
-            f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)",
-        )
         return None
-    centrifugal = centrifugal_tension(chain.mass_per_length, speed)
+    blocks = []
+    for load, pull in zip(duty.blocks, pulls, strict=True):
+        whole = pull if load.kind == "tension_N" else pull + slack
+        tight = whole - (1.0 - load.part) * (whole - slack)
+        if load.measured:
+            tight = max(tight, slack)
+        elif tight <= slack:
+            key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
+            _fault_slack(case, key, tight, slack)
+            return None
+        centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
+        blocks.append(Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor))
+    found = tuple(blocks)
+    most = heaviest(found)
+    if most.tension <= slack:
+        _fault_slack(case, duty.blocks[0].key, most.tension, slack)
+        return None
+    idle = math.fsum(block.share for block in found if block.tension == slack)
+    if idle:
+        case.assumptions.append(
+            f"for {100 * idle:.3g} % of the cycles the tight strand of the log pulls no more than the "
+            "slack one, whose tension it takes then"
+        )
+    least = min(block.tension for block in found)
+    shown = f"{most.tension:.6g} N" if len(found) == 1 else f"{least:.4g} to {most.tension:.6g} N"
     case.assumptions.append(
-        f"tight strand {tight:.6g} N, slack strand {slack:.4g} N, and {centrifugal:.3g} N in both from "
+        f"tight strand {shown}, slack strand {slack:.4g} N, and {most.centrifugal:.3g} N in both from "
         "the chain's own speed, which loads joints but not teeth"
     )
-    return (
-        (tight, slack, centrifugal) if within_strength(case, tight + centrifugal, chain) else None
+    strained = max(found, key=lambda block: block.tension + block.centrifugal)
+    key = duty.blocks[found.index(strained)].key
+    holds = within_strength(case, strained.tension + strained.centrifugal, chain, key)
+    return (found, slack) if holds else None
+
+
+def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:
+    case.faults.add(
+        key,
+        f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)",
     )
+
+
+def _speed(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+    """Return the speed of the chain in a block [mm/s]."""
+    table = case.tables.sprocket
+    assert table is not None
+    return chain.pitch * table.teeth * block.speed_rpm / (60.0 * table.engaged_every)
+
+
+def _pull(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+    speed = _speed(case, chain, block)
+    return effective_pull(block, speed, 60.0 * speed / (2.0 * math.pi * block.speed_rpm))
+
+
+def _slack(case: Resolution, chain: Chain, layout: DriveLayout, pull: float) -> float | None:
+    """Return the tension of the slack strand as given, or of its catenary."""
+    table = case.tables.drive or DriveTable()
+    if table.slack_tension_N is not None:
+        return table.slack_tension_N
+    sag = table.sag_percent
+    if sag is None:
+        sag = SAG_PERCENT
+        case.take("drive.sag_percent", sag, "default")
+    if table.inclination_deg is None:
+        case.take("drive.inclination_deg", 0.0, "default")
+    slope = math.radians(table.inclination_deg or 0.0)
+    slack = catenary_tension(chain.mass_per_length, layout.span, sag / 100.0, slope)
+    if slack > 1e-9 * pull:
+        return slack
+    case.faults.add(
+        "drive.inclination_deg",
+        "a vertical span has no sag and no tension of its own: give drive.slack_tension_N",
+    )
+    return None
 
 
 def _link_stiffness(case: Resolution, chain: Chain) -> float:
@@ -221,9 +263,7 @@ def _bush_diameter(case: Resolution, chain: Chain) -> float:
     return mean
 
 
-def _joint(
-    case: Resolution, chain: Chain, layout: DriveLayout, tight: float, slack: float
-) -> JointInput:
+def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
     table = case.tables.joint or JointTable()
     coefficient = table.specific_wear_rate_mm2_per_N
     if coefficient is None:
@@ -239,8 +279,7 @@ def _joint(
         case.take("stop.elongation_percent", limit, "3 %, or 200 % over the larger number of teeth")
     return JointInput(
         coefficient=coefficient,
-        pressure=tight / chain.bearing_area,
-        slack_pressure=slack / chain.bearing_area,
+        bearing_area=chain.bearing_area,
         alternating=_alternating(case),
         elongation_limit=0.01 * limit,
     )

@@ -1,95 +1,95 @@
 """``wearsim init``: a commented case to start from."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from wearsim.cli.standard import standard
 from wearsim.errors import CaseError, Fault
 
-_TEMPLATE = """\
-# A case for wearsim. Commented keys show their default or an example; wearsim list
-# quantities explains every key, wearsim schema lets an editor check this file.
-format_version = 1
-title = "Evolute sprocket, {chain} chain, {teeth} teeth"
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
 
-[chain]
-designation = "{chain}"                  # wearsim list chains; or give pitch_mm, roller_diameter_mm and inner_width_mm
-
-[sprocket]
-teeth = {teeth}
-profile = "evolute"                      # or "points" with points_file = "flank.csv" (x_mm,y_mm from root to tip)
-# face_width_mm = {width:g}                  # the standard width for the chain
-# contact_start_mm = {start:.6g}             # where a roller starts to touch, before the pole line
-# contact_end_mm = {end:.6g}                # where it leaves the flank
-# evolute_offset_mm = {offset:.4g}             # how far the chain runs inside the centrode
-# nodes = 201
-
-[mechanism]
-kind = "strand"                          # or "prescribed" with table_file = "run.csv"
-roller_slip_fraction = 1.0               # 1: the roller does not turn (bush chain, track); about 0.1: free roller
-
-[load]                                   # one of tension_N, torque_N_m and power_kW
-power_kW = {power:g}
-speed_rpm = {speed:g}
-
-[wear]
-condition = "hardened, oiled"            # wearsim list wear-conditions; or specific_wear_rate_mm2_per_N
-
-[stop]
-# critical_depth_mm = {depth:.4g}           # 10 % of the tooth thickness at the pitch line
-
-[run]
-# horizon_hours = 50000
-"""
+_FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
+"""Tooth form that goes with the series of a chain; ISO 606 with the others."""
 
 
 @click.command(short_help="A commented case to start from.")
 @click.option("--chain", default="16B-1", show_default=True, metavar="DESIGNATION")
 @click.option("--teeth", type=int, default=20, show_default=True)
 @click.option(
+    "--kind", type=click.Choice(["strand", "wrap"]), default="strand", show_default=True,
+    help="A guided strand past the sprocket, or a chain around it.",
+)  # fmt: skip
+@click.option(
     "--out", type=click.Path(path_type=Path, allow_dash=True), default="-", show_default=True,
     help="New file; - is stdout.",
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="Replace the file.")
 @standard
-def init(chain: str, teeth: int, out: Path, force: bool) -> None:
+def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
     """Write a working case for a chain and a number of teeth, every key explained."""
-    from wearsim.case.load import load_case
     from wearsim.output import check_free, write_file
 
     if str(out) != "-":
         check_free(out, force)
+    case = _seed(chain, teeth, kind)
     # A chain speed of 1 m/s and a tenth of what the chain's strength allows.
-    seed = {
-        "format_version": 1,
-        "chain": {"designation": chain},
-        "sprocket": {"teeth": teeth, "profile": "evolute"},
-        "load": {"tension_N": 1.0, "speed_rpm": 1.0},
-        "wear": {"condition": "hardened, oiled"},
-    }
-    try:
-        case = load_case(seed)
-    except CaseError as error:
-        options = {"chain.designation": "--chain"}
-        raise CaseError(
-            [Fault(fault.message, "", options.get(fault.key, "--teeth")) for fault in error.faults]
-        ) from None
     speed = float(f"{60_000.0 / (case.chain.pitch * teeth):.2g}")
     power = float(f"{case.chain.tensile / 10.0 * case.chain.pitch * teeth * speed / 6e7:.2g}")
-    sprocket, stop = case.inputs["sprocket"], case.inputs["stop"]
-    text = _TEMPLATE.format(
-        chain=chain,
-        teeth=teeth,
-        width=sprocket["face_width_mm"],
-        start=sprocket["contact_start_mm"],
-        end=sprocket["contact_end_mm"],
-        offset=sprocket["evolute_offset_mm"],
-        depth=stop["critical_depth_mm"],
-        power=power,
-        speed=speed,
+    template = Path(__file__).with_name("templates") / f"{kind}.toml"
+    text = template.read_text(encoding="utf-8").format(
+        chain=chain, teeth=teeth, power=power, speed=speed, **_values(case)
     )
     if str(out) == "-":
         click.echo(text, nl=False)
     else:
         write_file(out, text, force)
+
+
+def _seed(chain: str, teeth: int, kind: str) -> "Case":
+    """A case that takes every default."""
+    from wearsim.case.load import load_case
+    from wearsim.catalogue.tables import chains
+
+    known = chains().get(chain)
+    form = _FORMS.get(known.series if known else "", "iso606") if kind == "wrap" else "evolute"
+    seed = {
+        "format_version": 1,
+        "chain": {"designation": chain},
+        "sprocket": {"teeth": teeth, "profile": form},
+        "mechanism": {"kind": kind},
+        "load": {"tension_N": 1000.0 if kind == "wrap" else 1.0, "speed_rpm": 1.0},
+        "wear": {"condition": "hardened, oiled"},
+    }
+    try:
+        return load_case(seed)
+    except CaseError as error:
+        options = {"chain": "--chain"}
+        raise CaseError(
+            [
+                Fault(fault.message, "", options.get(fault.key.partition(".")[0], "--teeth"))
+                for fault in error.faults
+            ]
+        ) from None
+
+
+def _values(case: "Case") -> dict[str, Any]:
+    """What the template shows of the defaults."""
+    sprocket, stop = case.inputs["sprocket"], case.inputs["stop"]
+    shown = {"width": sprocket["face_width_mm"], "depth": stop["critical_depth_mm"]}
+    if case.inputs["mechanism"]["kind"] == "strand":
+        return shown | {
+            "start": sprocket["contact_start_mm"],
+            "end": sprocket["contact_end_mm"],
+            "offset": sprocket["evolute_offset_mm"],
+        }
+    drive = case.inputs["drive"]
+    return shown | {
+        "profile": sprocket["profile"],
+        "mate": drive["mate_teeth"],
+        "links": drive["links"],
+        "stiffness": drive["link_stiffness_N_per_mm"],
+        "elongation": stop["elongation_percent"],
+    }

@@ -5,8 +5,17 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import Engagement, Kind
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.dwelling import (
+    EVENT_BODY,
+    EVENT_COUNT,
+    EVENT_LOAD,
+    EVENT_SLIP,
+    EVENT_SPEED,
+    EVENT_TOUCHED,
+)
+from wearsim.kernels.flank import flank_frame
 
 Rows = NDArray[np.float64]
 
@@ -24,6 +33,9 @@ class Dwelling(ABC):
 
     modulus: float
     """Contact modulus E* [MPa]."""
+
+    slack_tension: float
+    """Tension of the slack strand [N]; 0 where there is none."""
 
     @property
     @abstractmethod
@@ -86,3 +98,41 @@ class Dwelling(ABC):
             [N/mm], path slid [mm] and its speed [mm/s], how often in a cycle, number of
             the body.
         """
+
+    def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
+        """Return the engagement of a worn outline, all bodies worn alike.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn outline [mm].
+        depth : numpy.ndarray
+            Material removed along the normal [mm].
+
+        Returns
+        -------
+        Engagement
+            Every point of the outline with the events of one cycle that touch the first
+            body there: how often, mean load, path at that load, highest speed (nan where
+            none). The relative curvature is that of mate and outline at the point.
+        """
+        frame = np.empty((4, depth.size))
+        flank_frame(x, y, *frame)
+        outlines = np.tile(x, (self.bodies, 1)), np.tile(y, (self.bodies, 1))
+        table = self.events(*outlines, 0.0, self.memory())
+        table = table[:, (table[EVENT_LOAD] > 0.0) & (table[EVENT_BODY] == 0.0)]
+        touched = table[EVENT_TOUCHED].round().astype(int)
+        often, load, worn, speed = np.zeros((4, depth.size))
+        np.add.at(often, touched, table[EVENT_COUNT])
+        np.add.at(load, touched, table[EVENT_COUNT] * table[EVENT_LOAD])
+        np.add.at(worn, touched, table[EVENT_COUNT] * table[EVENT_LOAD] * table[EVENT_SLIP])
+        np.maximum.at(speed, touched, table[EVENT_SPEED])
+        return Engagement(
+            kind=self.kind,
+            arc_length=self.arc_length,
+            load_per_width=load / np.where(often > 0.0, often, 1.0),
+            per_cycle=often,
+            slip=worn / np.where(load > 0.0, load, 1.0),
+            sliding_speed=np.where(often > 0.0, speed, np.nan),
+            relative_curvature=1.0 / self.roller_radius + frame[2],
+        )

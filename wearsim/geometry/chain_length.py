@@ -11,29 +11,7 @@ import math
 from scipy.optimize import brentq
 
 from wearsim.errors import GeometryError
-
-
-def pitch_diameter(pitch: float, teeth: int) -> float:
-    """Return the diameter of the circle through the roller centres, d = p / sin(pi/z).
-
-    Parameters
-    ----------
-    pitch : float
-        Chain pitch [mm], above 0.
-    teeth : int
-        Number of gaps, at least 3.
-
-    Returns
-    -------
-    float
-        Pitch diameter [mm].
-
-    Examples
-    --------
-    >>> round(pitch_diameter(10.0, 6), 12)  # a hexagon: twice its side
-    20.0
-    """
-    return pitch / math.sin(math.pi / teeth)
+from wearsim.geometry.gap import pitch_diameter
 
 
 def handbook_links(teeth_1: int, teeth_2: int, centre_in_pitches: float) -> float:

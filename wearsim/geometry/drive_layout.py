@@ -8,8 +8,8 @@ from wearsim.geometry.chain_length import (
     even_links,
     handbook_centre,
     handbook_links,
-    pitch_diameter,
 )
+from wearsim.geometry.gap import pitch_diameter
 
 
 def polygon_effect(teeth: int) -> float:

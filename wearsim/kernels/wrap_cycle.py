@@ -43,8 +43,8 @@ _TOLERANCE = 1e-9
 _LOOSEST = 1e-2
 
 # numbers of a cycle
-WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE = range(7)
-CYCLE_NUMBERS = 7
+WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST = range(8)
+CYCLE_NUMBERS = 8
 
 
 @kernel(int64(float64, float64, float64))
@@ -79,7 +79,8 @@ def wrap_events(
 
     ``loci`` and ``touched``: roller path and touched places of each worn body;
     ``configurations`` 2 where inner and outer links differ. ``positions`` (configuration,
-    phase, roller) holds where to start from (below zero: nowhere) and the answers. On a worn
+    phase, roller) holds where to start from (below zero: nowhere) and the answers; where
+    that fails ``numbers[START]`` and ``numbers[LOWEST]`` are tried. On a worn
     path an equilibrium may stay loose: up to `_LOOSEST` of the tight tension without balance
     along the path is accepted, the most of all phases written to ``numbers[LOOSE]``. Event
     (configuration, phase, roller) stands in column (configuration phases + phase) most +
@@ -96,10 +97,10 @@ def wrap_events(
             slack = numbers[WRAP_ANGLE] - tight - (rollers - 1) * angle
             position = positions[configuration, step]
             status = -1
-            for attempt in range(2):
-                if attempt == 1 or position[0] < 0.0:
+            for attempt in range(3):
+                if attempt > 0 or position[0] < 0.0:
                     for i in range(rollers):
-                        position[i] = numbers[START]
+                        position[i] = numbers[START] if attempt < 2 else numbers[LOWEST]
                 status = solve_wrap(
                     loci[0], loci[bodies - 1], configuration, rollers, constants, tight, slack,
                     _TOLERANCE * constants[TIGHT_TENSION], position, work, tension, force,

@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import Dwelling
-from wearsim.errors import ContactError
+from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
-from wearsim.geometry.roller_path import roller_path
+from wearsim.geometry.roller_path import WornPath, roller_path
 from wearsim.kernels.dwelling import EVENT_ROWS
-from wearsim.kernels.wrap import SEATED, WORK_ROWS
+from wearsim.kernels.wrap import JUMPED, SEATED, WORK_ROWS
 from wearsim.kernels.wrap_cycle import (
     ARTICULATION_SLIP,
     CYCLE_NUMBERS,
     FACE_WIDTH,
+    LOWEST,
     PATH_SLIP,
     PHASE_TIME,
     START,
@@ -38,13 +39,32 @@ class Sliding:
         xi: of the articulation of a roller that does not turn.
     path_fraction : float
         Of the way along the flank: xi where the roller rolls up it, 1 where it slides.
-    pitch_time : float
-        Time in which the chain advances by one pitch [s].
     """
 
     fraction: float
     path_fraction: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapBlock:
+    """A part of the duty of a wrap, in which tensions and speed are constant.
+
+    Attributes
+    ----------
+    share : float
+        Of the cycles; those of all blocks sum to 1.
+    mechanism : WrapMechanism
+        Rollers and chain under the tensions of this block.
+    pitch_time : float
+        Time in which the chain advances by one pitch [s].
+    wear_factor : float
+        On the wear coefficient.
+    """
+
+    share: float
+    mechanism: WrapMechanism
     pitch_time: float
+    wear_factor: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +73,8 @@ class WrapContact(Dwelling):
 
     Attributes
     ----------
-    mechanism : WrapMechanism
-        Rollers and chain.
+    blocks : tuple of WrapBlock
+        The duty; they differ in their tensions and speeds only.
     face_width : float
         b [mm].
     phases : int
@@ -66,12 +86,12 @@ class WrapContact(Dwelling):
     same_link_kind : bool
         Whether a tooth meets only inner or only outer links for life.
     elongation_per_cycle : float
-        Growth of the chain in a revolution of the sprocket.
+        Growth of the chain in a revolution of the sprocket, the mean over the blocks.
     elongation_limit : float
         Relative elongation at which a new chain is put on.
     """
 
-    mechanism: WrapMechanism
+    blocks: tuple[WrapBlock, ...]
     face_width: float
     phases: int
     sliding: Sliding
@@ -79,6 +99,16 @@ class WrapContact(Dwelling):
     same_link_kind: bool
     elongation_per_cycle: float
     elongation_limit: float
+
+    @property
+    def mechanism(self) -> WrapMechanism:
+        """Rollers and chain in the first block."""
+        return self.blocks[0].mechanism
+
+    @property
+    def slack_tension(self) -> float:  # type: ignore[override]
+        """Tension of the slack strand without the centrifugal part [N]."""
+        return self.mechanism.pull.slack
 
     @property
     def profile(self) -> Profile:
@@ -112,8 +142,27 @@ class WrapContact(Dwelling):
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
         coarse = Profile(outline.x[keep], outline.y[keep])
-        path = roller_path(coarse, self.roller_radius, (keep.size + 1) // 2)
-        return replace(self, mechanism=replace(self.mechanism, outline=coarse, path=path))
+        return self.on_outline(coarse)
+
+    def on_outline(self, outline: Profile) -> "WrapContact":
+        """Return the same contact on another outline.
+
+        Parameters
+        ----------
+        outline : Profile
+            Gap from its right tip through the seat to its left tip.
+
+        Returns
+        -------
+        WrapContact
+            With the roller path of that outline in every block.
+        """
+        path = roller_path(outline, self.roller_radius, (outline.x.size + 1) // 2)
+        blocks = tuple(
+            replace(block, mechanism=replace(block.mechanism, outline=outline, path=path))
+            for block in self.blocks
+        )
+        return replace(self, blocks=blocks)
 
     def memory(self) -> Rows:
         """Return the places where no roller has been found yet.
@@ -121,10 +170,10 @@ class WrapContact(Dwelling):
         Returns
         -------
         numpy.ndarray
-            Below zero, shape (kinds of link, phases, most rollers).
+            Below zero, shape (blocks, kinds of link, phases, most rollers).
         """
         configurations = 2 if self.mechanism.chain.alternating else 1
-        return np.full((configurations, self.phases, self.most), -1.0)
+        return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
 
     def events(self, x: Rows, y: Rows, elongation: float, memory: Rows) -> Rows:
         """Return what worn gaps meet in one revolution.
@@ -141,15 +190,33 @@ class WrapContact(Dwelling):
         Returns
         -------
         numpy.ndarray
-            Table of events, a column for every kind of link, phase and roller.
+            Table of events, a column for every block, kind of link, phase and roller. How
+            often each comes in a cycle holds its block's share and factor on wear. All
+            zero where the chain is not pulled.
 
         Raises
         ------
-        ContactError
+        JumpError
             The chain jumps.
+        ConvergenceError
+            No equilibrium is found.
         """
-        mechanism = self.mechanism
-        worn = [mechanism.path.worn(x[body], y[body]) for body in range(self.bodies)]
+        path = self.mechanism.path
+        worn = [path.worn(x[body], y[body]) for body in range(self.bodies)]
+        tables = [
+            self._block_events(block, worn, elongation, places)
+            for block, places in zip(self.blocks, memory, strict=True)
+        ]
+        return np.concatenate(tables, axis=1)
+
+    def _block_events(
+        self, block: WrapBlock, worn: list[WornPath], elongation: float, memory: Rows
+    ) -> Rows:
+        """Return what worn gaps meet in one revolution of a block, times its share."""
+        mechanism = block.mechanism
+        table = np.zeros((EVENT_ROWS, memory.size))
+        if not mechanism.pull.tight > 0.0:
+            return table
         configurations, _, most = memory.shape
         positions = np.where(
             memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn])
@@ -161,20 +228,25 @@ class WrapContact(Dwelling):
             self.sliding.fraction * self.roller_radius * mechanism.pitch_angle
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
-        numbers[PHASE_TIME] = self.sliding.pitch_time / self.phases
+        numbers[PHASE_TIME] = block.pitch_time / self.phases
         numbers[START] = mechanism.start(elongation, loci[0])
-        table = np.zeros((EVENT_ROWS, configurations * self.phases * most))
+        numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(
             loci, np.array([path.touched for path in worn]), configurations, self.phases, most,
-            self.bodies / configurations,
+            block.share * block.wear_factor * self.bodies / configurations,
             mechanism.constants(elongation), numbers, positions,
             np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
             np.zeros(most), table,
         )  # fmt: skip
-        if status != SEATED:
-            raise ContactError(
+        if status == JUMPED:
+            raise JumpError(
                 f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but "
                 "it jumps on the worn teeth: raise the slack tension or replace the chain earlier"
+            )
+        if status != SEATED:
+            raise ConvergenceError(
+                f"wrap at an elongation of {100 * elongation:.3g} %: the solver must find where the "
+                "rollers rest in the worn gaps, but does not: use other nodes or phases"
             )
         memory[:] = self._by_body(positions, [path.node_place for path in worn])
         return table

@@ -3,7 +3,10 @@
 import re
 import shlex
 import textwrap
+from collections.abc import Mapping
+from typing import Any
 
+from wearsim.report.service import service_measures
 from wearsim.result import Life, LowerBound, WearResult
 
 _WIDTH = 100
@@ -76,13 +79,14 @@ def answer(result: WearResult, source: str) -> str:
     rows = [
         ("Life", _life(result)),
         ("With the wear coefficient at its low / high end:", _band(result)),
+        *_service(result),
         *_parts(result),
         ("Worn most", _worst(result)),
         ("Assumes", _assumptions(result)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
-    return "\n".join([result.title, *(_row(label, text) for label, text in rows)])
+    return "\n".join([result.title, *(row(label, text) for label, text in rows)])
 
 
 def _parts(result: WearResult) -> list[tuple[str, str]]:
@@ -99,7 +103,48 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
     return [("Of which", f"{lives}{more}"), ("Limits", f"at the end of the life {used}")]
 
 
-def _row(label: str, text: str) -> str:
+def service_text(inputs: Mapping[str, Any], running: float, before: float = 0.0) -> str:
+    """Return hours of running in the measures that a case gives factors for, in words.
+
+    Parameters
+    ----------
+    inputs : mapping
+        Tables of the case.
+    running, before : float
+        Running time [h], and that from ``start_date`` until it begins.
+
+    Returns
+    -------
+    str
+        Such as ``30 000 km, 125 days, until 2026-05-06``; empty without factors.
+    """
+    return ", ".join(
+        f"until {value}" if isinstance(value, str) else f"{grouped(value)} {name}"
+        for name, value in service_measures(inputs, running, before).items()
+    )
+
+
+def _service(result: WearResult) -> list[tuple[str, str]]:
+    """Give the life, or what the run covers of it, in other measures."""
+    reached = isinstance(result.life, Life)
+    running = result.life.hours if isinstance(result.life, Life) else result.hours_run
+    text = service_text(result.inputs, running)
+    return [("In service", text if reached else f"more than {text}")] if text else []
+
+
+def row(label: str, text: str) -> str:
+    """Return one line of an answer, folded under its label.
+
+    Parameters
+    ----------
+    label, text : str
+        What stands on the left and on the right.
+
+    Returns
+    -------
+    str
+        Lines of at most a hundred characters.
+    """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
         text,
@@ -117,6 +162,7 @@ def _life(result: WearResult) -> str:
         what = {
             "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
             "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
+            "min_slack_tension_N": "until the chain jumps on the worn teeth",
             "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
         }[result.stop]
         error = result.numerical_error

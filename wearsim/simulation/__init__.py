@@ -24,8 +24,10 @@ def simulate(case: Case) -> WearResult:
 
     Raises
     ------
+    CaseError
+        The chain jumps on new teeth.
     ContactError
-        The contact leaves its theory or vanishes, or the chain jumps.
+        The contact leaves its theory or vanishes.
     ConvergenceError
         The life would be wrong.
 
@@ -44,5 +46,6 @@ def simulate(case: Case) -> WearResult:
     True
     """
     if isinstance(case.drive, WrapDrive):
+        check_hold(case)
         return simulate_wrap(case, case.drive)
     return simulate_points(case)

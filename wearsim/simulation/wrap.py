@@ -1,17 +1,18 @@
 """Lives of a sprocket that a chain wraps, and of the chain."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Block, Case, WrapDrive
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector, area_between
 from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.joint import elongation_per_loop
 from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
-from wearsim.mechanisms.wrap_cycle import Sliding, WrapContact
+from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import wear_law
@@ -108,7 +109,7 @@ def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
     Returns
     -------
     WrapMechanism
-        Rollers on the unworn gap.
+        Rollers on the unworn gap, under the tensions of the heaviest block of the duty.
     """
     radius = 0.5 * case.chain.roller_diameter
     return WrapMechanism(
@@ -154,29 +155,45 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
         pull.friction_roller_tooth * chain.roller_radius
         > pull.friction_roller_bush * chain.bush_radius
     )
-    teeth = 2.0 * math.pi / drive.pitch_angle
+    blocks = tuple(_wrap_block(drive, mechanism, block) for block in drive.blocks)
     layout, joint = drive.layout, drive.joint
     meetings = layout.meetings_1 if drive.driver else layout.meetings_2
-    per_loop = elongation_per_loop(
-        joint.coefficient,
-        (joint.pressure, joint.slack_pressure),
-        case.chain.pin_diameter,
-        case.chain.pitch,
-        (layout.teeth_1, layout.teeth_2),
+    per_loop = math.fsum(
+        block.share
+        * elongation_per_loop(
+            joint.coefficient,
+            (
+                (block.tension + block.centrifugal) / joint.bearing_area,
+                (drive.slack + block.centrifugal) / joint.bearing_area,
+            ),
+            case.chain.pin_diameter,
+            case.chain.pitch,
+            (layout.teeth_1, layout.teeth_2),
+        )
+        for block in drive.blocks
     )
     return WrapContact(
-        mechanism=mechanism,
+        blocks=blocks,
         face_width=drive.face_width,
         phases=drive.phases,
         sliding=Sliding(
             fraction=drive.slip_fraction,
             path_fraction=drive.slip_fraction if rolls else 1.0,
-            pitch_time=60.0 / (case.speed_rpm * teeth),
         ),
         modulus=case.modulus,
         same_link_kind=case.engaged_every == 1 and meetings.same_link_kind,
         elongation_per_cycle=per_loop * drive.gaps / layout.links,
         elongation_limit=joint.elongation_limit,
+    )
+
+
+def _wrap_block(drive: WrapDrive, mechanism: WrapMechanism, block: Block) -> WrapBlock:
+    teeth = 2.0 * math.pi / drive.pitch_angle
+    return WrapBlock(
+        share=block.share,
+        mechanism=replace(mechanism, pull=replace(mechanism.pull, tight=block.tension)),
+        pitch_time=60.0 / (block.speed_rpm * teeth),
+        wear_factor=block.wear_factor,
     )
 
 

@@ -67,6 +67,22 @@ def tip_land_criterion(
     )
 
 
+def jump_criterion(slack_tension: float) -> Criterion:
+    """Return the criterion that a chain meets when it jumps on the worn teeth.
+
+    Parameters
+    ----------
+    slack_tension : float
+        Tension of the slack strand [N], which no longer holds it.
+
+    Returns
+    -------
+    Criterion
+        Named ``min_slack_tension_N``; met, whatever the flank.
+    """
+    return Criterion("min_slack_tension_N", slack_tension, lambda x, y, depth: 0.0)
+
+
 def first_met(
     criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector
 ) -> Criterion | None:

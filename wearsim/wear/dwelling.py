@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import Dwelling
-from wearsim.errors import ContactError, ConvergenceError
+from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.dwelling import (
     AREA,
@@ -40,7 +40,7 @@ from wearsim.kernels.dwelling import (
     wear_events,
 )
 from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
-from wearsim.wear.criteria import Criterion, first_met
+from wearsim.wear.criteria import Criterion, first_met, jump_criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, difference
 
@@ -109,11 +109,12 @@ class Start:
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """Outlines, depth, chain and cycles at one time, with pressure and speed of the last step."""
+    """Outlines, depth, area, chain and cycles at one time; pressure and speed of the last step."""
 
     x: Rows
     y: Rows
     depth: Rows
+    removed: float
     elongation: float
     cycles: float
     chain: int
@@ -167,8 +168,8 @@ class _Bodies:
     def state(self) -> "_State":
         """Return a copy of all that changes."""
         return _State(
-            self.x.copy(), self.y.copy(), self.depth.copy(), self.elongation, self.cycles,
-            self.chain, float(self.findings[PEAK_PRESSURE]), self.speed,
+            self.x.copy(), self.y.copy(), self.depth.copy(), self.removed, self.elongation,
+            self.cycles, self.chain, float(self.findings[PEAK_PRESSURE]), self.speed,
         )  # fmt: skip
 
     def step(self, cycles: float) -> float:
@@ -327,7 +328,13 @@ def run_dwelling(
             longest = elongation_limit / growth / (_ELONGATION_STEPS * 2**level)
             cycles = min(cycles, longest, (elongation_limit - bodies.elongation) / growth)
         cycles = min(cycles, horizon - bodies.cycles)
-        rate = bodies.step(cycles) / cycles
+        try:
+            rate = bodies.step(cycles) / cycles
+        except JumpError:
+            if bodies.cycles == 0.0:
+                raise
+            met = jump_criterion(contact.slack_tension)
+            break
         met = _met(criteria, bodies)
         if met is not None:
             _cut(criteria, bodies, before)
@@ -343,12 +350,15 @@ def run_dwelling(
 
 
 def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) -> float:
-    """Cycles that wear about so deep: the area of all events over one roller radius tenth."""
+    """Cycles that wear about so deep: the worst event under the Hertz pressure on a flat."""
     table = contact.events(bodies.x, bodies.y, bodies.elongation, bodies.memory)
+    table = table[:, table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT] > 0.0]
+    if table.shape[1] == 0:
+        return 1.0
+    hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.roller_radius))
     worn = table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]
-    pressure = 300.0 ** (law.pressure_exponent - 1.0)
-    area = law.coefficient * pressure * float(worn.max()) * 4.0
-    return depth * 0.02 * contact.roller_radius / area if area > 0.0 else 1.0
+    worn *= hertz ** (law.pressure_exponent - 1.0) * table[EVENT_SPEED] ** law.speed_exponent
+    return depth * 0.005 * contact.roller_radius / (law.coefficient * float(worn.max()))
 
 
 def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> None:
@@ -359,6 +369,7 @@ def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> No
         bodies.x = before.x + part * (after.x - before.x)
         bodies.y = before.y + part * (after.y - before.y)
         bodies.depth = before.depth + part * (after.depth - before.depth)
+        bodies.removed = before.removed + part * (after.removed - before.removed)
         bodies.elongation = before.elongation + part * (after.elongation - before.elongation)
         bodies.cycles = before.cycles + part * (after.cycles - before.cycles)
 

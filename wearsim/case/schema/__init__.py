@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, Field
 
 from wearsim.case.schema.chain import ChainTable
 from wearsim.case.schema.drive import DriveTable
@@ -57,7 +57,7 @@ class CaseTables(Table):
     joint: JointTable | None = None
     material: MaterialsTable = MaterialsTable()
     load: LoadTable = LoadTable()
-    duty: list[DutyBlock] = []
+    duty: list[DutyBlock] = Field(default_factory=list)
     wear: WearTable
     stop: StopTable = StopTable()
     run: RunTable = RunTable()

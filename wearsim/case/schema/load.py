@@ -14,8 +14,8 @@ _MOST_BINS = 100
 
 
 def _bins(value: object) -> object:
-    whole = isinstance(value, list) and all(type(entry) is int for entry in value)
-    if not whole or len(value) != 2 or not all(1 <= entry <= _MOST_BINS for entry in value):  # type: ignore[arg-type]
+    pair = value if isinstance(value, list) and len(value) == 2 else [None]
+    if not all(type(entry) is int and 1 <= entry <= _MOST_BINS for entry in pair):
         raise ValueError(
             f"must be two whole numbers from 1 to {_MOST_BINS}, bins of the tension and of the speed, "
             "such as [20, 8]"

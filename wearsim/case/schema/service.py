@@ -24,9 +24,7 @@ class ServiceTable(Table):
     tonnes_per_hour: Positive | None = None
     hours_per_day: Annotated[PositiveNumber, Field(le=24.0)] | None = None
     start_date: (
-        Annotated[
-            str, BeforeValidator(_day), WithJsonSchema({"type": "string", "format": "date"})
-        ]
+        Annotated[str, BeforeValidator(_day), WithJsonSchema({"type": "string", "format": "date"})]
         | None
     ) = None
 

@@ -1,0 +1,102 @@
+"""What is left of a life, as text and as JSON."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from wearsim.report.answer import grouped, hours, row, service_text
+from wearsim.report.service import service_measures
+from wearsim.result import Life, LowerBound
+from wearsim.study.remaining import RemainingLife
+
+_WORDS = {
+    "max_depth_mm": "{} mm worn off",
+    "over_pins_mm": "{} mm less over pins",
+    "elongation_percent": "{} % longer",
+}
+
+
+def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
+    """Return the answer as ``wearsim remaining`` prints it.
+
+    Parameters
+    ----------
+    found : RemainingLife
+        The answer.
+    inputs : mapping
+        Tables of the case.
+
+    Returns
+    -------
+    str
+        Several lines, at most a hundred characters wide.
+    """
+    reading = found.reading
+    band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
+    what = _WORDS[reading.quantity].format(f"{reading.value:g}")
+    service = service_text(inputs, _known(found.remaining), reading.hours)
+    rows = [
+        ("Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"),
+        ("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
+        *([("In service", service)] if service else []),
+        ("Life", f"{hours(found.life)} of the {found.part} in all"),
+        (
+            "Coefficient",
+            f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
+            f"after {grouped(found.model_hours)} h",
+        ),
+        ("Assumes", "life times coefficient is constant: load and lubrication as before"),
+        ("Warnings", "; ".join(found.warnings) or "none"),
+    ]
+    return "\n".join([found.title, *(row(label, text) for label, text in rows)])
+
+
+def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the answer as ``wearsim remaining --json`` prints it.
+
+    Parameters
+    ----------
+    found : RemainingLife
+        The answer.
+    inputs : mapping
+        Tables of the case.
+
+    Returns
+    -------
+    dict
+        Numbers, strings, lists and None for a life that the run does not reach.
+    """
+    reading = found.reading
+    content = {
+        "schema_version": 1,
+        "case": found.case,
+        "title": found.title,
+        "part": found.part,
+        "quantity": reading.quantity,
+        "reading": reading.value,
+        "reading_error": reading.error,
+        "reading_hours": reading.hours,
+        "model_hours": found.model_hours,
+        "coefficient": found.coefficient,
+        "coefficient_factor": found.factor,
+        "life_reached": isinstance(found.life, Life),
+        "life_hours": _hours(found.life),
+        "remaining_hours": _hours(found.remaining),
+        "remaining_hours_low": _hours(found.remaining_low),
+        "remaining_hours_high": _hours(found.remaining_high),
+        "hours_run": _known(found.life),
+    }
+    if inputs.get("service") and isinstance(found.remaining, Life):
+        content["service"] = service_measures(inputs, found.remaining.hours, reading.hours)
+    return {
+        **content,
+        "assumptions": list(found.assumptions),
+        "warnings": list(found.warnings),
+    }
+
+
+def _hours(life: Life | LowerBound) -> float | None:
+    return life.hours if isinstance(life, Life) else None
+
+
+def _known(life: Life | LowerBound) -> float:
+    return life.hours if isinstance(life, Life) else life.hours_run

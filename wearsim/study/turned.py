@@ -1,0 +1,91 @@
+"""A worn sprocket turned round, so that its other flank works."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.geometry.profile import Vector
+from wearsim.mechanisms.wrap_cycle import WrapContact
+from wearsim.result import Life, LowerBound, WearResult
+from wearsim.simulation.law import wear_law
+from wearsim.simulation.wrap import wrap_contact
+from wearsim.wear.criteria import Criterion, tip_land_criterion
+from wearsim.wear.dwelling import Start, advance_dwelling
+
+
+def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
+    """Return how long a worn sprocket lives when it is turned onto its other flank.
+
+    Parameters
+    ----------
+    case : Case
+        The case, with a wrap.
+    first : WearResult
+        Its run to the sprocket's limit.
+
+    Returns
+    -------
+    tuple of Life or LowerBound, and float
+        From the turn on, zero where what both flanks share is worn through, and the
+        estimated relative error of its steps.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    drive = case.drive
+    assert isinstance(drive, WrapDrive)
+    contact = wrap_contact(case, drive)
+    points = contact.profile.x.size
+    depth = first.flank_columns["depth_mm"][-contact.bodies * points :].reshape(-1, points)
+    elongation = 0.01 * float(first.history_columns["elongation_percent"][-1])
+    chain = int(first.history_columns["chain"][-1])
+    if elongation >= contact.elongation_limit * (1.0 - 1e-9):
+        elongation, chain = 0.0, chain + 1
+    turned = _mirrored(contact)
+    start = Start(depth[:, ::-1].copy(), elongation, chain)
+    criteria = _criteria(case, drive, _working_half(contact, depth))
+    profile = turned.profile
+    margins = [
+        criterion.margin(profile.x - d * profile.normal_x, profile.y - d * profile.normal_y, d)
+        for criterion in criteria
+        for d in start.depth
+    ]
+    if min(margins) <= 0.0:
+        return Life(0.0, 0.0), 0.0
+    run, error = advance_dwelling(
+        turned,
+        wear_law(case.wear, case.wear.coefficient),
+        criteria,
+        case.run.horizon_hours * case.cycles_per_hour,
+        case.run.life_tolerance,
+        start,
+    )
+    cycles = float(run.cycles[-1])
+    hours = cycles / case.cycles_per_hour
+    return (Life(cycles, hours) if run.met else LowerBound(cycles, hours)), error
+
+
+def _mirrored(contact: WrapContact) -> WrapContact:
+    return contact.on_outline(contact.profile.mirrored())
+
+
+def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
+    """Points of the mirrored outline on the side that wore, which is where the load will be again."""
+    x, arc = contact.profile.x, contact.arc_length
+    worn = depth.sum(axis=0) * np.gradient(arc)
+    side = 1.0 if worn[x > 0.0].sum() >= worn[x < 0.0].sum() else -1.0
+    return side * contact.profile.mirrored().x >= 0.0
+
+
+def _criteria(case: Case, drive: WrapDrive, half: NDArray[np.bool_]) -> tuple[Criterion, ...]:
+    limit = case.critical_depth
+    depth = Criterion(
+        "critical_depth_mm", limit, lambda x, y, depth: limit - float(depth[half].max())
+    )
+    if case.min_tip_land:
+        return depth, tip_land_criterion(case.min_tip_land, drive.worn_tip_land)
+    return (depth,)
