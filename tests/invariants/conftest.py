@@ -111,7 +111,7 @@ def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) 
         pitch_angle=0.25 * np.pi,
         wrap_angle=0.225 * np.pi,
         chain=WrapChain(pitch, radius, 0.5 * radius, 5e7 / length, alternating=False),
-        pull=Pull(load * 2e6, load * 1.8e6, driver=True, friction_roller_tooth=0.0,
+        pull=Pull(load * 1e6, load * 0.9e6, driver=True, friction_roller_tooth=0.0,
                   friction_roller_bush=0.0),
     )  # fmt: skip
     return Wrapped(
@@ -119,7 +119,7 @@ def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) 
             blocks=(WrapBlock(1.0, mechanism, pitch_time=0.1, wear_factor=1.0),),
             face_width=length * 10.0,
             phases=1,
-            sliding=Sliding(0.0058 * slip, 0.0058 * slip),
+            sliding=Sliding(0.0082 * slip, 0.0082 * slip),
             modulus=0.1 * MODULUS / length**2,
             same_link_kind=False,
             elongation_per_cycle=0.0,

@@ -15,6 +15,7 @@ _BELONGS_TO = {
     "joint": "wrap",
     "sprocket.role": "wrap",
     "stop.elongation_percent": "wrap",
+    "stop.over_pins_change_mm": "wrap",
     "chain.pin_diameter_mm": "wrap",
     "chain.bush_diameter_mm": "wrap",
     "chain.bearing_area_mm2": "wrap",

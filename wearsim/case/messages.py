@@ -141,6 +141,8 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     text = text.replace("Input should be", "must be")
     if kind == "model_type":
         text = "must be a table"
+    if kind == "list_type":
+        text = f"must be tables under headers [[{key}]]"
     if isinstance(got, Mapping):
         return f"{text} (got a table)"
     hint = ""

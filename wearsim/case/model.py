@@ -101,6 +101,21 @@ class StrandDrive:
         """Chordal thickness of the tooth where the centrode meets it [mm]."""
         return self.tooth.pitch_line_thickness
 
+    def worn_thickness(self, x: Vector, y: Vector) -> float:
+        """Return the thickness on the centrode that a worn flank leaves.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm].
+
+        Returns
+        -------
+        float
+            Chordal thickness [mm]; the back flank does not wear.
+        """
+        return self.tooth.worn_thickness(x, y)
+
     @property
     def thinnest(self) -> float:
         """Smallest chordal thickness along the flank [mm]."""
@@ -252,8 +267,23 @@ class WrapDrive:
     @property
     def pitch_line_thickness(self) -> float:
         """Chordal thickness of the tooth on the pitch circle [mm]."""
+        return self.worn_thickness(self.outline.x, self.outline.y)
+
+    def worn_thickness(self, x: Vector, y: Vector) -> float:
+        """Return the thickness on the pitch circle that a worn outline leaves.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn outline [mm].
+
+        Returns
+        -------
+        float
+            Chordal thickness [mm].
+        """
         radius = 0.5 * self.layout.pitch / math.sin(0.5 * self.pitch_angle)
-        return tooth_thickness(self.outline.x, self.outline.y, self.gaps, radius)
+        return tooth_thickness(x, y, self.gaps, radius)
 
     @property
     def thinnest(self) -> float:
@@ -302,6 +332,11 @@ class WearInput:
         The coefficient at the ends of its band, as factors of it.
     band : str
         Where the band comes from.
+    case_depth, core_factor : float
+        Depth of the hardened layer [mm] and what the coefficient is multiplied by below it.
+    running_in_factor, running_in_distance : float
+        First coefficient over the lasting one, and the sliding distance [mm] over which the
+        excess falls to 1/e.
     """
 
     law: str
@@ -313,6 +348,10 @@ class WearInput:
     low: float
     high: float
     band: str
+    case_depth: float = math.inf
+    core_factor: float = 1.0
+    running_in_factor: float = 1.0
+    running_in_distance: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -367,6 +406,8 @@ class Case:
         Depth at which the life ends [mm].
     min_tip_land : float
         Tip land at which the life ends [mm], 0 for no such limit.
+    more_limits : mapping
+        Further limits of the worn tooth by their keys.
     run : RunInput
         How the life is calculated.
     assumptions, warnings : tuple of str
@@ -385,6 +426,7 @@ class Case:
     wear: WearInput
     critical_depth: float
     min_tip_land: float
+    more_limits: Mapping[str, float]
     run: RunInput
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]

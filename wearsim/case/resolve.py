@@ -64,7 +64,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         case.assumptions.append(f"{table}.{key} = {value} (default)")
     chain = _chain(case, tables.chain)
     modulus = _modulus(case)
-    wear = _wear(case, tables.wear)
+    wear = _changing(tables.wear, _wear(case, tables.wear))
     kind = mechanism_kind(case)
     duty = resolve_duty(case, kind, chain)
     drive: Drive | None
@@ -77,6 +77,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     critical_depth = _critical_depth(case, drive)
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
+    more_limits = _more_limits(case, drive)
     run = _run(case, kind)
     faults.check()
     assert drive is not None and duty is not None
@@ -93,6 +94,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         wear=wear,
         critical_depth=critical_depth,
         min_tip_land=tables.stop.min_tip_land_mm or 0.0,
+        more_limits=more_limits,
         run=run,
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
@@ -184,6 +186,19 @@ def _wear(case: Resolution, table: WearTable) -> WearInput:
     )
 
 
+def _changing(table: WearTable, wear: WearInput) -> WearInput:
+    """Add what changes the coefficient as the drive wears."""
+    if table.case_depth_mm is not None and table.core_factor is not None:
+        wear = replace(wear, case_depth=table.case_depth_mm, core_factor=table.core_factor)
+    if table.running_in_factor is not None and table.running_in_distance_mm is not None:
+        wear = replace(
+            wear,
+            running_in_factor=table.running_in_factor,
+            running_in_distance=table.running_in_distance_mm,
+        )
+    return wear
+
+
 def _band_factor(case: Resolution, table: WearTable) -> float:
     if table.band_factor is not None:
         return table.band_factor
@@ -262,6 +277,25 @@ def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) 
             f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm "
             f"(got {min_tip_land:g})",
         )
+
+
+def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
+    """Limits of the worn tooth beyond depth and tip land, by their keys."""
+    stop = case.tables.stop
+    keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm")
+    given = {key: value for key in keys if (value := getattr(stop, key)) is not None}
+    least = given.get("min_tooth_thickness_mm")
+    if least is not None and drive is not None:
+        key = "stop.min_tooth_thickness_mm"
+        if isinstance(drive, PrescribedDrive):
+            case.faults.add(key, "a table of loads has no tooth: remove this key")
+        elif drive.pitch_line_thickness <= least:
+            case.faults.add(
+                key,
+                "must be below the thickness of the new tooth at the pitch line, "
+                f"{drive.pitch_line_thickness:.4g} mm (got {least:g})",
+            )
+    return given
 
 
 def _run(case: Resolution, kind: str) -> RunInput:

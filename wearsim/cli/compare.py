@@ -48,8 +48,10 @@ def compare(
     results = distinct(list(found.values()), [str(path) for path in found])
     summary = save_comparison(results, out, force)
     if as_json:
+        from wearsim.report.service import life_json
+
         for result in results:
-            click.echo(json.dumps(result.summary(), ensure_ascii=False, allow_nan=False))
+            click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
     else:
         click.echo(summary)
     warn(f"written to {out}")

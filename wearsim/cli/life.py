@@ -123,7 +123,9 @@ def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
 
 def _show(result: "WearResult", path: Path, as_json: bool) -> None:
     if as_json:
-        click.echo(json.dumps(result.summary(), ensure_ascii=False, allow_nan=False))
+        from wearsim.report.service import life_json
+
+        click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
         for text in result.warnings:
             warn(f"{path}: warning: {text}")
     else:

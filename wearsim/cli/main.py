@@ -16,7 +16,9 @@ from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
 from wearsim.cli.loads import loads
+from wearsim.cli.maintain import maintain
 from wearsim.cli.profile import profile
+from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.errors import WearsimError
@@ -27,6 +29,8 @@ How long will this sprocket live?
   wearsim check drive.toml           is it complete, and can it run?
   wearsim life drive.toml            the life in hours
   wearsim compare drive.toml other.toml --out reports/first
+  wearsim maintain drive.toml        when to replace the chain, and the cost
+  wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
 
 \b
 Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
@@ -42,7 +46,18 @@ def wearsim_command() -> None:
     """Group of all commands."""
 
 
-for _command in (life, check, loads, profile, compare, init, schema, list_table):
+for _command in (
+    life,
+    check,
+    loads,
+    profile,
+    compare,
+    maintain,
+    remaining,
+    init,
+    schema,
+    list_table,
+):
     wearsim_command.add_command(_command)
 
 

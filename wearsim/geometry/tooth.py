@@ -201,6 +201,25 @@ class Tooth:
         unworn = math.atan2(-self.flank.x[-1], self.flank.y[-1])
         return float(self.tip_land - self.tip_radius * (last - unworn))
 
+    def worn_thickness(self, x: Vector, y: Vector) -> float:
+        """Return the thickness on the centrode that a worn working flank leaves.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank, root to tip [mm].
+
+        Returns
+        -------
+        float
+            Chordal thickness [mm].
+        """
+        radius = float(np.clip(self.strand.centrode_radius, *_radii(self.flank)[[0, -1]]))
+        worn = np.interp(radius, np.hypot(x, y), np.arctan2(-x, y))
+        new = np.interp(radius, _radii(self.flank), np.arctan2(-self.flank.x, self.flank.y))
+        angle = float(self._angle(radius)) - float(worn - new)
+        return 2.0 * radius * math.sin(0.5 * angle)
+
     def polygon(self) -> shapely.Polygon:
         """Return one tooth, cut off at the circle through the bottoms of the seats.
 

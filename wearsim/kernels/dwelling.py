@@ -24,8 +24,11 @@ UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING 
 UNWORN_ROWS = 6
 
 # numbers of a step
-MATE_RADIUS, COEFFICIENT, PRESSURE_EXPONENT, SPEED_EXPONENT, CYCLES, REACH, TOLERANCE = range(7)
-NUMBERS = 7
+(
+    MATE_RADIUS, COEFFICIENT, PRESSURE_EXPONENT, SPEED_EXPONENT, CYCLES, REACH, TOLERANCE,
+    CASE_DEPTH, CORE_FACTOR,
+) = range(9)  # fmt: skip
+NUMBERS = 9
 
 # what a step found
 AREA, PEAK_PRESSURE, UNBALANCED = range(3)
@@ -96,7 +99,8 @@ def wear_event(
     if numbers[SPEED_EXPONENT] != 0.0:
         worn *= speed ** numbers[SPEED_EXPONENT] if speed > 0.0 else 0.0
     for j in range(last - first):
-        factor[j] = worn
+        soft = depth[body, first + j] > numbers[CASE_DEPTH]
+        factor[j] = worn * numbers[CORE_FACTOR] if soft else worn
     status = power_contact(
         x[body][first:last], y[body][first:last], width[first:last], factor, exponent, coefficients,
         constants, pressure, work[3:], result,
@@ -107,7 +111,7 @@ def wear_event(
     for j in range(last - first):
         p = pressure[j]
         if p > 0.0:
-            removed = worn * (p if exponent == 1.0 else p**exponent) * width[first + j]
+            removed = factor[j] * (p if exponent == 1.0 else p**exponent) * width[first + j]
             area[body, first + j] += removed / unworn[SPACING, first + j]
             findings[AREA] += removed
             findings[PEAK_PRESSURE] = max(findings[PEAK_PRESSURE], p)

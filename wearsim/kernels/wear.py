@@ -59,6 +59,14 @@ def wear_depth(
             depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
 
 
+@kernel(void(VECTOR, VECTOR, VECTOR))
+def soften(depth: Vector, law: Vector, step: Vector) -> None:
+    """Multiply the steps of points below the hardened layer, ``law[4]`` deep, by ``law[5]``."""
+    if law[5] != 1.0:
+        for j in range(depth.size):
+            step[j] *= law[5] if depth[j] > law[4] else 1.0
+
+
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64))
 def update_status(
     load: Vector, relative: Vector, step: Vector, spacing_squared: Vector, diffusion: float
@@ -124,6 +132,7 @@ def run_cycles(
         contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
                 load, slip, speed, relative)  # fmt: skip
         wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
+        soften(depth, law, step)
         if cycles_per_update != 1.0:
             for j in range(n):
                 step[j] *= cycles_per_update

@@ -11,7 +11,7 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
-from wearsim.kernels.dwelling import EVENT_ROWS
+from wearsim.kernels.dwelling import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
 from wearsim.kernels.wrap import JUMPED, SEATED, WORK_ROWS
 from wearsim.kernels.wrap_cycle import (
     ARTICULATION_SLIP,
@@ -129,6 +129,13 @@ class WrapContact(Dwelling):
     def most(self) -> int:
         """Most rollers in the wrap at once."""
         return self.mechanism.rollers(0.0)
+
+    @property
+    def sliding_per_cycle(self) -> float:
+        """Way that the rollers slide in a new gap in a cycle of a new chain [mm]."""
+        x, y = (np.tile(row, (self.bodies, 1)) for row in (self.profile.x, self.profile.y))
+        table = self.events(x, y, 0.0, self.memory())
+        return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
         """Return the same contact on every second point of the outline.

@@ -82,7 +82,7 @@ def answer(result: WearResult, source: str) -> str:
         *_service(result),
         *_parts(result),
         ("Worn most", _worst(result)),
-        ("Assumes", _assumptions(result)),
+        ("Assumes", numbered(result.assumptions)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
@@ -162,6 +162,11 @@ def _life(result: WearResult) -> str:
         what = {
             "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
             "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
+            "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
+            "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",
+            "over_pins_change_mm": (
+                f"until the measurement over pins is {result.stop_value:.3g} mm less"
+            ),
             "min_slack_tension_N": "until the chain jumps on the worn teeth",
             "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
         }[result.stop]
@@ -190,10 +195,26 @@ def _band(result: WearResult) -> str:
     return f"{hours(result.life_high)} / {hours(result.life_low)}   ({result.band})"
 
 
-def _assumptions(result: WearResult) -> str:
-    """Number the assumptions; the defaults taken share the last number."""
-    defaults = [text for text in result.assumptions if _DEFAULT.match(text)]
-    shown = [text for text in result.assumptions if text not in defaults]
+def numbered(assumptions: tuple[str, ...]) -> str:
+    """Return assumptions with their numbers; the defaults taken share the last one.
+
+    Parameters
+    ----------
+    assumptions : tuple of str
+        Of a result.
+
+    Returns
+    -------
+    str
+        One text.
+
+    Examples
+    --------
+    >>> numbered(("all teeth alike", "run.method = advance (default)", "wear.law = archard (default)"))
+    '1 all teeth alike; 2 defaults: run.method = advance, wear.law = archard'
+    """
+    defaults = [text for text in assumptions if _DEFAULT.match(text)]
+    shown = [text for text in assumptions if text not in defaults]
     if defaults:
         shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))

@@ -98,14 +98,14 @@ def loads_table(found: ToothLoads) -> str:
         "  tooth  tension    force     load  pressure   shift  contact",
         "               N        N     N/mm angle deg      mm at mm from the right tip",
     ]
-    for row in range(found.loads.force.size):
-        lines.append(
-            f"  {row + 1:5d} {columns['tension_N'][row]:8.1f} {columns['force_N'][row]:8.1f} "
-            f"{columns['load_per_width_N_per_mm'][row]:8.2f} {columns['pressure_angle_deg'][row]:9.2f} "
-            f"{columns['radius_shift_mm'][row]:7.3f} {columns['contact_arc_length_mm'][row]:8.2f}"
-        )
+    lines += [
+        f"  {row + 1:5d} {columns['tension_N'][row]:8.1f} {columns['force_N'][row]:8.1f} "
+        f"{columns['load_per_width_N_per_mm'][row]:8.2f} {columns['pressure_angle_deg'][row]:9.2f} "
+        f"{columns['radius_shift_mm'][row]:7.3f} {columns['contact_arc_length_mm'][row]:8.2f}"
+        for row in range(found.loads.force.size)
+    ]
     lines.append(
-        f"  slack strand {grouped(found.slack)} N; the chain jumps below {grouped(found.smallest_slack)} N; "
+        f"  slack strand {grouped(found.slack)} N, jumps below {grouped(found.smallest_slack)} N; "
         f"{grouped(found.centrifugal)} N more in every link from the chain's own speed"
     )
     return "\n".join(lines)

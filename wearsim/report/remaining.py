@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from wearsim.report.answer import grouped, hours, row, service_text
+from wearsim.report.answer import grouped, hours, numbered, row, service_text
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LowerBound
 from wearsim.study.remaining import RemainingLife
@@ -35,7 +35,10 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
     what = _WORDS[reading.quantity].format(f"{reading.value:g}")
     service = service_text(inputs, _known(found.remaining), reading.hours)
     rows = [
-        ("Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"),
+        (
+            "Remaining",
+            f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h",
+        ),
         ("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
         *([("In service", service)] if service else []),
         ("Life", f"{hours(found.life)} of the {found.part} in all"),
@@ -44,7 +47,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
             f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
             f"after {grouped(found.model_hours)} h",
         ),
-        ("Assumes", "life times coefficient is constant: load and lubrication as before"),
+        ("Assumes", numbered(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
     return "\n".join([found.title, *(row(label, text) for label, text in rows)])

@@ -47,7 +47,12 @@ FLANK_COLUMNS = {
 """Columns of both tables for every kind of mechanism."""
 
 _INPUTS = "inputs"
-_FILE_KEYS = (("sprocket", "points_file"), ("sprocket", "dxf_file"), ("mechanism", "table_file"))
+_FILE_KEYS = (
+    ("sprocket", "points_file"),
+    ("sprocket", "dxf_file"),
+    ("mechanism", "table_file"),
+    ("load", "duty_file"),
+)
 
 
 def write_result(result: WearResult, folder: Path, force: bool) -> None:

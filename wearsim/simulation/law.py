@@ -1,9 +1,11 @@
 """The wear law of a case."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from wearsim.case.model import WearInput
 from wearsim.wear.law import Law, archard, drozdov, power
+from wearsim.wear.running_in import CONSTANT, RunningIn
 
 
 def wear_law(wear: WearInput, coefficient: float) -> Law:
@@ -32,4 +34,24 @@ def wear_law(wear: WearInput, coefficient: float) -> Law:
             wear.speed_exponent,
         ),
     }
-    return laws[wear.law]()
+    return replace(laws[wear.law](), case_depth=wear.case_depth, core_factor=wear.core_factor)
+
+
+def running_in(wear: WearInput, sliding_per_cycle: float) -> RunningIn:
+    """Return how the law of a case runs in.
+
+    Parameters
+    ----------
+    wear : WearInput
+        The law as it was given.
+    sliding_per_cycle : float
+        Mean path that a loaded point of the new flank slides in a cycle [mm].
+
+    Returns
+    -------
+    RunningIn
+        Constant where nothing else is given.
+    """
+    if wear.running_in_factor == 1.0 or not sliding_per_cycle > 0.0:
+        return CONSTANT
+    return RunningIn(wear.running_in_factor, wear.running_in_distance / sliding_per_cycle)

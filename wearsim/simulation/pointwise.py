@@ -1,5 +1,7 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from wearsim.case.model import Case, PrescribedDrive, StrandDrive
@@ -9,14 +11,17 @@ from wearsim.errors import ConvergenceError, WearsimError
 from wearsim.geometry.profile import Profile, Vector, area_between
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
-from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
+from wearsim.result import Life, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import wear_law
+from wearsim.simulation.law import running_in, wear_law
+from wearsim.simulation.limits import limit_states, tooth_criteria
 from wearsim.wear.accuracy import grid_error
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
+from wearsim.wear.criteria import Criterion
+from wearsim.wear.duty import DutyPart, equivalent_factor
 from wearsim.wear.law import Law
 from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, difference
 
 _FEW_CYCLES = 1000
@@ -47,8 +52,9 @@ def simulate_points(case: Case) -> WearResult:
         The life would be wrong.
     """
     mechanism = _mechanism(case)
-    law, criteria = wear_law(case.wear, case.wear.coefficient), _criteria(case)
-    horizon = case.run.horizon_hours * case.cycles_per_hour
+    law, criteria = _law(case), tooth_criteria(case)
+    warp = running_in(case.wear, _sliding_per_cycle(mechanism.contact))
+    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
     if not Profile(run.x[-1], run.y[-1]).is_simple:
@@ -56,10 +62,13 @@ def simulate_points(case: Case) -> WearResult:
             f"wear at cycle {run.cycles[-1]:.6g}: the worn flank must not cross itself, but does: stop "
             "at a smaller critical_depth_mm"
         )
-    error = _numerical_error(case, mechanism.contact, law, criteria, run, step_error, warnings)
+    error = step_error + _grid_error(
+        case, mechanism.contact, law, criteria, horizon, run, step_error, warnings
+    )
+    run = replace(run, cycles=warp.running_cycles(run.cycles))
     history, flank = _tables(case, mechanism, run)
     warnings += _validity(mechanism.contact, history, flank)
-    low, high = _band(case, mechanism.contact, criteria, run, horizon, warnings)
+    low, high = _band(case, mechanism.contact, criteria, run, horizon, warp, warnings)
     if run.met is not None and run.cycles[-1] < _FEW_CYCLES:
         warnings.append(
             f"the life is only {run.cycles[-1]:.3g} cycles: check the wear coefficient and its unit"
@@ -86,7 +95,7 @@ def simulate_points(case: Case) -> WearResult:
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts={},
-        limits=_limits(case, criteria, run),
+        limits=limit_states(criteria, run.x[-1], run.y[-1], run.depth[-1]),
         assumptions=(*mechanism.assumptions(), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -107,7 +116,7 @@ def _mechanism(case: Case) -> Mechanism:
             contact_start=drive.contact_start,
             pitch=case.chain.pitch,
             pull_per_width=drive.pull / drive.face_width,
-            angular_speed=2.0 * np.pi * case.speed_rpm / 60.0,
+            angular_speed=2.0 * np.pi * drive.heaviest.speed_rpm / 60.0,
             slip_fraction=drive.slip_fraction,
             modulus=case.modulus,
         )
@@ -135,11 +144,35 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> PrescribedMechanism:
     )
 
 
-def _criteria(case: Case) -> tuple[Criterion, ...]:
-    depth = depth_criterion(case.critical_depth)
-    if case.min_tip_land and isinstance(case.drive, StrandDrive):
-        return depth, tip_land_criterion(case.min_tip_land, case.drive.tooth.worn_tip_land)
-    return (depth,)
+def _law(case: Case, factor: float = 1.0) -> Law:
+    """Return the law with its coefficient times a factor and for the mean over the duty."""
+    law = wear_law(case.wear, case.wear.coefficient * factor)
+    if not isinstance(case.drive, StrandDrive):
+        return law
+    most = case.drive.heaviest
+    parts = [
+        DutyPart(
+            block.share,
+            block.tension / most.tension,
+            block.speed_rpm / most.speed_rpm,
+            block.wear_factor,
+        )
+        for block in case.drive.blocks
+    ]
+    equivalent = equivalent_factor(law, Kind.TRAVELLING, parts)
+    return replace(law, coefficient=law.coefficient * equivalent)
+
+
+def _sliding_per_cycle(contact: Contact) -> float:
+    """Mean path that a loaded point of the new flank slides in a cycle [mm]."""
+    profile = contact.profile
+    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+    loaded = touch.load_per_width > 0.0
+    slip = touch.slip[loaded]
+    if contact.kind is Kind.TRAVELLING:
+        load, relative = touch.load_per_width[loaded], touch.relative_curvature[loaded]
+        slip = slip * 2.0 * half_width(load, np.maximum(relative, 1e-9), contact.modulus)
+    return float(slip.mean()) if slip.size else 0.0
 
 
 def _run(
@@ -163,29 +196,29 @@ def _run(
     return run, change + difference(run, check)
 
 
-def _numerical_error(
+def _grid_error(
     case: Case,
     contact: Contact,
     law: Law,
     criteria: tuple[Criterion, ...],
+    horizon: float,
     run: Trajectory,
     step_error: float,
     warnings: list[str],
 ) -> float:
-    """Add the error of the grid to that of the steps, and warn above the tolerance."""
-    horizon = case.run.horizon_hours * case.cycles_per_hour
+    """Return the error of the grid, and warn where it and that of the steps are too large."""
     tolerance = case.run.life_tolerance
     try:
-        error = step_error + grid_error(run, contact, law, criteria, horizon, tolerance)
+        error = grid_error(run, contact, law, criteria, horizon, tolerance)
     except WearsimError as reason:
         warnings.append(
             f"the error of the grid could not be estimated on half the points, 100 % is stated: {reason}"
         )
-        return 1.0
-    if error > tolerance:
+        return 1.0 - step_error
+    if step_error + error > tolerance:
         warnings.append(
-            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes "
-            "(rows of a table)"
+            f"numerical error {step_error + error:.1g} exceeds the tolerance {tolerance:g}: use more "
+            "nodes (rows of a table)"
         )
     return error
 
@@ -235,15 +268,6 @@ def _tables(
     return history, flank
 
 
-def _limits(case: Case, criteria: tuple[Criterion, ...], run: Trajectory) -> tuple[LimitState, ...]:
-    """Return what is left of every limit at the end of the run."""
-    depth = LimitState("critical_depth_mm", case.critical_depth, float(run.depth[-1].max()))
-    if len(criteria) == 1 or not isinstance(case.drive, StrandDrive):
-        return (depth,)
-    land = case.drive.worn_tip_land(run.x[-1], run.y[-1])
-    return depth, LimitState("min_tip_land_mm", case.min_tip_land, land)
-
-
 def _validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
     """Return a warning for every limit of the theory that the run passes."""
     found = []
@@ -280,17 +304,17 @@ def _band(
     criteria: tuple[Criterion, ...],
     run: Trajectory,
     horizon: float,
+    warp: RunningIn,
     warnings: list[str],
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
     if isinstance(life, Life):
-        low, high = (
-            Life(life.cycles / factor, life.hours / factor)
-            for factor in (case.wear.high, case.wear.low)
-        )
-        return low, high
-    law = wear_law(case.wear, case.wear.coefficient * case.wear.high)
+        constant = warp.constant_cycles(life.cycles)
+        factors = np.array([case.wear.high, case.wear.low])
+        low, high = warp.running_cycles(constant / factors).tolist()
+        return Life(low, low / case.cycles_per_hour), Life(high, high / case.cycles_per_hour)
+    law = _law(case, case.wear.high)
     try:
         worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
     except WearsimError as reason:
@@ -298,7 +322,7 @@ def _band(
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
         cycles = float(run.cycles[-1]) / case.wear.high
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
-    return _life(case, worse), life
+    return _life(case, replace(worse, cycles=warp.running_cycles(worse.cycles))), life
 
 
 def _life(case: Case, run: Trajectory) -> Life | LowerBound:

@@ -7,7 +7,6 @@ import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
 from wearsim.errors import ConvergenceError
-from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector, area_between
 from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.joint import elongation_per_loop
@@ -15,11 +14,13 @@ from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
 from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import wear_law
+from wearsim.simulation.law import running_in, wear_law
+from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
-from wearsim.wear.criteria import Criterion, depth_criterion, tip_land_criterion
+from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, halve_steps, run_dwelling, run_together
 from wearsim.wear.law import Law
+from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import difference
 
 _FLANKS = 40
@@ -55,11 +56,14 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
         A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
-    law, criteria = wear_law(case.wear, case.wear.coefficient), _criteria(case, drive)
-    horizon = case.run.horizon_hours * case.cycles_per_hour
+    law = wear_law(case.wear, case.wear.coefficient)
+    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
+    warp = running_in(case.wear, contact.sliding_per_cycle)
+    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings)
-    chain = _chain_life(case, contact, horizon)
+    run = replace(run, cycles=warp.running_cycles(run.cycles))
+    chain = _chain_life(case, contact, horizon, warp)
     sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run)
@@ -68,8 +72,8 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
         case=case.name,
         title=case.title,
         life=life,
-        life_low=_scaled(life, case.wear.high, case, horizon),
-        life_high=_scaled(life, case.wear.low, case, horizon),
+        life_low=_scaled(life, case.wear.high, case, warp),
+        life_high=_scaled(life, case.wear.low, case, warp),
         band=f"{case.wear.band}, of teeth and joints alike",
         stop=stop,
         stop_value=stop_value,
@@ -85,7 +89,7 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts={"chain": chain, "sprocket": sprocket},
-        limits=_limits(case, drive, criteria, run, life),
+        limits=_limits(drive, criteria, run, life),
         assumptions=(*contact.assumptions(), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -197,13 +201,6 @@ def _wrap_block(drive: WrapDrive, mechanism: WrapMechanism, block: Block) -> Wra
     )
 
 
-def _criteria(case: Case, drive: WrapDrive) -> tuple[Criterion, ...]:
-    depth = depth_criterion(case.critical_depth)
-    if case.min_tip_land:
-        return depth, tip_land_criterion(case.min_tip_land, drive.worn_tip_land)
-    return (depth,)
-
-
 def _run(
     case: Case,
     contact: WrapContact,
@@ -248,10 +245,13 @@ def _per_cycle(
     return run_dwelling(contact, law, criteria, horizon, 0, cycles)
 
 
-def _chain_life(case: Case, contact: WrapContact, horizon: float) -> Life | LowerBound:
-    """Life of a chain: its joints wear at a constant rate."""
+def _chain_life(
+    case: Case, contact: WrapContact, horizon: float, warp: RunningIn
+) -> Life | LowerBound:
+    """Life of a chain: apart from running-in its joints wear at a constant rate."""
     cycles = contact.elongation_limit / contact.elongation_per_cycle
-    return _life(case, min(cycles, horizon), cycles <= horizon)
+    run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
+    return _life(case, run, cycles <= horizon)
 
 
 def _life(case: Case, cycles: float, reached: bool) -> Life | LowerBound:
@@ -277,47 +277,34 @@ def _first(
 
 
 def _scaled(
-    life: Life | LowerBound, factor: float, case: Case, horizon: float
+    life: Life | LowerBound, factor: float, case: Case, warp: RunningIn
 ) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
-    if isinstance(life, Life):
-        return Life(life.cycles / factor, life.hours / factor)
-    return LowerBound(life.cycles_run / factor, life.hours_run / factor)
+    cycles = life.cycles if isinstance(life, Life) else life.cycles_run
+    scaled = warp.running_cycles(np.array([warp.constant_cycles(cycles) / factor]))
+    return _life(case, float(scaled[0]), isinstance(life, Life))
 
 
 def _limits(
-    case: Case,
     drive: WrapDrive,
     criteria: tuple[Criterion, ...],
     run: DwellingTrajectory,
     life: Life | LowerBound,
 ) -> tuple[LimitState, ...]:
-    """Return what is left of every limit when the life ends."""
+    """Return what every limit has come to when the life ends."""
     cycles = life.cycles if isinstance(life, Life) else life.cycles_run
     at = int(np.searchsorted(run.cycles, cycles * (1.0 - 1e-9)))
     at = min(at, run.cycles.size - 1)
-    depth = float(np.interp(cycles, run.cycles, run.depth.max(axis=1)))
-    limit = 100.0 * drive.joint.elongation_limit
-    found = [
-        LimitState("critical_depth_mm", case.critical_depth, depth),
-        LimitState("elongation_percent", limit, 100.0 * float(run.elongation[at])),
-    ]
-    if len(criteria) > 1:
-        land = drive.worn_tip_land(run.x[at], run.y[at])
-        found.append(LimitState("min_tip_land_mm", case.min_tip_land, land))
-    return tuple(found)
+    worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
+    limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
+    return (*worn, LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation))
 
 
 def _tables(
     case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory
 ) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Return the columns of history.csv and flank.csv."""
-    profile, points = contact.profile, contact.profile.x.size
-    seat = [
-        float(np.hypot(*contact.mechanism.path.worn(x, y).locus[:2]).min())
-        for x, y in zip(run.x, run.y, strict=True)
-    ]
-    diameter = 2.0 * contact.roller_radius
+    profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
     history = {
         "cycles": run.cycles,
         "time_hours": run.cycles / case.cycles_per_hour,
@@ -333,7 +320,7 @@ def _tables(
             [drive.worn_tip_land(x, y) for x, y in zip(run.x, run.y, strict=True)]
         ),
         "over_pins_mm": np.array(
-            [measurement_over_pins(radius, diameter, drive.gaps) for radius in seat]
+            [over_pins(path, x, y, drive.gaps) for x, y in zip(run.x, run.y, strict=True)]
         ),
     }
     shots = np.unique(np.linspace(0, run.cycles.size - 1, _FLANKS).round().astype(int))

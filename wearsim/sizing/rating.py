@@ -25,7 +25,8 @@ def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
     Returns
     -------
     RatedDrive
-        The power is that of the pull, tight less slack strand, at the chain's speed.
+        The power is that of the pull, tight less slack strand, at the chain's speed, in the
+        heaviest block of the duty.
 
     Examples
     --------
@@ -47,7 +48,7 @@ def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
     own = drive.gaps / case.engaged_every
     # 27 gaps of which every second carries a roller are 13.5 teeth, and no more than 13.
     teeth = own if int(own) <= mate else float(mate)
-    pitches = own * case.speed_rpm
+    pitches = own * drive.heaviest.speed_rpm
     return RatedDrive(
         pitch=chain.pitch,
         teeth=teeth,

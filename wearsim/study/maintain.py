@@ -19,12 +19,11 @@ Progress = Callable[[int, int, str], None]
 POLICIES = (1.0, 1.5, 2.0, 3.0)
 """Elongations in percent to compare where none are given, as far as they lie below the drive's limit."""
 
-ASSUMPTIONS = (
+CONVENTIONS = (
     "a new sprocket gets a new chain: the last chain goes with its sprocket, however little it is worn",
-    "stops of the machine: one for each new chain, of which the last comes with the new sprocket, and "
-    "one for turning the sprocket",
+    "a stop for every chain, the last one's together with the sprocket's, and one for turning",
 )
-TURN_ASSUMPTION = (
+TURN_CONVENTION = (
     "a sprocket is turned when its first flank is worn, the chain in use stays on; both flanks share the "
     "wear of the seat; the depth limit then counts on the half of the gap that works"
 )
@@ -93,8 +92,10 @@ class MaintenancePlan:
         Meetings near the case's own numbers of teeth and links, with lives of four of them.
     count_limit : float
         Relative elongation at which the chain is replaced in these lives.
+    conventions : tuple of str
+        How chains and stops are counted.
     assumptions, warnings : tuple of str
-        What was taken for granted, and what the user should look at.
+        What the case takes for granted, and what the user should look at.
     """
 
     case: str
@@ -102,6 +103,7 @@ class MaintenancePlan:
     policies: tuple[Policy, ...]
     counts: tuple[ToothCount, ...]
     count_limit: float
+    conventions: tuple[str, ...]
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
 
@@ -196,11 +198,8 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
         policies=tuple(policies),
         counts=counts,
         count_limit=drive.joint.elongation_limit,
-        assumptions=(
-            *ASSUMPTIONS,
-            *((TURN_ASSUMPTION,) if table.turn_sprocket else ()),
-            *case.assumptions,
-        ),
+        conventions=(*CONVENTIONS, *((TURN_CONVENTION,) if table.turn_sprocket else ())),
+        assumptions=case.assumptions,
         warnings=tuple(dict.fromkeys(warnings)),
     )
 
@@ -238,7 +237,7 @@ def _all_policies(
         done = steps.done
         try:
             policies += _policies(_with_limit(case, drive, percent), table, steps, warnings)
-        except (ContactError, ConvergenceError) as reason:
+        except (CaseError, ContactError, ConvergenceError) as reason:
             failure = reason
             warnings.append(f"replacing the chain at {percent:g} % fails: {reason}")
         steps.done = done + (2 if table.turn_sprocket else 1)
@@ -267,10 +266,14 @@ def _policies(
     found = [policy]
     if table.turn_sprocket and isinstance(policy.sprocket, Life):
         steps.next(f"{what}, sprocket turned")
-        second, error = turned_life(case, first)
-        error = max(error, first.numerical_error)
-        life = _sum(policy.sprocket, second)
-        found.append(replace(policy, turned=True, sprocket=life, numerical_error=error))
+        try:
+            second, error = turned_life(case, first)
+        except (ContactError, ConvergenceError) as reason:
+            warnings.append(f"turning the sprocket, {what}, fails: {reason}")
+        else:
+            error = max(error, first.numerical_error)
+            life = _sum(policy.sprocket, second)
+            found.append(replace(policy, turned=True, sprocket=life, numerical_error=error))
     return [
         replace(entry, cost=cost_per_1000_hours(table, entry.hours, entry.chains, entry.stops))
         if isinstance(entry.sprocket, Life)

@@ -11,6 +11,8 @@ from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap import wrap_contact
 
+_CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
+
 DEPTH, OVER_PINS, ELONGATION = "max_depth_mm", "over_pins_mm", "elongation_percent"
 
 
@@ -129,7 +131,9 @@ def remaining_life(case: Case, reading: Reading) -> RemainingLife:
     """
     if not 0.0 < reading.error < reading.value:
         raise _fault(
-            case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"
+            case,
+            reading,
+            f"must be larger than its error of {reading.error:g}: measure later or better",
         )
     course = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading)
     most = float(course.values.max())
@@ -144,8 +148,8 @@ def remaining_life(case: Case, reading: Reading) -> RemainingLife:
     factor = model / reading.hours
     if not case.wear.low <= factor <= case.wear.high and reading.quantity != ELONGATION:
         warnings.append(
-            f"the reading asks for {factor:.3g} times the wear coefficient of the case, outside its band of "
-            f"{case.wear.low:.3g} to {case.wear.high:.3g}: check the reading and the load"
+            f"the reading asks for {factor:.3g} times the wear coefficient of the case, outside its band "
+            f"of {case.wear.low:.3g} to {case.wear.high:.3g}: check the reading and the load"
         )
     return RemainingLife(
         case=case.name,
@@ -168,7 +172,8 @@ def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | L
     cycles, hours = (
         (life.cycles, life.hours) if isinstance(life, Life) else (life.cycles_run, life.hours_run)
     )
-    left = max(stretch * hours - gone, 0.0)
+    left = stretch * hours - gone
+    left = left if left > 1e-9 * gone else 0.0
     return type(life)(cycles / hours * left, left)
 
 
@@ -189,7 +194,7 @@ def _chain(case: Case, reading: Reading) -> _Course:
         values=np.array([0.0, 100.0 * contact.elongation_limit]),
         life=life,
         coefficient=drive.joint.coefficient,
-        assumptions=("joints wear at a constant rate", *case.assumptions),
+        assumptions=(*_CONSTANT, *case.assumptions),
         warnings=case.warnings,
     )
 
@@ -211,11 +216,12 @@ def _teeth(case: Case, reading: Reading) -> _Course:
                 f"must belong to one time, but the measurement over pins grows again by {fall:.3g} mm in "
                 "the life: measure the depth",
             )
+    joints = ("joints wear as much more or less than their coefficient says as teeth do",)
     return _Course(
         hours=columns["time_hours"],
         values=values,
         life=result.parts.get("sprocket", result.life),
         coefficient=case.wear.coefficient,
-        assumptions=result.assumptions,
+        assumptions=(*_CONSTANT, *(joints if result.parts else ()), *result.assumptions),
         warnings=result.warnings,
     )

@@ -45,7 +45,7 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     chain = int(first.history_columns["chain"][-1])
     if elongation >= contact.elongation_limit * (1.0 - 1e-9):
         elongation, chain = 0.0, chain + 1
-    turned = _mirrored(contact)
+    turned = contact.on_outline(contact.profile.mirrored())
     start = Start(depth[:, ::-1].copy(), elongation, chain)
     criteria = _criteria(case, drive, _working_half(contact, depth))
     profile = turned.profile
@@ -67,10 +67,6 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     cycles = float(run.cycles[-1])
     hours = cycles / case.cycles_per_hour
     return (Life(cycles, hours) if run.met else LowerBound(cycles, hours)), error
-
-
-def _mirrored(contact: WrapContact) -> WrapContact:
-    return contact.on_outline(contact.profile.mirrored())
 
 
 def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:

@@ -20,7 +20,7 @@ from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.flank import flank_frame
-from wearsim.kernels.wear import wear_depth
+from wearsim.kernels.wear import soften, wear_depth
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.dwelling import advance_dwelling
 from wearsim.wear.law import Law
@@ -74,6 +74,7 @@ class _Rate:
         # A trial of the solver may conform where the solution does not; accepted steps are checked.
         np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
         wear_depth(load, slip, speed, relative, contact.modulus, self.law, self.pressure, self.step)
+        soften(flank.depth, self.law, self.step)
         rate = np.empty((self.step.size, 3))
         rate[:, 0] = -self.step * normal_x
         rate[:, 1] = -self.step * normal_y

@@ -18,11 +18,30 @@ class Criterion:
         Value at which the life ends.
     margin : callable
         Of x, y and depth [mm]; above zero as long as the limit is not met.
+    falling : bool
+        Whether the quantity falls to its limit, instead of rising to it.
     """
 
     name: str
     limit: float
     margin: Callable[[Vector, Vector, Vector], float]
+    falling: bool = False
+
+    def value(self, x: Vector, y: Vector, depth: Vector) -> float:
+        """Return what the quantity has come to.
+
+        Parameters
+        ----------
+        x, y, depth : numpy.ndarray
+            The worn flank [mm].
+
+        Returns
+        -------
+        float
+            In the unit of the name.
+        """
+        margin = self.margin(x, y, depth)
+        return self.limit + margin if self.falling else self.limit - margin
 
 
 def depth_criterion(critical_depth: float) -> Criterion:
@@ -38,11 +57,61 @@ def depth_criterion(critical_depth: float) -> Criterion:
     Criterion
         Named ``critical_depth_mm``.
     """
-    return Criterion(
-        "critical_depth_mm",
-        critical_depth,
-        lambda x, y, depth: critical_depth - float(depth.max()),
-    )
+    return rising("critical_depth_mm", critical_depth, lambda x, y, depth: float(depth.max()))
+
+
+def rising(name: str, limit: float, value: Callable[[Vector, Vector, Vector], float]) -> Criterion:
+    """Return the criterion that a quantity rises to a limit.
+
+    Parameters
+    ----------
+    name : str
+        Key with its unit.
+    limit : float
+        Value at which the life ends.
+    value : callable
+        The quantity, of x, y and depth [mm].
+
+    Returns
+    -------
+    Criterion
+        Met where the value has reached the limit.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> depth = rising("case_depth_mm", 0.5, lambda x, y, depth: float(depth.max()))
+    >>> depth.margin(np.zeros(2), np.zeros(2), np.array([0.1, 0.25]))
+    0.25
+    """
+    return Criterion(name, limit, lambda x, y, depth: limit - value(x, y, depth))
+
+
+def falling(name: str, limit: float, value: Callable[[Vector, Vector, Vector], float]) -> Criterion:
+    """Return the criterion that a quantity falls to a limit.
+
+    Parameters
+    ----------
+    name : str
+        Key with its unit.
+    limit : float
+        Value at which the life ends.
+    value : callable
+        The quantity, of x, y and depth [mm].
+
+    Returns
+    -------
+    Criterion
+        Met where the value has come down to the limit.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> tip = falling("min_tip_land_mm", 1.0, lambda x, y, depth: 1.5)
+    >>> tip.margin(np.zeros(2), np.zeros(2), np.zeros(2))
+    0.5
+    """
+    return Criterion(name, limit, lambda x, y, depth: value(x, y, depth) - limit, True)
 
 
 def tip_land_criterion(
@@ -62,9 +131,7 @@ def tip_land_criterion(
     Criterion
         Named ``min_tip_land_mm``.
     """
-    return Criterion(
-        "min_tip_land_mm", min_tip_land, lambda x, y, depth: tip_land(x, y) - min_tip_land
-    )
+    return falling("min_tip_land_mm", min_tip_land, lambda x, y, depth: tip_land(x, y))
 
 
 def jump_criterion(slack_tension: float) -> Criterion:

@@ -59,7 +59,7 @@ def equivalent_factor(law: Law, kind: Kind, parts: Iterable[DutyPart]) -> float:
     >>> equivalent_factor(Law(1e-12, 2.0, 0.0), Kind.TRAVELLING, parts)
     0.5625
     """
-    _, pressure, load, speed = (float(number) for number in law.numbers(kind))
+    pressure, load, speed = (float(number) for number in law.numbers(kind)[1:4])
     exponent = 0.5 * pressure + load
     return math.fsum(
         part.share * part.wear_factor * part.load**exponent * part.speed**speed for part in parts

@@ -22,7 +22,9 @@ from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.dwelling import (
     AREA,
+    CASE_DEPTH,
     COEFFICIENT,
+    CORE_FACTOR,
     CYCLES,
     EVENT_COUNT,
     EVENT_LOAD,
@@ -147,6 +149,7 @@ class _Bodies:
         self.numbers[COEFFICIENT] = law.coefficient
         self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
         self.numbers[SPEED_EXPONENT] = law.speed_exponent
+        self.numbers[CASE_DEPTH], self.numbers[CORE_FACTOR] = law.case_depth, law.core_factor
         self.numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
         self.numbers[TOLERANCE] = 1e-6
         self.work = np.zeros((3 + WORK_ROWS, points))
@@ -356,9 +359,9 @@ def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) ->
     if table.shape[1] == 0:
         return 1.0
     hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.roller_radius))
-    worn = table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]
-    worn *= hertz ** (law.pressure_exponent - 1.0) * table[EVENT_SPEED] ** law.speed_exponent
-    return depth * 0.005 * contact.roller_radius / (law.coefficient * float(worn.max()))
+    worn = hertz**law.pressure_exponent * table[EVENT_SPEED] ** law.speed_exponent
+    worn *= law.coefficient * table[EVENT_SLIP] * table[EVENT_COUNT]
+    return depth / float(worn.max())
 
 
 def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> None:

@@ -50,11 +50,17 @@ class Law:
         m, above 0.
     speed_exponent : float
         n.
+    case_depth : float
+        Depth of the hardened layer [mm], infinite where there is none.
+    core_factor : float
+        What the coefficient is multiplied by below it.
     """
 
     coefficient: float
     pressure_exponent: float
     speed_exponent: float
+    case_depth: float = math.inf
+    core_factor: float = 1.0
 
     def numbers(self, kind: Kind) -> Vector:
         """Return the law as the kernel takes it.
@@ -67,14 +73,15 @@ class Law:
         Returns
         -------
         numpy.ndarray
-            Factor, exponent of the pressure, of the load and of the speed. In a travelling
-            contact c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
+            Factor, exponent of the pressure, of the load and of the speed, depth of the
+            hardened layer and the factor below it. In a travelling contact
+            c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
         """
         m, n = self.pressure_exponent, self.speed_exponent
         if kind is Kind.LOCAL:
-            return np.array([self.coefficient, m, 0.0, n])
+            return np.array([self.coefficient, m, 0.0, n, self.case_depth, self.core_factor])
         factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
-        return np.array([factor, m - 1.0, 1.0, n])
+        return np.array([factor, m - 1.0, 1.0, n, self.case_depth, self.core_factor])
 
     def diffusion(self, kind: Kind, slip_curvature_exponent: float) -> float:
         """Return e = d(ln depth)/d(ln relative curvature), which decides stability.

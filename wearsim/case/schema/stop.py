@@ -13,4 +13,7 @@ class StopTable(Table):
 
     critical_depth_mm: Positive | None = None
     min_tip_land_mm: Positive | None = None
+    case_depth_mm: Positive | None = None
+    min_tooth_thickness_mm: Positive | None = None
+    over_pins_change_mm: Positive | None = None
     elongation_percent: Annotated[PositiveNumber, Field(le=10.0)] | None = None

@@ -32,6 +32,10 @@ class WearTable(Table):
     hardness_MPa: Positive | None = None
     reference_speed_mm_per_s: Positive | None = None
     speed_exponent: Number | None = None
+    case_depth_mm: Positive | None = None
+    core_factor: PositiveNumber | None = None
+    running_in_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+    running_in_distance_mm: Positive | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
 
     @field_validator("condition")
@@ -64,4 +68,12 @@ class WearTable(Table):
                 f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
             )
             found.append(("condition", message))
+        for pair in (
+            ("case_depth_mm", "core_factor"),
+            ("running_in_factor", "running_in_distance_mm"),
+        ):
+            missing = [key for key in pair if getattr(self, key) is None]
+            if len(missing) == 1:
+                other = pair[1 - pair.index(missing[0])]
+                found.append((missing[0], f"{other} needs this key"))
         return found

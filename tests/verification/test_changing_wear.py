@@ -1,0 +1,195 @@
+"""Coefficients that change as a drive wears: running-in and the hardened layer; further limits.
+
+Expected: the integral of K(N) by quadrature; piecewise linear depth of a flat flank under uniform
+load; a layer of no depth is no layer; thickness by the intersection of circle and worn flank.
+"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from scipy.integrate import quad
+
+import wearsim
+from wearsim.result import WearResult
+from wearsim.wear.running_in import CONSTANT, RunningIn
+
+STRAND = Path(__file__).parents[2] / "cases" / "16b-20t-oiled.toml"
+FEW = ["sprocket.nodes=61", "stop.critical_depth_mm=0.05"]
+WRAP: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 101},
+    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
+    "mechanism": {"phases": 2},
+    "joint": {"specific_wear_rate_mm2_per_N": 1e-9, "pitch": "uniform"},
+    "load": {"tension_N": 800, "speed_rpm": 200},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+    "stop": {"critical_depth_mm": 0.02},
+}
+
+
+STRETCHING = ("joint.specific_wear_rate_mm2_per_N=3e-8", "stop.critical_depth_mm=0.08")
+
+
+def strand(*settings: str) -> WearResult:
+    return wearsim.simulate(wearsim.load_case(STRAND, [*FEW, *settings]))
+
+
+def wrap(*settings: str) -> WearResult:
+    return wearsim.simulate(wearsim.load_case(WRAP, settings))
+
+
+@pytest.mark.parametrize(("factor", "cycles"), [(1.0, 5.0), (3.0, 100.0), (20.0, 1e6)])
+@pytest.mark.parametrize("run", [0.0, 1.0, 50.0, 1e3, 1e7])
+def test_running_in_is_the_integral_of_its_coefficient(
+    factor: float, cycles: float, run: float
+) -> None:
+    warp = RunningIn(factor, cycles)
+    excess, _ = quad(lambda n: math.exp(-n / cycles), 0.0, min(run, 40 * cycles), limit=200)
+    worn = warp.constant_cycles(run)
+    assert worn == pytest.approx(run + (factor - 1.0) * excess, rel=1e-9, abs=1e-12)
+    assert warp.running_cycles(np.array([worn]))[0] == pytest.approx(run, rel=1e-9, abs=1e-12)
+
+
+def test_no_running_in_changes_no_digit() -> None:
+    cycles = np.array([0.1, 3.7, 1e9 / 3.0])
+    np.testing.assert_array_equal(CONSTANT.running_cycles(cycles), cycles)
+    assert CONSTANT.constant_cycles(0.1) == 0.1
+
+
+@pytest.mark.parametrize("life", [strand, wrap])
+def test_running_in_shortens_a_life_by_what_it_wore_too_much(life: Any) -> None:
+    """Over a distance far below that of the life the cost is (f - 1) N_r cycles."""
+    plain = life()
+    short = life("wear.running_in_factor=4", "wear.running_in_distance_mm=10")
+    twice = life("wear.running_in_factor=7", "wear.running_in_distance_mm=10")
+    lost = plain.cycles - short.cycles if hasattr(plain.life, "hours") else 0.0
+    assert lost > 0.0
+    assert plain.cycles - twice.cycles == pytest.approx(2.0 * lost, rel=1e-6)
+    assert short.max_depth == pytest.approx(plain.max_depth, rel=1e-9)
+    history, other = plain.history_columns, short.history_columns
+    np.testing.assert_allclose(other["max_depth_mm"], history["max_depth_mm"], rtol=1e-9)
+    assert other["cycles"][-1] < history["cycles"][-1]
+
+
+def test_running_in_over_the_whole_life_only_multiplies() -> None:
+    plain = strand()
+    fast = strand("wear.running_in_factor=4", "wear.running_in_distance_mm=1e15")
+    assert fast.cycles == pytest.approx(plain.cycles / 4.0, rel=1e-6)
+
+
+def flat(folder: Path, *settings: str) -> WearResult:
+    """A flat flank under uniform load and path: it stays flat."""
+    rows = ["arc_length_mm,load_per_width_N_per_mm,flank_curvature_per_mm,sliding_distance_mm"]
+    rows += [f"{0.5 * i},100,0,0.5" for i in range(21)]
+    (folder / "flat.csv").write_text("\n".join(rows), encoding="utf-8")
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "16B-1"},
+        "mechanism": {"kind": "prescribed", "table_file": str(folder / "flat.csv")},
+        "load": {"speed_rpm": 100},
+        "wear": {"specific_wear_rate_mm2_per_N": 1e-8},
+        "stop": {"critical_depth_mm": 0.02},
+    }
+    return wearsim.simulate(wearsim.load_case(tables, settings))
+
+
+@pytest.mark.parametrize("method", ["advance", "per_cycle"])
+def test_hardened_layer_of_a_flat_flank(tmp_path: Path, method: str) -> None:
+    plain = flat(tmp_path, f"run.method={method}")
+    layers = ("wear.case_depth_mm=0.005", "wear.core_factor=8")
+    soft = flat(tmp_path, f"run.method={method}", *layers)
+    assert soft.cycles == pytest.approx(plain.cycles * (0.25 + 0.75 / 8.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("life", [strand, wrap])
+def test_no_layer_at_all_is_the_core_alone(life: Any) -> None:
+    plain = life("joint.specific_wear_rate_mm2_per_N=1e-20") if life is wrap else life()
+    layers = ["wear.case_depth_mm=1e-9", "wear.core_factor=5"]
+    if life is wrap:
+        layers.append("joint.specific_wear_rate_mm2_per_N=1e-20")
+    soft = life(*layers)
+    assert soft.cycles == pytest.approx(plain.cycles / 5.0, rel=1e-2)
+
+
+def test_deeper_layer_than_the_limit_changes_nothing() -> None:
+    plain, hard = wrap(), wrap("wear.case_depth_mm=1", "wear.core_factor=50")
+    assert hard.cycles == plain.cycles
+
+
+@pytest.mark.parametrize("life", [strand, wrap])
+def test_life_ends_with_the_hardened_layer(life: Any) -> None:
+    result = life("stop.case_depth_mm=0.01")
+    assert result.stop == "case_depth_mm"
+    found = {state.name: state.value for state in result.limits}
+    assert found["case_depth_mm"] == pytest.approx(0.01, rel=1e-6)
+    assert found["critical_depth_mm"] == pytest.approx(0.01, rel=1e-6)
+
+
+def test_thickness_of_a_worn_tooth_on_a_strand() -> None:
+    case = wearsim.load_case(STRAND, FEW)
+    tooth = case.drive.tooth
+    radius = tooth.strand.centrode_radius
+    assert case.drive.worn_thickness(tooth.flank.x, tooth.flank.y) == pytest.approx(
+        tooth.pitch_line_thickness, rel=1e-12
+    )
+    worn = tooth.flank.recede(0.3)
+    circle = shapely.Point(0.0, 0.0).buffer(radius, 4096).exterior
+    angles = [
+        math.atan2(-place.x, place.y)
+        for flank in (tooth.flank, worn)
+        for place in [circle.intersection(shapely.LineString(np.column_stack([flank.x, flank.y])))]
+    ]
+    new = 2.0 * math.asin(tooth.pitch_line_thickness / (2.0 * radius))
+    expected = 2.0 * radius * math.sin(0.5 * (new - (angles[1] - angles[0])))
+    assert case.drive.worn_thickness(worn.x, worn.y) == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("life", [strand, wrap])
+def test_life_ends_with_the_thickness(life: Any) -> None:
+    case = wearsim.load_case(STRAND, FEW) if life is strand else wearsim.load_case(WRAP)
+    # Only a stretched chain climbs to the pitch line.
+    more = () if life is strand else STRETCHING
+    last = life(*more).flank
+    worn = last[last["cycles"] == last["cycles"].iloc[-1]]
+    new, end = (
+        case.drive.pitch_line_thickness,
+        case.drive.worn_thickness(worn["x_mm"].to_numpy(), worn["y_mm"].to_numpy()),
+    )
+    assert end < new
+    least = 0.5 * (new + end)
+    result = life(*more, f"stop.min_tooth_thickness_mm={least}")
+    assert result.stop == "min_tooth_thickness_mm"
+    found = {state.name: state.value for state in result.limits}
+    assert found["min_tooth_thickness_mm"] == pytest.approx(least, rel=1e-6)
+
+
+def test_life_ends_with_the_measurement_over_pins() -> None:
+    free = wrap("stop.critical_depth_mm=0.05")
+    change = free.history_columns["over_pins_mm"][0] - free.history_columns["over_pins_mm"]
+    limit = 0.5 * float(change.max())
+    result = wrap("stop.critical_depth_mm=0.05", f"stop.over_pins_change_mm={limit}")
+    assert result.stop == "over_pins_change_mm"
+    cycles = np.interp(limit, change, free.history_columns["cycles"])
+    assert result.cycles == pytest.approx(cycles, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("setting", "key"),
+    [
+        ("wear.case_depth_mm=1", "wear.core_factor"),
+        ("wear.core_factor=2", "wear.case_depth_mm"),
+        ("wear.running_in_factor=2", "wear.running_in_distance_mm"),
+        ("wear.running_in_distance_mm=2", "wear.running_in_factor"),
+        ("stop.min_tooth_thickness_mm=50", "stop.min_tooth_thickness_mm"),
+        ("stop.over_pins_change_mm=0.1", "stop.over_pins_change_mm"),
+    ],
+)
+def test_what_does_not_fit_is_named(setting: str, key: str) -> None:
+    with pytest.raises(wearsim.CaseError) as caught:
+        wearsim.load_case(STRAND, [*FEW, setting])
+    assert key in str(caught.value)

@@ -1,0 +1,171 @@
+"""Life of a chain by equation (4.1), its slack part included, and the rating point it was set by.
+
+d(eps)/d(loop) = k (p_t + p_s) pi d2 (1/z1 + 1/z2)/p with p_t, p_s the tensions of both strands, the
+centrifugal part included, over the bearing area; loops per hour 60 n z/X, the same on both
+sprockets. Chain no. 40: p 12.7 mm, d2 3.98 mm, 3.98 x 11.17 = 44.5 mm2, 0.60 kg/m (ISO 606).
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.mechanisms.joint import elongation_per_loop
+from wearsim.mechanisms.wrap_cycle import WrapContact
+from wearsim.simulation.wrap import wrap_contact
+
+PITCH, PIN, AREA, MASS = 12.7, 3.98, 44.5, 0.60
+CHAIN = {
+    "pitch_mm": PITCH,
+    "roller_diameter_mm": 7.92,
+    "inner_width_mm": 7.85,
+    "pin_diameter_mm": PIN,
+    "bearing_area_mm2": AREA,
+    "mass_kg_per_m": MASS,
+}
+
+
+def load_case(
+    teeth: int, mate: int, links: int, role: str, tight: float, slack: float, rpm: float, rate: float,
+    elongation: float = 2.0, pitch: str = "alternating",
+) -> wearsim.Case:  # fmt: skip
+    return wearsim.load_case(
+        {
+            "format_version": 1,
+            "chain": CHAIN,
+            "sprocket": {"teeth": teeth, "profile": "ansi_b29", "role": role, "nodes": 101},
+            "mechanism": {"kind": "wrap", "phases": 2},
+            "drive": {"mate_teeth": mate, "links": links, "slack_tension_N": slack},
+            "joint": {"pitch": pitch, "specific_wear_rate_mm2_per_N": rate},
+            "load": {"tension_N": tight, "speed_rpm": rpm},
+            "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+            "stop": {"elongation_percent": elongation},
+            "run": {"horizon_hours": 1e6, "life_tolerance": 0.1},
+        }
+    )
+
+
+def contact_of(case: wearsim.Case) -> WrapContact:
+    return wrap_contact(case, case.drive)
+
+
+def chain_hours(case: wearsim.Case) -> float:
+    contact = contact_of(case)
+    return contact.elongation_limit / contact.elongation_per_cycle / case.cycles_per_hour
+
+
+def closed_form(
+    teeth: int, mate: int, links: int, tight: float, slack: float, rpm: float, rate: float,
+    elongation: float,
+) -> float:  # fmt: skip
+    """Hours by (4.1); n and z of the worn sprocket."""
+    speed = PITCH * 1e-3 * teeth * rpm / 60.0
+    centrifugal = MASS * speed**2
+    pressure = (tight + slack + 2.0 * centrifugal) / AREA
+    turning = math.pi * PIN * (1.0 / teeth + 1.0 / mate)
+    return 0.01 * elongation * PITCH * links / (60.0 * rpm * teeth * rate * pressure * turning)
+
+
+def random_drive(seed: int) -> tuple[int, int, int, str, float, float, float, float, float]:
+    rng = np.random.default_rng(seed)
+    teeth, mate = (int(z) for z in rng.integers(11, 60, 2))
+    links = 2 * int(rng.integers(60, 80))
+    role = ("driver", "driven")[seed % 2]
+    slack = float(rng.uniform(20.0, 200.0))
+    tight, rpm = slack + float(rng.uniform(100.0, 2000.0)), float(rng.uniform(10.0, 800.0))
+    rate, elongation = 1e-10 * float(rng.uniform(0.5, 20.0)), float(rng.uniform(0.5, 2.0))
+    return teeth, mate, links, role, tight, slack, rpm, rate, elongation
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_equation_4_1_of_random_drives(seed: int) -> None:
+    teeth, mate, links, role, tight, slack, rpm, rate, elongation = random_drive(seed)
+    case = load_case(teeth, mate, links, role, tight, slack, rpm, rate, elongation)
+    expected = closed_form(teeth, mate, links, tight, slack, rpm, rate, elongation)
+    assert chain_hours(case) == pytest.approx(expected, rel=1e-9)
+
+
+def test_driver_and_driven_give_one_chain_life() -> None:
+    """19 teeth at 900 rpm drive 57 at 300: the same chain seen from both sprockets."""
+    driver = load_case(19, 57, 120, "driver", 900.0, 60.0, 900.0, 1e-10)
+    driven = load_case(57, 19, 120, "driven", 900.0, 60.0, 300.0, 1e-10)
+    assert chain_hours(driven) == pytest.approx(chain_hours(driver), rel=1e-12)
+
+
+@pytest.mark.parametrize("factor", [0.5, 3.0])
+def test_chain_life_is_linear_in_k_limit_and_links(factor: float) -> None:
+    hours = chain_hours(load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, 1e-10, 0.6))
+    other = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, factor * 1e-10, 0.6)
+    assert chain_hours(other) == pytest.approx(hours / factor, rel=1e-12)
+    other = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, 1e-10, 0.6 * factor)
+    assert chain_hours(other) == pytest.approx(hours * factor, rel=1e-12)
+    links = 240 if factor > 1 else 140
+    other = load_case(19, 57, links, "driver", 900.0, 60.0, 500.0, 1e-10, 0.6)
+    assert chain_hours(other) == pytest.approx(hours * links / 120, rel=1e-12)
+
+
+@pytest.mark.parametrize("pitch", ["uniform", "alternating"])
+def test_mean_elongation_is_that_of_the_joints(pitch: str) -> None:
+    """Wear lengthens the outer links by twice as much, or all alike: the same mean."""
+    case = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, 1e-10, pitch=pitch)
+    inner, outer = contact_of(case).mechanism.chain.pitches(0.02)
+    assert 0.5 * (inner + outer) == pytest.approx(1.02 * PITCH, rel=1e-12)
+    assert (inner == PITCH) == (pitch == "alternating")
+
+
+@pytest.mark.parametrize("role", ["driver", "driven"])
+def test_life_of_the_chain_is_that_of_the_run(role: str) -> None:
+    """Through ``simulate``: hours of the chain, stop, and the elongation in the history."""
+    teeth, mate, rpm = (19, 57, 900.0) if role == "driver" else (57, 19, 300.0)
+    case = load_case(teeth, mate, 120, role, 900.0, 60.0, rpm, 1e-7, 1.0)
+    result = wearsim.simulate(case)
+    expected = closed_form(teeth, mate, 120, 900.0, 60.0, rpm, 1e-7, 1.0)
+    chain = result.parts["chain"]
+    assert isinstance(chain, wearsim.Life)
+    assert chain.hours == pytest.approx(expected, rel=1e-9)
+    assert (result.stop, result.stop_value) == ("elongation_percent", 1.0)
+    assert result.life == chain
+    hours = result.history_columns["time_hours"]
+    first = result.history_columns["chain"] == 1.0
+    grown = result.history_columns["elongation_percent"][first]
+    np.testing.assert_allclose(grown, hours[first] / expected, rtol=1e-9, atol=1e-12)
+    assert grown[-1] == pytest.approx(1.0, rel=1e-9)
+
+
+def test_rating_point_verifies_equation_4_1_and_validates_nothing() -> None:
+    """No. 40, 19/57 teeth, 120 links, 1000 rpm, 4.60 kW: 15 000 h to 3 % with 1.16e-7 mm3/(N m).
+
+    The coefficient was set so that just this comes out, from the tight strand alone; so the
+    number tests the equation, its units and the drive's statics, not the wear of chains.
+    """
+    case = wearsim.load_case(
+        {
+            "format_version": 1,
+            "chain": {"designation": "ANSI 40"},
+            "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 101},
+            "mechanism": {"kind": "wrap", "phases": 2},
+            "drive": {"mate_teeth": 57, "links": 120},
+            "joint": {"specific_wear_rate_mm2_per_N": "1.16e-7 mm^3/(N*m)"},
+            "load": {"power_kW": 4.60, "speed_rpm": 1000},
+            "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+            "stop": {"elongation_percent": 3.0},
+        }
+    )
+    assert case.drive.tight - case.drive.slack == pytest.approx(1145.0, rel=1.2e-3)
+    assert chain_hours(case) == pytest.approx(15_000.0, rel=0.05)
+
+
+def test_slack_articulations_count() -> None:
+    """With no slack part the life of one loop would be (p_t + p_s)/p_t times as long."""
+    arguments = 1e-10, PIN, PITCH, (19, 57)
+    both = elongation_per_loop(arguments[0], (20.0, 5.0), *arguments[1:])
+    tight = elongation_per_loop(arguments[0], (20.0, 0.0), *arguments[1:])
+    assert both == pytest.approx(1.25 * tight, rel=1e-12)
+    assert tight == pytest.approx(
+        1e-10 * 20.0 * math.pi * PIN * (1 / 19 + 1 / 57) / PITCH, rel=1e-12
+    )
+
+
+def test_no_wear_of_joints_no_elongation() -> None:
+    assert elongation_per_loop(0.0, (20.0, 5.0), PIN, PITCH, (19, 57)) == 0.0

@@ -1,0 +1,83 @@
+"""Running-in: the wear coefficient falls from a first value to its lasting one."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.geometry.profile import Vector
+
+
+@dataclass(frozen=True)
+class RunningIn:
+    """K(N) = K (1 + (f - 1) exp(-N/N_r)), the same for all contacts of a drive.
+
+    As it is a factor of the whole wear rate, a drive that runs in wears as one of constant
+    K does, only faster at first: N cycles wear as much as tau cycles of constant K,
+
+        tau(N) = N + (f - 1) N_r (1 - exp(-N/N_r)).
+
+    Attributes
+    ----------
+    factor : float
+        f, first coefficient over the lasting one, at least 1.
+    cycles : float
+        N_r, over which the excess falls to 1/e.
+
+    Examples
+    --------
+    After many times N_r cycles the excess has cost (f - 1) N_r of them:
+
+    >>> RunningIn(3.0, 100.0).constant_cycles(1e6)
+    1000200.0
+    """
+
+    factor: float
+    cycles: float
+
+    def constant_cycles(self, cycles: float) -> float:
+        """Return the cycles of constant coefficient that wear as much.
+
+        Parameters
+        ----------
+        cycles : float
+            N, cycles run.
+
+        Returns
+        -------
+        float
+            Tau.
+        """
+        if self.factor == 1.0:
+            return cycles
+        return cycles - (self.factor - 1.0) * self.cycles * math.expm1(-cycles / self.cycles)
+
+    def running_cycles(self, constant: Vector) -> Vector:
+        """Return the cycles after which a drive that runs in has worn as much.
+
+        Parameters
+        ----------
+        constant : numpy.ndarray
+            Tau, cycles of constant coefficient.
+
+        Returns
+        -------
+        numpy.ndarray
+            N, by Newton's method from above; increasing where tau is.
+        """
+        tau = np.asarray(constant, dtype=float)
+        if self.factor == 1.0:
+            return tau
+        excess = self.factor - 1.0
+        cycles = tau.copy()
+        for _ in range(100):
+            rest = np.exp(-cycles / self.cycles)
+            step = (cycles + excess * self.cycles * (1.0 - rest) - tau) / (1.0 + excess * rest)
+            cycles -= step
+            if np.abs(step).max(initial=0.0) <= 1e-15 * np.abs(cycles).max(initial=0.0):
+                break
+        return cycles
+
+
+CONSTANT = RunningIn(1.0, 1.0)
+"""No running-in."""
