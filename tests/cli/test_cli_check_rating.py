@@ -172,13 +172,17 @@ def test_factor_out_of_range(cli, key, value):
     assert f"drive.{key}: must be " in done.err
 
 
+SLACK = "drive.slack_tension_N=100"
+"""So short a wrap would jump with the tension of its sag."""
+
+
 @pytest.mark.parametrize(
     ("settings", "value", "limit", "ok"),
     [
         ((), 3.0, 3.0, True),
         (("stop.elongation_percent=3.2",), 3.2, 3.0, False),
         (("drive.mate_teeth=72",), 2.778, 2.778, True),
-        (("drive.mate_teeth=100", "stop.elongation_percent=2.1"), 2.1, 2.0, False),
+        (("drive.mate_teeth=100", "stop.elongation_percent=2.1", SLACK), 2.1, 2.0, False),
     ],
 )
 def test_limit_of_elongation(checked, settings, value, limit, ok):

@@ -18,6 +18,16 @@ WITHOUT_EFFECT = {
     "title": "only shown above the answer",
     "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",
     "drive.exploitation_factor": "only the rating that check prints (test_cli_check_rating.py)",
+    "maintenance.chain_price": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "maintenance.sprocket_price": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "maintenance.downtime_hours": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "maintenance.downtime_cost_per_hour": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "maintenance.turn_sprocket": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "maintenance.replace_at_percent": "only wearsim maintain (tests/unit/test_maintain.py)",
+    "service.km_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
+    "service.tonnes_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
+    "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
+    "service.start_date": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
 }
 
@@ -58,6 +68,12 @@ WRAP = {
     "stop": {"critical_depth_mm": 0.05},
     "run": {"horizon_hours": 100},
 }
+LAYERS = {
+    "case_depth_mm": 0.02,
+    "core_factor": 4.0,
+    "running_in_factor": 2.0,
+    "running_in_distance_mm": 20.0,
+}
 OWN_CHAIN = {
     "pitch_mm": 12.7,
     "roller_diameter_mm": 8.51,
@@ -79,6 +95,8 @@ BASES = {
     "distance": edited(
         WRAP, drive={"mate_teeth": 20, "centre_distance_mm": 270, "slack_tension_N": 30}
     ),
+    "layers": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, **LAYERS}),
+    "wrap layers": edited(WRAP, wear={**WRAP["wear"], **LAYERS, "case_depth_mm": 0.002}),
     "gost": edited(WRAP, sprocket={"teeth": 13, "profile": "gost591", "nodes": 101}),
     "drawing": edited(
         WRAP,
@@ -157,6 +175,35 @@ BASES = {
     ),
 }
 
+BASES |= {
+    "duty": edited(
+        STRAND,
+        load=None,
+        duty=[
+            {"share_of_time": 0.5, "tension_N": 5000, "speed_rpm": 50},
+            {"share_of_time": 0.5, "tension_N": 3000, "speed_rpm": 150},
+        ],
+    ),
+    "duty of cycles": edited(
+        STRAND,
+        load=None,
+        duty=[
+            {"share_of_cycles": 0.5, "power_kW": 2, "speed_rpm": 50},
+            {"share_of_cycles": 0.5, "torque_N_m": 300, "speed_rpm": 150},
+        ],
+    ),
+    "duty torque": edited(
+        STRAND,
+        load=None,
+        duty=[
+            {"share_of_cycles": 0.5, "torque_N_m": 300, "speed_rpm": 150},
+            {"share_of_cycles": 0.5, "power_kW": 2, "speed_rpm": 50},
+        ],
+    ),
+    "log": edited(STRAND, load={"duty_file": "duty.csv"}),
+    "regime": edited(STRAND, load={"tension_N": 5000, "speed_rpm": 100, "regime": "II"}),
+}
+
 # Key: (base, another value) for a change of the result, (base, value, fault's key) for an error.
 CHANGES = {
     "format_version": [("strand", 2, "format_version")],
@@ -164,13 +211,12 @@ CHANGES = {
     "chain.pitch_mm": [("own chain", 25.0), ("strand", 25.4, "chain.pitch_mm")],
     "chain.roller_diameter_mm": [("own chain", 15.0)],
     "chain.inner_width_mm": [("default width", 16.0)],
-    "sprocket.teeth": [
-        ("wrap", 14),
-        ("strand", 21), ("strand", 4, "sprocket.teeth")],
+    "sprocket.teeth": [("wrap", 14), ("strand", 21), ("strand", 4, "sprocket.teeth")],
     "sprocket.profile": [
         ("wrap", "ansi_b29", "sprocket.profile"),
         ("strand", "iso606", "sprocket.evolute_offset_mm"),
-        ("strand", "points", "sprocket.points_file")],
+        ("strand", "points", "sprocket.points_file"),
+    ],
     "sprocket.engaged_every": [("crawler", 1)],
     "sprocket.points_file": [
         ("points", "other.csv"),
@@ -184,17 +230,13 @@ CHANGES = {
     "sprocket.evolute_offset_mm": [("strand", 5.6), ("points", 5.45)],
     "sprocket.contact_start_mm": [("strand", 30.6), ("points", 30.5)],
     "sprocket.contact_end_mm": [("strand", 4.1), ("points", 4.2)],
-    "sprocket.nodes": [
-        ("wrap", 111),
-        ("strand", 71), ("points", 71)],
+    "sprocket.nodes": [("wrap", 111), ("strand", 71), ("points", 71)],
     "mechanism.kind": [("strand", "prescribed", "mechanism.table_file")],
     "mechanism.table_file": [
         ("prescribed", "other_loads.csv"),
         ("strand", "loads.csv", "mechanism.table_file"),
     ],
-    "mechanism.roller_slip_fraction": [
-        ("wrap", 0.2),
-        ("strand", 0.5), ("prescribed", 0.5)],
+    "mechanism.roller_slip_fraction": [("wrap", 0.2), ("strand", 0.5), ("prescribed", 0.5)],
     "material.sprocket.name": [("strand", "grey cast iron"), ("prescribed", "bronze")],
     "material.sprocket.youngs_modulus_MPa": [("strand", 1e5)],
     "material.sprocket.poissons_ratio": [("strand", 0.25)],
@@ -330,11 +372,60 @@ CHANGES = {
         ("wrap", 0.01),
         ("strand", 1.0, "stop.elongation_percent"),
     ],
+    "wear.case_depth_mm": [
+        ("layers", 0.03),
+        ("wrap layers", 0.001),
+        ("strand", 0.03, "wear.core_factor"),
+    ],
+    "wear.core_factor": [
+        ("layers", 3.0),
+        ("wrap layers", 3.0),
+        ("strand", 3.0, "wear.case_depth_mm"),
+    ],
+    "wear.running_in_factor": [
+        ("layers", 3.0),
+        ("wrap layers", 3.0),
+        ("strand", 3.0, "wear.running_in_distance_mm"),
+    ],
+    "wear.running_in_distance_mm": [
+        ("layers", 30.0),
+        ("wrap layers", 30.0),
+        ("strand", 3.0, "wear.running_in_factor"),
+    ],
+    "stop.case_depth_mm": [
+        ("strand", 0.02),
+        ("wrap", 0.001),
+    ],
+    "stop.min_tooth_thickness_mm": [
+        ("strand", 7.57),
+        ("prescribed", 1.0, "stop.min_tooth_thickness_mm"),
+        ("wrap", 50.0, "stop.min_tooth_thickness_mm"),
+    ],
+    "stop.over_pins_change_mm": [
+        ("wrap", 0.0001),
+        ("strand", 0.1, "stop.over_pins_change_mm"),
+    ],
     "run.method": [("per cycle", "advance", "run.cycles_per_update"), ("archard", "per_cycle")],
     "run.cycles_per_update": [("per cycle", 2), ("strand", 2, "run.cycles_per_update")],
-    "run.life_tolerance": [
-        ("strand", 1e-5)],
+    "run.life_tolerance": [("strand", 1e-5)],
     "run.horizon_hours": [("strand", 100)],
+}
+
+
+CHANGES |= {
+    "duty.share_of_time": [("duty", 0.5000005), ("duty of cycles", 0.5, "duty.1.share_of_cycles")],
+    "duty.share_of_cycles": [
+        ("duty of cycles", 0.5000005),
+        ("duty", 0.5, "duty.1.share_of_cycles"),
+    ],
+    "duty.tension_N": [("duty", 5001), ("duty of cycles", 5000, "duty.1.power_kW")],
+    "duty.power_kW": [("duty of cycles", 2.01), ("duty", 2, "duty.1.power_kW")],
+    "duty.torque_N_m": [("duty torque", 301), ("duty", 300, "duty.1.torque_N_m")],
+    "duty.speed_rpm": [("duty", 51), ("duty of cycles", 51)],
+    "duty.wear_factor": [("duty", 2), ("duty", 0, "duty.1.wear_factor")],
+    "load.regime": [("regime", "III"), ("duty", "I", "load.regime")],
+    "load.duty_file": [("log", "other_duty.csv"), ("strand", "duty.csv", "load.tension_N")],
+    "load.duty_bins": [("log", [1, 1]), ("strand", [4, 4], "load.duty_bins")],
 }
 
 
@@ -393,6 +484,9 @@ def run(tmp_path_factory):
     loads.to_csv(folder / "other_loads.csv", index=False)
     draw(folder / "gap.dxf", {"first": 0.0, "second": 0.01})
     draw(folder / "other.dxf", {"first": 0.02})
+    for name, pull in (("duty", 4000), ("other_duty", 4100)):
+        rows = "".join(f"{i},{pull + 50 * i},{60 + i}\n" for i in range(20))
+        (folder / f"{name}.csv").write_text("time_s,tension_N,speed_rpm\n" + rows)
     done = {}
 
     def run(tables):
@@ -421,8 +515,9 @@ def with_value(base, key, value):
     changed = {**base}
     place = changed
     for table in tables:
-        place[table] = {**place.get(table, {})}
-        place = place[table]
+        inner = place.get(table, {})
+        place[table] = [{**inner[0]}, *inner[1:]] if isinstance(inner, list) else {**inner}
+        place = place[table][0] if isinstance(inner, list) else place[table]
     assert place.get(name) != value
     place[name] = value
     return changed

@@ -185,6 +185,9 @@ class TestRegimes:
     def test_constant_one_is_the_constant_drive(self, case):
         load = "[load]\ntension_N = 5000\nspeed_rpm = 100\n"
         assert case(load + 'regime = "0"\n').drive.blocks == case(load).drive.blocks
+        found = case(load, overrides=["load.regime=0"])
+        assert found.drive.blocks == case(load).drive.blocks
+        assert found.inputs["load"]["regime"] == "0"
 
     def test_on_a_wrap_the_slack_strand_stays(self, case):
         """Torque goes with tight less slack."""

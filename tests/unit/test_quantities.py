@@ -32,7 +32,7 @@ UNITS = {
     "mm": "mm", "mm2": "mm^2", "N": "N", "MPa": "MPa", "kW": "kW", "kN": "kN", "rpm": "rpm",
     "deg": "deg", "hours": "h", "hours_low": "h", "hours_high": "h", "hours_run": "h",
     "N_m": "N*m", "per_mm": "1/mm", "mm_per_s": "mm/s", "mm2_per_N": "mm^2/N", "N_per_mm": "N/mm",
-    "kg_per_m": "kg/m",
+    "kg_per_m": "kg/m", "km_per_hour": "km/h", "tonnes_per_hour": "t/h", "s": "s",
 }  # fmt: skip
 
 
@@ -50,7 +50,7 @@ def input_keys(model):
 
 
 def catalogue_columns():
-    for table in ("chains", "materials", "wear_conditions"):
+    for table in ("chains", "materials", "wear_conditions", "regimes"):
         yield from rows(table)[0]
     yield from Quantity.__annotations__
     yield "file"
@@ -80,6 +80,7 @@ def wrapped():
     )
     result, loads = wearsim.simulate(case), loads_json(tooth_loads(case))
     yield from (*result.history, *result.flank, *result.summary(), *loads, *loads["teeth"][0])
+    yield from result.summary()["limits"][0]
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +97,8 @@ def written(tmp_path_factory):
         *profile_table(case),
         *comparison_table([result]),
         *wrapped(),
+        *("time_s", "turned", "chains_per_sprocket", "last_chain_used", "stops"),
+        *("cost_per_1000_h", "classes", "same_link_kind"),
         *catalogue_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
     }

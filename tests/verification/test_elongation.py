@@ -28,7 +28,7 @@ CHAIN = {
 
 def load_case(
     teeth: int, mate: int, links: int, role: str, tight: float, slack: float, rpm: float, rate: float,
-    elongation: float = 2.0, pitch: str = "alternating",
+    elongation: float = 2.0, pitch: str = "alternating", horizon: float = 1e6,
 ) -> wearsim.Case:  # fmt: skip
     return wearsim.load_case(
         {
@@ -41,7 +41,7 @@ def load_case(
             "load": {"tension_N": tight, "speed_rpm": rpm},
             "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
             "stop": {"elongation_percent": elongation},
-            "run": {"horizon_hours": 1e6, "life_tolerance": 0.1},
+            "run": {"horizon_hours": horizon, "life_tolerance": 0.1},
         }
     )
 
@@ -118,14 +118,15 @@ def test_mean_elongation_is_that_of_the_joints(pitch: str) -> None:
 def test_life_of_the_chain_is_that_of_the_run(role: str) -> None:
     """Through ``simulate``: hours of the chain, stop, and the elongation in the history."""
     teeth, mate, rpm = (19, 57, 900.0) if role == "driver" else (57, 19, 300.0)
-    case = load_case(teeth, mate, 120, role, 900.0, 60.0, rpm, 1e-7, 1.0)
-    result = wearsim.simulate(case)
-    expected = closed_form(teeth, mate, 120, 900.0, 60.0, rpm, 1e-7, 1.0)
+    drive = (teeth, mate, 120, role, 900.0, 60.0, rpm, 1e-9, 1.0)
+    expected = closed_form(teeth, mate, 120, 900.0, 60.0, rpm, 1e-9, 1.0)
+    result = wearsim.simulate(load_case(*drive, horizon=1.5 * expected))
     chain = result.parts["chain"]
     assert isinstance(chain, wearsim.Life)
     assert chain.hours == pytest.approx(expected, rel=1e-9)
     assert (result.stop, result.stop_value) == ("elongation_percent", 1.0)
     assert result.life == chain
+    assert result.history_columns["chain"][-1] == 2.0
     hours = result.history_columns["time_hours"]
     first = result.history_columns["chain"] == 1.0
     grown = result.history_columns["elongation_percent"][first]

@@ -25,6 +25,9 @@ class Resolution:
         self.folder = folder
         self.faults = faults
         self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
+        if tables.sprocket is not None and "back_flank" not in tables.sprocket.model_fields_set:
+            # Taken where the tooth form has one.
+            del self.inputs["sprocket"]["back_flank"]
         self.files: list[Path] = []
         self.assumptions: list[str] = []
         self.warnings: list[str] = []

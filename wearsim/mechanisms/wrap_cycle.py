@@ -132,9 +132,10 @@ class WrapContact(Dwelling):
 
     @property
     def sliding_per_cycle(self) -> float:
-        """Way that the rollers slide in a new gap in a cycle of a new chain [mm]."""
+        """Way that the rollers slide in a new gap in a cycle of a new chain [mm], the mean of the duty."""
         x, y = (np.tile(row, (self.bodies, 1)) for row in (self.profile.x, self.profile.y))
-        table = self.events(x, y, 0.0, self.memory())
+        blocks = tuple(replace(block, wear_factor=1.0) for block in self.blocks)
+        table = replace(self, blocks=blocks).events(x, y, 0.0, self.memory())
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":

@@ -1,5 +1,6 @@
 """What the teeth of a wrapped sprocket carry."""
 
+import math
 from dataclasses import dataclass
 from itertools import product
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, ContactError, Fault
-from wearsim.mechanisms.wrap import WrapLoads
+from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
 from wearsim.simulation.wrap import wrap_mechanism
 
 _PHASES = 9
@@ -132,5 +133,22 @@ def check_hold(case: Case) -> None:
     for elongation, first, phase in states:
         try:
             mechanism.loads(float(phase), elongation, first)
-        except ContactError as error:
-            raise CaseError([Fault(str(error), "drive.slack_tension_N", case.name)]) from None
+        except ContactError:
+            raise CaseError(
+                [Fault(_jumping(drive, mechanism), "drive.slack_tension_N", case.name)]
+            ) from None
+
+
+def _jumping(drive: WrapDrive, mechanism: WrapMechanism) -> str:
+    """Say which slack tension holds the chain, new and stretched."""
+    limit = drive.joint.elongation_limit
+    least = max(mechanism.smallest_slack_tension(elongation) for elongation in (0.0, limit))
+    remedy = (
+        f"give a slack tension of at least {1.005 * least:.3g} N"
+        if least < math.inf
+        else "no slack tension holds it: use more teeth or a lower elongation_percent"
+    )
+    return (
+        f"the rollers must hold the chain, new and stretched by {100 * limit:.3g} %, but with a slack "
+        f"tension of {drive.slack:.4g} N the chain jumps: {remedy}"
+    )

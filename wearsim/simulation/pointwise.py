@@ -1,5 +1,6 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -53,7 +54,7 @@ def simulate_points(case: Case) -> WearResult:
     """
     mechanism = _mechanism(case)
     law, criteria = _law(case), tooth_criteria(case)
-    warp = running_in(case.wear, _sliding_per_cycle(mechanism.contact))
+    warp = running_in(case.wear, _sliding_per_cycle(case, mechanism.contact))
     horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
@@ -163,8 +164,8 @@ def _law(case: Case, factor: float = 1.0) -> Law:
     return replace(law, coefficient=law.coefficient * equivalent)
 
 
-def _sliding_per_cycle(contact: Contact) -> float:
-    """Mean path that a loaded point of the new flank slides in a cycle [mm]."""
+def _sliding_per_cycle(case: Case, contact: Contact) -> float:
+    """Mean path that a loaded point of the new flank slides in a cycle of the duty [mm]."""
     profile = contact.profile
     touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
     loaded = touch.load_per_width > 0.0
@@ -172,7 +173,12 @@ def _sliding_per_cycle(contact: Contact) -> float:
     if contact.kind is Kind.TRAVELLING:
         load, relative = touch.load_per_width[loaded], touch.relative_curvature[loaded]
         slip = slip * 2.0 * half_width(load, np.maximum(relative, 1e-9), contact.modulus)
-    return float(slip.mean()) if slip.size else 0.0
+    path = float(slip.mean()) if slip.size else 0.0
+    if not isinstance(case.drive, StrandDrive):
+        return path
+    # The width of the contact goes with the root of the load.
+    most, blocks = case.drive.pull, case.drive.blocks
+    return path * math.fsum(block.share * math.sqrt(block.tension / most) for block in blocks)
 
 
 def _run(

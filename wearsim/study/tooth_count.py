@@ -4,6 +4,7 @@ import copy
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import product
+from pathlib import PurePath
 from typing import Any
 
 from wearsim.case.load import load_case
@@ -11,6 +12,7 @@ from wearsim.case.model import Case, WrapDrive
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.result import Life, LowerBound
 
+_FILE_KEYS = (("sprocket", "points_file"), ("sprocket", "dxf_file"), ("load", "duty_file"))
 _STANDARD_FORMS = ("iso606", "ansi_b29", "gost591")
 
 
@@ -90,12 +92,11 @@ def variant(case: Case, meetings: Meetings) -> Case:
         sprocket["teeth"] = meetings.teeth
         if any(text.startswith("sprocket.tip_diameter_mm = ") for text in case.assumptions):
             del sprocket["tip_diameter_mm"]
-    if sprocket["profile"] in _STANDARD_FORMS:
-        sprocket.pop("back_flank", None)
     drive["links"] = meetings.links
     drive.pop("centre_distance_mm", None)
-    for key in ("points_file", "dxf_file"):
-        if key in sprocket:
-            (path,) = (path for path in case.files if path.name == sprocket[key].rpartition("/")[2])
-            sprocket[key] = str(path.resolve())
+    for table, key in _FILE_KEYS:
+        if key in inputs[table]:
+            name = PurePath(inputs[table][key]).name
+            (path,) = (path for path in case.files if path.name == name)
+            inputs[table][key] = str(path.resolve())
     return load_case(inputs)

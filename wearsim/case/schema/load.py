@@ -23,6 +23,11 @@ def _bins(value: object) -> object:
     return value
 
 
+def _named(value: object) -> object:
+    """Take the number 0 for the name: that is what --set load.regime=0 gives."""
+    return "0" if type(value) is int and value == 0 else value
+
+
 _BINS: dict[str, Any] = {
     "type": "array",
     "items": {"type": "integer", "minimum": 1, "maximum": _MOST_BINS},
@@ -38,7 +43,9 @@ class LoadTable(Table):
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
     speed_rpm: Positive | None = None
-    regime: Literal["0", "I", "II", "III", "IV", "V"] | None = None
+    regime: Annotated[Literal["0", "I", "II", "III", "IV", "V"], BeforeValidator(_named)] | None = (
+        None
+    )
     duty_file: str | None = None
     duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
 

@@ -1,0 +1,301 @@
+"""Kernels of dwelling wear on arcs, steps and criteria of the engine, errors, and engagements."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from wearsim.contact.dwelling import Dwelling
+from wearsim.contact.engagement import Kind
+from wearsim.errors import ContactError, ConvergenceError
+from wearsim.geometry.profile import Profile
+from wearsim.kernels import dwelling as kernels
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import Criterion, depth_criterion
+from wearsim.wear.dwelling import Start, advance_dwelling, run_dwelling, run_together
+from wearsim.wear.law import archard, drozdov
+from wearsim.wear.per_cycle import run_per_cycle
+
+MODULUS = 2.1e5 / (2.0 * 0.91)
+RATE = 1e-11
+LAW = archard(RATE)
+LIMIT = (depth_criterion(2e-3),)
+PLACE = {"load": 100.0, "slip": 1.0, "speed": 50.0, "count": 1.0}
+
+
+class Seat(Dwelling):
+    """A roller of 5 mm in the middle of a round seat of 8 mm, on every body."""
+
+    elongation_per_cycle = 0.0
+    elongation_limit = 0.02
+    slack_tension = 0.0
+    modulus = MODULUS
+    roller_radius = 5.0
+
+    def __init__(self, bodies=1, points=151, growth=0.0, **event):
+        angle = np.linspace(0.2, -0.2, points)
+        self.profile_ = Profile(8.0 * np.sin(angle), 8.0 * (1.0 - np.cos(angle)))
+        self.bodies_, self.points, self.event = bodies, points, {**PLACE, **event}
+        self.elongation_per_cycle = growth
+        self.seen = []
+
+    @property
+    def profile(self):
+        return self.profile_
+
+    @property
+    def bodies(self):
+        return self.bodies_
+
+    def coarsened(self):
+        return Seat(self.bodies, (self.points + 1) // 2, self.elongation_per_cycle, **self.event)
+
+    def memory(self):
+        return np.zeros((1, 1))
+
+    def events(self, x, y, elongation, memory):
+        self.seen.append(elongation)
+        memory += 1.0
+        table = np.zeros((kernels.EVENT_ROWS, self.bodies))
+        table[kernels.EVENT_CENTRE_Y] = 5.0
+        table[kernels.EVENT_NORMAL_Y] = 1.0
+        table[kernels.EVENT_TOUCHED] = 0.5 * (self.points - 1)
+        table[kernels.EVENT_LOAD] = self.event["load"]
+        table[kernels.EVENT_SLIP] = self.event["slip"]
+        table[kernels.EVENT_SPEED] = self.event["speed"]
+        table[kernels.EVENT_COUNT] = self.event["count"]
+        table[kernels.EVENT_BODY] = np.arange(self.bodies)
+        return table
+
+
+# -- kernels -------------------------------------------------------------------------------------
+
+
+def arc(radius, points=101, convex=False):
+    """A seat of that radius or, convex, a nose."""
+    angle = np.linspace(0.3, -0.3, points)
+    sign = -1.0 if convex else 1.0
+    return Profile(radius * np.sin(angle), sign * radius * (1.0 - np.cos(angle)))
+
+
+def unworn(profile):
+    points = profile.x.size
+    spacing = np.zeros(points)
+    half = 0.5 * np.diff(profile.arc_length)
+    spacing[1:] += half
+    spacing[:-1] += half
+    return np.array(
+        [profile.x, profile.y, profile.normal_x, profile.normal_y, profile.curvature, spacing]
+    )
+
+
+@pytest.mark.parametrize("convex", [False, True])
+def test_recede_from_the_area(convex):
+    """Between arcs of 8 and 8 +- d mm the area per unworn length is d +- d^2/16."""
+    profile, depth = arc(8.0, convex=convex), 0.3
+    sign = -1.0 if convex else 1.0
+    area = np.full(101, depth + sign * depth**2 / 16.0)
+    found, x, y = np.zeros(101), np.zeros(101), np.zeros(101)
+    kernels.recede(area, found, x, y, unworn(profile), 0, 101)
+    np.testing.assert_allclose(found, depth, rtol=1e-4)
+    radius = np.hypot(x, y - sign * 8.0)
+    np.testing.assert_allclose(radius, 8.0 + sign * depth, rtol=1e-4)
+
+
+def test_recede_only_the_cells_asked():
+    profile = arc(8.0)
+    found, x, y = np.zeros(101), np.zeros(101), np.zeros(101)
+    kernels.recede(np.full(101, 0.1), found, x, y, unworn(profile), 40, 60)
+    assert (found[40:60] > 0.09).all()
+    assert not found[:40].any() and not found[60:].any()
+
+
+def test_worn_width():
+    """Cells of a seat worn all over grow with the radius; on a slope they grow by the hypotenuse."""
+    profile = arc(8.0)
+    table, width = unworn(profile), np.zeros(101)
+    kernels.worn_width(np.full(101, 0.4), table, 0, 101, width)
+    np.testing.assert_allclose(width[1:-1], table[kernels.SPACING, 1:-1] * 8.4 / 8.0, rtol=1e-4)
+    flat = Profile(np.linspace(1.0, -1.0, 101), np.zeros(101))
+    kernels.worn_width(0.75 * (1.0 - flat.x), unworn(flat), 0, 101, width)
+    np.testing.assert_allclose(width[2:-2], 0.02 * 1.25, rtol=1e-9)
+
+
+# -- steps ---------------------------------------------------------------------------------------
+
+
+def test_limit_is_met_exactly_and_the_last_step_is_cut():
+    run = run_dwelling(Seat(), LAW, LIMIT, 1e9, 0)
+    assert run.met is LIMIT[0]
+    assert run.depth[-1].max() == pytest.approx(2e-3, rel=1e-12)
+    assert (np.diff(run.cycles) > 0.0).all()
+    assert run.area == pytest.approx(RATE * 100.0 * run.cycles[-1], rel=2e-3)
+
+
+def test_horizon_is_met_exactly():
+    run = run_dwelling(Seat(), LAW, LIMIT, 17.25, 0)
+    assert run.met is None
+    assert run.cycles[-1] == 17.25
+
+
+def test_first_step_is_small_whatever_the_law():
+    """A part of 3e-5 of the limit by the Hertz pressure on a flat, far less in a narrow seat."""
+    for law in (LAW, drozdov(1e-9, 1.0, 2000.0, 100.0, 0.8), drozdov(1e-6, 2.0, 2000.0, 1.0, -1.0)):
+        run = run_dwelling(Seat(count=1e-3), law, (depth_criterion(1e-4),), 1e15, 0)
+        first = run.depth[1].max()
+        assert 0.0 < first < 4e-5 * 1e-4
+
+
+@pytest.mark.parametrize("count", [0.5, 2.0])
+def test_how_often_an_event_comes(count):
+    once, other = (run_dwelling(Seat(count=n), LAW, LIMIT, 1e9, 2) for n in (1.0, count))
+    assert other.cycles[-1] == pytest.approx(once.cycles[-1] / count, rel=1e-9)
+
+
+@pytest.mark.parametrize("exponent", [0.5, -0.3])
+def test_speed_enters_by_its_power(exponent):
+    """Drozdov's form at v = v0 is the power law; at 9 v0 it is 9^n times that."""
+    law = drozdov(1000.0 * RATE, 1.0, 1000.0, 50.0, exponent)
+    base, fast = (run_dwelling(Seat(speed=v), law, LIMIT, 1e9, 2) for v in (50.0, 450.0))
+    line = run_dwelling(Seat(), LAW, LIMIT, 1e9, 2)
+    assert base.cycles[-1] == pytest.approx(line.cycles[-1], rel=1e-9)
+    assert fast.cycles[-1] == pytest.approx(base.cycles[-1] / 9.0**exponent, rel=1e-6)
+
+
+def test_two_bodies_under_one_load_wear_alike():
+    run = run_dwelling(Seat(bodies=2), LAW, LIMIT, 1e9, 0)
+    np.testing.assert_array_equal(run.all_depth[:, 0], run.all_depth[:, 1])
+    one = run_dwelling(Seat(), LAW, LIMIT, 1e9, 0)
+    assert run.area == pytest.approx(2.0 * one.area, rel=1e-12)
+
+
+def test_the_criterion_that_is_met_first_is_named():
+    tip = Criterion("min_tip_land_mm", 1.0, lambda x, y, depth: 1e-3 - float(depth.max()))
+    run = run_dwelling(Seat(), LAW, (*LIMIT, tip), 1e9, 0)
+    assert run.met is tip
+    assert run.depth[-1].max() == pytest.approx(1e-3, rel=1e-12)
+
+
+def test_chain_grows_and_is_replaced():
+    """2 % in 8 cycles: steps end on every replacement, and events meet the growth so far."""
+    contact = Seat(growth=0.0025)
+    run = run_dwelling(contact, LAW, (depth_criterion(1.0),), 20.0, 0)
+    assert run.chains[-1] == 3.0
+    np.testing.assert_allclose(
+        run.elongation, 0.0025 * (run.cycles - 8.0 * (run.chains - 1.0)), rtol=0.0, atol=1e-12
+    )
+    for end in (8.0, 16.0):
+        assert np.isclose(run.cycles, end).any()
+    assert max(contact.seen) < 0.02
+    # At least 40 steps in the life of a chain.
+    assert run.updates >= 2.5 * 40
+
+
+def test_snapshots_are_thinned_and_keep_both_ends():
+    run = run_dwelling(Seat(), archard(1e3 * RATE), (depth_criterion(1.0),), 2000.0, 0, 1.0)
+    assert run.updates == 2000
+    assert 180 <= run.cycles.size <= 362
+    assert (run.cycles[0], run.cycles[-1]) == (0.0, 2000.0)
+    assert run.peak_pressure.size == run.sliding_speed.size == run.chains.size == run.cycles.size
+    assert (run.sliding_speed == 50.0).all()
+
+
+def test_a_run_begun_worn_goes_on():
+    """Two halves are the whole where the steps are the same."""
+    law, limit = archard(1e4 * RATE), (depth_criterion(1.0),)
+    whole = run_dwelling(Seat(growth=1e-4), law, limit, 100.0, 0, 1.0)
+    first = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0)
+    start = Start(first.all_depth[-1], float(first.elongation[-1]), 1)
+    second = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0, start=start)
+    np.testing.assert_allclose(
+        second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max()
+    )
+    assert second.elongation[-1] == pytest.approx(whole.elongation[-1], rel=1e-12)
+
+
+def test_a_run_can_be_stopped():
+    stop = threading.Event()
+    stop.set()
+    with pytest.raises(IndexError):
+        # Nothing was run, so there is no trajectory; its caller has an error of its own to raise.
+        run_dwelling(Seat(), LAW, LIMIT, 1e9, 0, stop=stop)
+
+
+def test_runs_side_by_side_are_those_alone():
+    contacts = [(Seat(), 1), (Seat(points=76), 1), (Seat(), 0)]
+    together = run_together(contacts, LAW, LIMIT, 1e9)
+    for (contact, level), run in zip(contacts, together, strict=True):
+        alone = run_dwelling(Seat(points=contact.points), LAW, LIMIT, 1e9, level)
+        assert run.cycles[-1] == alone.cycles[-1]
+
+
+def test_one_failing_run_fails_all():
+    with pytest.raises(ContactError):
+        run_together([(Seat(), 0), (Seat(slip=0.0), 0)], LAW, LIMIT, 1e9)
+
+
+def test_steps_are_halved_until_the_life_settles():
+    loose, change = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 1e-2)
+    tight, less = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 1e-3)
+    assert change <= 5e-3 and less <= 5e-4
+    assert tight.updates > loose.updates
+    assert tight.cycles[-1] == pytest.approx(loose.cycles[-1], rel=5e-3)
+
+
+def test_dispatch_by_the_kind_of_contact():
+    advance, change = run_advance(Seat(), LAW, LIMIT, 1e9, 1e-3)
+    assert change <= 5e-4
+    law = archard(1e4 * RATE)
+    per_cycle = run_per_cycle(Seat(), law, LIMIT, 1e9, 10)
+    assert per_cycle.updates == np.ceil(0.1 * per_cycle.cycles[-1]) > 5
+    assert 1e4 * per_cycle.cycles[-1] == pytest.approx(advance.cycles[-1], rel=0.02)
+
+
+# -- errors --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("quantity", ["load", "slip", "count"])
+def test_nothing_to_wear_is_an_error(quantity):
+    with pytest.raises(ContactError, match="contact at cycle 0: loaded rollers must slide"):
+        run_dwelling(Seat(**{quantity: 0.0}), LAW, LIMIT, 1e9, 0)
+
+
+@pytest.mark.parametrize("quantity", ["load", "slip"])
+def test_not_a_number_is_an_error(quantity):
+    with pytest.raises((ContactError, ConvergenceError)):
+        run_dwelling(Seat(**{quantity: np.nan}), LAW, LIMIT, 1e9, 0, 1.0)
+
+
+def test_a_roller_out_of_reach_is_an_error():
+    """Pressed sideways, the roller meets no point."""
+    contact = Seat()
+    table = contact.events(None, None, 0.0, contact.memory())
+    table[kernels.EVENT_NORMAL_X], table[kernels.EVENT_NORMAL_Y] = 1.0, 0.0
+    table[kernels.EVENT_CENTRE_X] = -50.0
+    contact.events = lambda *arguments: table
+    with pytest.raises(ConvergenceError, match="the pressure of every roller must be found"):
+        run_dwelling(contact, LAW, LIMIT, 1e9, 0)
+
+
+# -- engagement ----------------------------------------------------------------------------------
+
+
+def test_engagement_of_a_worn_outline():
+    """Roller of 5 mm in a seat of 8 mm: 1/5 - 1/8; touched in the middle once per cycle."""
+    contact = Seat(bodies=2)
+    profile = contact.profile
+    met = contact.engage(np.array(profile.x), np.array(profile.y), np.zeros(151))
+    assert met.kind is Kind.DWELLING
+    np.testing.assert_allclose(met.relative_curvature[1:-1], 0.075, rtol=1e-3)
+    assert np.flatnonzero(met.load_per_width).tolist() == [75]
+    values = met.load_per_width[75], met.slip[75], met.per_cycle[75], met.sliding_speed[75]
+    assert values == (100.0, 1.0, 1.0, 50.0)
+    assert np.isnan(met.sliding_speed[74])
+    np.testing.assert_array_equal(met.arc_length, contact.arc_length)
+
+
+def test_engagement_without_load():
+    met = Seat(load=0.0).engage(
+        *(np.array(v) for v in (Seat().profile.x, Seat().profile.y)), np.zeros(151)
+    )
+    assert not met.load_per_width.any() and not met.slip.any() and not met.per_cycle.any()
