@@ -153,3 +153,24 @@ def test_a_reading_out_of_the_band_is_doubted():
     found = remaining_life(case(WRAP), Reading(DEPTH, 0.03, 0.001, 1.0))
     assert any("outside its band" in text for text in found.warnings)
     assert isinstance(found.life, Life)
+
+
+@pytest.mark.parametrize("command", ["maintain", "remaining"])
+def test_running_in_is_refused(command: str) -> None:
+    """Lives scale with the coefficient only where it is constant."""
+    from wearsim.study.constant import check_constant
+
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "08B-1"},
+        "sprocket": {"teeth": 13, "profile": "iso606"},
+        "load": {"tension_N": 800, "speed_rpm": 200},
+        "drive": {"slack_tension_N": 30},
+        "wear": {
+            "specific_wear_rate_mm2_per_N": 1e-9,
+            "running_in_factor": 2,
+            "running_in_distance_mm": 10,
+        },
+    }
+    with pytest.raises(wearsim.CaseError, match=f"{command}.*constant"):
+        check_constant(wearsim.load_case(tables), command)

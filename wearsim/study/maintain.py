@@ -10,6 +10,7 @@ from wearsim.errors import CaseError, ContactError, ConvergenceError, Fault, Wea
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap import wrap_contact
+from wearsim.study.constant import check_constant
 from wearsim.study.tooth_count import ToothCount, meetings_around, variant
 from wearsim.study.turned import turned_life
 
@@ -182,6 +183,7 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     if not isinstance(drive, WrapDrive):
         message = "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'"
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    check_constant(case, "maintain")
     table = MaintenanceTable(**case.inputs.get("maintenance", {}))
     limit: float = case.inputs["stop"]["elongation_percent"]
     elongations = table.replace_at_percent or [*(e for e in POLICIES if e < limit), limit]

@@ -10,6 +10,7 @@ from wearsim.geometry.profile import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap import wrap_contact
+from wearsim.study.constant import check_constant
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
 
@@ -129,6 +130,7 @@ def remaining_life(case: Case, reading: Reading) -> RemainingLife:
     ConvergenceError
         The life would be wrong.
     """
+    check_constant(case, "remaining")
     if not 0.0 < reading.error < reading.value:
         raise _fault(
             case,

@@ -1,0 +1,172 @@
+"""The table of events of a wrap: rows against single solves, memory, coarser grids, errors."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.errors import JumpError
+from wearsim.kernels import dwelling as kernels
+from wearsim.kernels.wrap_cycle import engaged
+from wearsim.simulation.wrap import wrap_contact
+from wearsim.wear.criteria import depth_criterion
+from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.law import archard
+
+CASE = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 40"},
+    "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 151},
+    "mechanism": {"kind": "wrap", "phases": 4, "roller_slip_fraction": 0.1},
+    "drive": {"mate_teeth": 20, "slack_tension_N": 20, "link_stiffness_N_per_mm": 5e4},
+    "joint": {"pitch": "alternating"},
+    "load": {"tension_N": 1000, "speed_rpm": 100},
+    "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+}
+
+
+def contact(*settings):
+    case = wearsim.load_case(CASE, settings)
+    return wrap_contact(case, case.drive)
+
+
+def unworn(of):
+    return tuple(np.tile(values, (of.bodies, 1)) for values in (of.profile.x, of.profile.y))
+
+
+@pytest.mark.parametrize(
+    ("degrees", "phase", "rollers"),
+    [(180.0, 0.0, 11), (180.0, 0.5, 11), (180.0, 1.0, 10), (175.0, 0.9, 10), (10.0, 0.9, 1)],
+)
+def test_rollers_between_the_strands(degrees, phase, rollers):
+    """Of 18 degrees each."""
+    assert engaged(math.radians(degrees), math.radians(18.0), phase) == rollers
+
+
+@pytest.mark.parametrize("elongation", [0.0, 0.01])
+def test_rows_are_those_of_single_solves(elongation):
+    """Phases 1/8, 3/8 ... in both kinds of link: load, place of the centre, place touched."""
+    of = contact()
+    table = of.events(*unworn(of), elongation, of.memory())
+    table = table.reshape(kernels.EVENT_ROWS, 2, 4, of.most)
+    arc = of.arc_length
+    for first in (0, 1):
+        for step in range(4):
+            loads = of.mechanism.loads((step + 0.5) / 4, elongation, first)
+            rows = table[:, first, step, : loads.force.size]
+            np.testing.assert_allclose(
+                rows[kernels.EVENT_LOAD] * of.face_width, loads.force, rtol=1e-6, atol=1e-4
+            )
+            radius = np.hypot(rows[kernels.EVENT_CENTRE_X], rows[kernels.EVENT_CENTRE_Y])
+            np.testing.assert_allclose(radius, loads.seat_radius, rtol=0.0, atol=1e-6)
+            touched = np.interp(rows[kernels.EVENT_TOUCHED], np.arange(arc.size), arc)
+            np.testing.assert_allclose(touched, loads.contact_arc_length, rtol=0.0, atol=1e-4)
+            body = (np.arange(loads.force.size) + first) % 2
+            np.testing.assert_array_equal(rows[kernels.EVENT_BODY], body)
+
+
+def test_mate_touches_the_outline():
+    """The outline comes within a hundredth of a cell's sagitta of a roller around the centre."""
+    of = contact("sprocket.nodes=601")
+    table = of.events(*unworn(of), 0.01, of.memory())
+    table = table[:, table[kernels.EVENT_LOAD] > 0.0]
+    for column in table.T:
+        distance = np.hypot(
+            of.profile.x - column[kernels.EVENT_CENTRE_X],
+            of.profile.y - column[kernels.EVENT_CENTRE_Y],
+        )
+        assert distance.min() == pytest.approx(of.roller_radius, abs=2e-4)
+        assert abs(int(distance.argmin()) - column[kernels.EVENT_TOUCHED]) < 60
+    normal = np.hypot(table[kernels.EVENT_NORMAL_X], table[kernels.EVENT_NORMAL_Y])
+    np.testing.assert_allclose(normal, 1.0, rtol=1e-9)
+
+
+def test_memory_changes_nothing_but_the_effort():
+    of = contact()
+    memory = of.memory()
+    assert (memory < 0.0).all()
+    first = of.events(*unworn(of), 0.01, memory)
+    assert (memory[first[kernels.EVENT_LOAD].reshape(memory.shape) > 0.0] >= 0.0).all()
+    again = of.events(*unworn(of), 0.01, memory)
+    fresh = of.events(*unworn(of), 0.01, of.memory())
+    np.testing.assert_array_equal(fresh, first)
+    np.testing.assert_allclose(again, first, rtol=1e-5, atol=1e-5)
+
+
+def test_way_between_phases_and_over_the_pitch():
+    """Every loaded event holds half the way from the phase before and half to the next one."""
+    of = contact("joint.pitch='uniform'")
+    of = replace(of, sliding=replace(of.sliding, fraction=0.0, path_fraction=1.0))
+    table = of.events(*unworn(of), 0.02, of.memory()).reshape(kernels.EVENT_ROWS, 4, of.most)
+    centre = table[kernels.EVENT_CENTRE_X] + 1j * table[kernels.EVENT_CENTRE_Y]
+    slip, load = table[kernels.EVENT_SLIP], table[kernels.EVENT_LOAD]
+    # One roller on its whole way: positions 0, 1, 2 ... in the phases 1 to 4 of each.
+    way = centre[:, : of.most - 1].T.ravel()
+    loaded = load[:, : of.most - 1].T.ravel() > 0.0
+    steps = np.abs(np.diff(way)) * loaded[1:] * loaded[:-1]
+    expected = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
+    inner = slice(0, 4 * (of.most - 2))
+    np.testing.assert_allclose(slip[:, : of.most - 1].T.ravel()[inner], expected[inner], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("frictions", "path_fraction"),
+    [((0.0, 0.0), 1.0), ((0.05, 0.1), 1.0), ((0.1, 0.05), 0.1)],
+    ids=["none", "slides", "rolls"],
+)
+def test_rollers_roll_up_the_flank_or_slide(frictions, path_fraction):
+    """They roll where mu_tooth r > mu_bush r_bush; then xi of the way is slid."""
+    tooth, bush = frictions
+    of = contact(
+        f"mechanism.friction_roller_tooth={tooth}", f"mechanism.friction_roller_bush={bush}"
+    )
+    assert (of.sliding.fraction, of.sliding.path_fraction) == (0.1, path_fraction)
+
+
+@pytest.mark.parametrize("nodes", [101, 151, 152])
+def test_coarsened_keeps_ends_and_loads(nodes):
+    of = contact(f"sprocket.nodes={nodes}")
+    coarse = of.coarsened()
+    points = of.profile.x.size
+    assert coarse.profile.x.size == (points + 1) // 2
+    for values, fewer in ((of.profile.x, coarse.profile.x), (of.profile.y, coarse.profile.y)):
+        assert (values[0], values[-1]) == (fewer[0], fewer[-1])
+    load, fewer = (c.events(*unworn(c), 0.01, c.memory())[kernels.EVENT_LOAD] for c in (of, coarse))
+    np.testing.assert_allclose(fewer, load, rtol=0.0, atol=0.02 * load.max())
+
+
+def test_every_other_gap_engaged():
+    """A crawler's 27 gaps of which every other one carries a bush: 13.5 to the turn, all alike."""
+    case = wearsim.load_case(Path(__file__).parents[2] / "cases" / "d6-crawler-27t-wrap.toml")
+    of = wrap_contact(case, case.drive)
+    assert of.mechanism.pitch_angle == pytest.approx(2.0 * math.pi / 13.5)
+    assert of.bodies == 1
+
+
+def test_a_chain_that_jumps_is_an_error():
+    of = contact("joint.pitch='uniform'")
+    (block,) = of.blocks
+    pull = replace(block.mechanism.pull, slack=1e-6)
+    loose = replace(of, blocks=(replace(block, mechanism=replace(block.mechanism, pull=pull)),))
+    with pytest.raises(JumpError, match=r"wrap at an elongation of 6 %: .*jumps"):
+        loose.events(*unworn(loose), 0.06, loose.memory())
+
+
+def test_two_halves_of_the_duty_are_the_whole():
+    of = contact()
+    (block,) = of.blocks
+    halves = replace(of, blocks=(replace(block, share=0.25), replace(block, share=0.75)))
+    runs = [
+        run_dwelling(c, archard(1e-9), (depth_criterion(0.02),), 1e12, 0, 1e5) for c in (of, halves)
+    ]
+    assert runs[1].cycles[-1] == pytest.approx(runs[0].cycles[-1], rel=0.01)
+
+
+def test_assumptions_name_the_sliding_and_the_teeth():
+    text = " ".join(contact().assumptions())
+    for part in ("0.1 of the articulation of 18 degrees", "teeth of two kinds", "half-space"):
+        assert part in text
+    assert "every tooth alike" in " ".join(contact("joint.pitch='uniform'").assumptions())
