@@ -13,7 +13,7 @@ from pathlib import Path
 import wearsim
 from wearsim.case.load import load_case
 from wearsim.result import Life, WearResult
-from wearsim.simulation import tooth_loads
+from wearsim.simulation.loads import tooth_loads
 
 ROOT = Path(__file__).parent.parent
 DRIVES = {

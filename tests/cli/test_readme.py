@@ -21,7 +21,7 @@ from wearsim.report.answer import grouped
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
-from wearsim.simulation import tooth_loads
+from wearsim.simulation.loads import tooth_loads
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Kind
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
-from wearsim.kernels import dwelling as kernels
+from wearsim.kernels import event_rows as kernels
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.dwelling import Start, advance_dwelling, run_dwelling, run_together
@@ -200,6 +200,16 @@ def test_snapshots_are_thinned_and_keep_both_ends():
     assert (run.sliding_speed == 50.0).all()
 
 
+def test_the_end_of_the_first_chain_is_kept():
+    """At cycle 301 of 3000, an odd snapshot that thinning would drop."""
+    contact = Seat(growth=0.02 / 301)
+    run = run_dwelling(contact, archard(1e3 * RATE), (depth_criterion(1.0),), 3000.0, 0, 1.0)
+    end = int(np.abs(run.cycles - 301.0).argmin())
+    assert run.cycles[end] == pytest.approx(301.0, rel=1e-9)
+    assert (run.chains[end], run.chains[-1]) == (1.0, 10.0)
+    assert run.elongation[end] == pytest.approx(0.02, rel=1e-9)
+
+
 def test_a_run_begun_worn_goes_on():
     """Two halves are the whole where the steps are the same."""
     law, limit = archard(1e4 * RATE), (depth_criterion(1.0),)
@@ -293,6 +303,7 @@ def test_a_jump_ends_the_life():
     run = run_dwelling(Jumping(growth=1e-4), LAW, (depth_criterion(1.0),), 1e9, 0)
     assert run.met is not None
     assert (run.met.name, run.met.limit) == ("min_slack_tension_N", 30.0)
+    assert (np.diff(run.cycles) > 0.0).all()
     assert run.cycles[-1] == pytest.approx(100.0, rel=0.03)
     assert run.elongation[-1] == pytest.approx(0.01, rel=0.03)
 

@@ -17,7 +17,7 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
-from wearsim.simulation import tooth_loads
+from wearsim.simulation.loads import tooth_loads
 
 CASE = {
     "format_version": 1,

@@ -9,7 +9,7 @@ import pytest
 
 import wearsim
 from wearsim.errors import JumpError
-from wearsim.kernels import dwelling as kernels
+from wearsim.kernels import event_rows as kernels
 from wearsim.kernels.wrap_cycle import engaged
 from wearsim.simulation.wrap import wrap_contact
 from wearsim.wear.criteria import depth_criterion

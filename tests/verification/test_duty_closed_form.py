@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 import wearsim
 from wearsim.case.load import load_case
-from wearsim.kernels.dwelling import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
 from wearsim.simulation.wrap import wrap_contact
 
 STRAND = {

@@ -11,7 +11,7 @@ import pytest
 
 from wearsim.contact.dwelling import Dwelling
 from wearsim.geometry.profile import Profile, area_between
-from wearsim.kernels import dwelling as kernels
+from wearsim.kernels import event_rows as kernels
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.dwelling import run_dwelling
 from wearsim.wear.law import archard, power

@@ -34,7 +34,7 @@ def loads(
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
     (loaded,) = load_cases([case], settings, as_json)
     from wearsim.report.loads import loads_json, loads_table
-    from wearsim.simulation import tooth_loads
+    from wearsim.simulation.loads import tooth_loads
 
     found = tooth_loads(
         loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase

@@ -200,7 +200,7 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
 def _check_hold(case: "Case") -> None:
     """Find a chain that jumps, which takes the solver but no run."""
     if case.inputs["mechanism"]["kind"] == "wrap":
-        from wearsim.simulation import check_hold
+        from wearsim.simulation.loads import check_hold
 
         check_hold(case)
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from wearsim.contact.engagement import Engagement, Kind
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.kernels.dwelling import (
+from wearsim.kernels.event_rows import (
     EVENT_BODY,
     EVENT_COUNT,
     EVENT_LOAD,

@@ -6,18 +6,23 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.event_rows import (
+    EVENT_BODY,
+    EVENT_CENTRE_X,
+    EVENT_CENTRE_Y,
+    EVENT_COUNT,
+    EVENT_LOAD,
+    EVENT_NORMAL_X,
+    EVENT_NORMAL_Y,
+    EVENT_SLIP,
+    EVENT_SPEED,
+    EVENT_TOUCHED,
+)
 from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
 from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
-
-# rows of the table of events
-(
-    EVENT_CENTRE_X, EVENT_CENTRE_Y, EVENT_NORMAL_X, EVENT_NORMAL_Y, EVENT_TOUCHED,
-    EVENT_LOAD, EVENT_SLIP, EVENT_SPEED, EVENT_COUNT, EVENT_BODY,
-) = range(10)  # fmt: skip
-EVENT_ROWS = 10
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)

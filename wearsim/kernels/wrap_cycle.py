@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from numba import types
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.dwelling import (
+from wearsim.kernels.event_rows import (
     EVENT_BODY,
     EVENT_CENTRE_X,
     EVENT_CENTRE_Y,

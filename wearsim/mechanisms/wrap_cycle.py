@@ -11,7 +11,7 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
-from wearsim.kernels.dwelling import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
 from wearsim.kernels.wrap import JUMPED, SEATED, WORK_ROWS
 from wearsim.kernels.wrap_cycle import (
     ARTICULATION_SLIP,

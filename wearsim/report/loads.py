@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.report.answer import grouped
-from wearsim.simulation import ToothLoads
+from wearsim.simulation.loads import ToothLoads
 
 _COLUMNS = (
     "tension_N",

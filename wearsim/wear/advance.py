@@ -22,7 +22,6 @@ from wearsim.geometry.profile import Vector
 from wearsim.kernels.flank import flank_frame
 from wearsim.kernels.wear import soften, wear_depth
 from wearsim.wear.criteria import Criterion, first_met
-from wearsim.wear.dwelling import advance_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
@@ -221,6 +220,9 @@ def run_advance(
         The flank conforms to the roller, or the contact is gone.
     """
     if not isinstance(contact, Contact):
+        # Its kernels compile where it is imported for the first time.
+        from wearsim.wear.dwelling import advance_dwelling
+
         return advance_dwelling(contact, law, criteria, horizon, life_tolerance)
     rate = _Rate(contact, law)
     profile = contact.profile

@@ -26,10 +26,6 @@ from wearsim.kernels.dwelling import (
     COEFFICIENT,
     CORE_FACTOR,
     CYCLES,
-    EVENT_COUNT,
-    EVENT_LOAD,
-    EVENT_SLIP,
-    EVENT_SPEED,
     FINDINGS,
     MATE_RADIUS,
     NUMBERS,
@@ -41,6 +37,7 @@ from wearsim.kernels.dwelling import (
     UNBALANCED,
     wear_events,
 )
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
 from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
 from wearsim.wear.criteria import Criterion, first_met, jump_criterion
 from wearsim.wear.law import Law
@@ -62,6 +59,9 @@ _REACH = 1.2
 """Half of the stretch of outline that an event may touch, in radii of the mate."""
 
 _MOST_LEVELS = 5
+
+_MOST_STEPS = 10_000
+"""Steps of one run at level 0; a sprocket of some chains takes some hundreds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,19 +205,30 @@ class _Bodies:
 
 
 class _Record:
-    """Snapshots, thinned out as they become too many."""
+    """Snapshots, thinned out as they become too many; the end of the first chain stays."""
 
     def __init__(self) -> None:
         self.states: list[_State] = []
+        self.chain_end: _State | None = None
         self.stride, self.count = 1, 0
 
     def add(self, bodies: _Bodies, last: bool = False) -> None:
-        if last or self.count % self.stride == 0:
+        repeated = bool(self.states) and self.states[-1].cycles == bodies.cycles
+        if (last or self.count % self.stride == 0) and not repeated:
             self.states.append(bodies.state())
         self.count += 1
         if len(self.states) > 2 * SNAPSHOTS:
-            self.states = self.states[::2]
+            self.states = [
+                state
+                for i, state in enumerate(self.states)
+                if i % 2 == 0 or state is self.chain_end
+            ]
             self.stride *= 2
+
+    def end_chain(self, bodies: _Bodies) -> None:
+        self.add(bodies, last=True)
+        if self.chain_end is None:
+            self.chain_end = self.states[-1]
 
     def trajectory(self, bodies: _Bodies, met: Criterion | None) -> DwellingTrajectory:
         states = self.states
@@ -321,6 +332,11 @@ def run_dwelling(
     rate, met = 0.0, None
     while met is None and bodies.cycles < horizon and not (stop and stop.is_set()):
         before = bodies.state()
+        if not cycles_per_step and bodies.updates > _MOST_STEPS * 2**level:
+            raise ConvergenceError(
+                f"wear at cycle {bodies.cycles:.6g}: the run must end within {_MOST_STEPS} steps, but "
+                f"is at chain {bodies.chain} and {bodies.depth.max():.3g} mm: lower run.horizon_hours"
+            )
         cycles = cycles_per_step
         if not cycles_per_step:
             cycles = (
@@ -342,7 +358,7 @@ def run_dwelling(
         if met is not None:
             _cut(criteria, bodies, before)
         elif growth > 0.0 and bodies.elongation >= elongation_limit * (1.0 - 1e-9):
-            record.add(bodies, last=True)
+            record.end_chain(bodies)
             bodies.elongation, bodies.chain = 0.0, bodies.chain + 1
             sizes = _step_sizes(limit, level)
         else:

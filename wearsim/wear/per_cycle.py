@@ -14,7 +14,6 @@ from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.wear import CONFORMING, RUNNING, UNSTABLE, VANISHED, run_cycles
 from wearsim.wear.criteria import Criterion, first_met
-from wearsim.wear.dwelling import run_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
@@ -140,6 +139,9 @@ def run_per_cycle(
         The flank conforms to the roller, or the contact is gone.
     """
     if not isinstance(contact, Contact):
+        # Its kernels compile where it is imported for the first time.
+        from wearsim.wear.dwelling import run_dwelling
+
         return run_dwelling(contact, law, criteria, horizon, 0, float(cycles_per_update))
     run = _Run(contact, law, cycles_per_update, criteria[0].limit)
     check_touch(contact, run.x, run.y, run.depth, 0.0)
