@@ -41,7 +41,9 @@ def chain_hours(case: wearsim.Case) -> float:
     inputs, drive = case.inputs, case.drive
     layout, area = drive.layout, case.chain.bearing_area
     tight, slack = drive.tight + drive.centrifugal, drive.slack + drive.centrifugal
-    turning = math.pi * case.chain.pin_diameter * (1 / layout.teeth_1 + 1 / layout.teeth_2)
+    own = case.drive.gaps / case.engaged_every
+    mate = layout.teeth_2 if case.drive.driver else layout.teeth_1
+    turning = math.pi * case.chain.pin_diameter * (1 / own + 1 / mate)
     rate = inputs["joint"]["specific_wear_rate_mm2_per_N"]
     loop = rate * (tight + slack) / area * turning / case.chain.pitch
     pitches = inputs["sprocket"]["teeth"] / inputs["sprocket"].get("engaged_every", 1)

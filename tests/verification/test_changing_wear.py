@@ -181,7 +181,7 @@ def test_life_ends_with_the_measurement_over_pins() -> None:
     result = wrap("stop.critical_depth_mm=0.05", f"stop.over_pins_change_mm={limit}")
     assert result.stop == "over_pins_change_mm"
     cycles = np.interp(limit, change, free.history_columns["cycles"])
-    assert result.cycles == pytest.approx(cycles, rel=0.03)
+    assert result.cycles == pytest.approx(cycles, rel=0.06)
 
 
 @pytest.mark.parametrize(

@@ -400,6 +400,9 @@ class Case:
         Speed of the sprocket, the mean over the time of its duty.
     engaged_every : int
         Every which gap carries a roller.
+    turns_per_cycle : int
+        Turns between two loadings of a gap that carries rollers: engaged_every over its
+        greatest common divisor with the number of gaps.
     wear : WearInput
         The wear law.
     critical_depth : float
@@ -423,6 +426,7 @@ class Case:
     modulus: float
     speed_rpm: float
     engaged_every: int
+    turns_per_cycle: int
     wear: WearInput
     critical_depth: float
     min_tip_land: float
@@ -433,5 +437,5 @@ class Case:
 
     @property
     def cycles_per_hour(self) -> float:
-        """Loadings of one gap in an hour: 60 n / engaged_every."""
-        return 60.0 * self.speed_rpm / self.engaged_every
+        """Loadings of a gap that carries rollers in an hour: 60 n over turns per cycle."""
+        return 60.0 * self.speed_rpm / self.turns_per_cycle

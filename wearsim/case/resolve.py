@@ -91,6 +91,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         modulus=modulus,
         speed_rpm=duty.speed_rpm,
         engaged_every=tables.sprocket.engaged_every if tables.sprocket else 1,
+        turns_per_cycle=_turns_per_cycle(case),
         wear=wear,
         critical_depth=critical_depth,
         min_tip_land=tables.stop.min_tip_land_mm or 0.0,
@@ -99,6 +100,20 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )
+
+
+def _turns_per_cycle(case: Resolution) -> int:
+    """Turns between two loadings of a gap; some gaps carry no roller where it is not engaged_every."""
+    table = case.tables.sprocket
+    if table is None:
+        return 1
+    common = math.gcd(table.teeth, table.engaged_every)
+    if common > 1:
+        case.warnings.append(
+            f"with {table.teeth} gaps and engaged_every = {table.engaged_every} the rollers meet the "
+            f"same {table.teeth // common} gaps: those wear {common} times as fast as if all took part"
+        )
+    return table.engaged_every // common
 
 
 def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:

@@ -8,7 +8,7 @@ def elongation_per_loop(
     pressures: tuple[float, float],
     pin_diameter: float,
     pitch: float,
-    teeth: tuple[int, int],
+    teeth: tuple[float, float],
 ) -> float:
     """Return how much a chain grows in one loop around two sprockets.
 
@@ -27,8 +27,8 @@ def elongation_per_loop(
         d2 [mm].
     pitch : float
         p [mm].
-    teeth : tuple of int
-        z1 and z2.
+    teeth : tuple of float
+        z1 and z2, rollers per turn.
 
     Returns
     -------

@@ -139,7 +139,7 @@ class WrapContact(Dwelling):
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
-        """Return the same contact on every second point of the outline.
+        """Return the same contact on every second point of the outline and half of the phases.
 
         Returns
         -------
@@ -150,7 +150,7 @@ class WrapContact(Dwelling):
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
         coarse = Profile(outline.x[keep], outline.y[keep])
-        return self.on_outline(coarse)
+        return replace(self.on_outline(coarse), phases=max(1, self.phases // 2))
 
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline.

@@ -7,6 +7,7 @@ import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
 from wearsim.errors import ConvergenceError
+from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
 from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.joint import elongation_per_loop
@@ -161,7 +162,8 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
     )
     blocks = tuple(_wrap_block(drive, mechanism, block) for block in drive.blocks)
     layout, joint = drive.layout, drive.joint
-    meetings = layout.meetings_1 if drive.driver else layout.meetings_2
+    engaged = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
+    own = 2.0 * math.pi / drive.pitch_angle
     per_loop = math.fsum(
         block.share
         * elongation_per_loop(
@@ -172,7 +174,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
             ),
             case.chain.pin_diameter,
             case.chain.pitch,
-            (layout.teeth_1, layout.teeth_2),
+            (own, layout.teeth_2 if drive.driver else layout.teeth_1),
         )
         for block in drive.blocks
     )
@@ -185,8 +187,8 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
             path_fraction=drive.slip_fraction if rolls else 1.0,
         ),
         modulus=case.modulus,
-        same_link_kind=case.engaged_every == 1 and meetings.same_link_kind,
-        elongation_per_cycle=per_loop * drive.gaps / layout.links,
+        same_link_kind=Meetings(engaged, layout.links).same_link_kind,
+        elongation_per_cycle=per_loop * engaged / layout.links,
         elongation_limit=joint.elongation_limit,
     )
 

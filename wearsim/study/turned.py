@@ -8,8 +8,9 @@ from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap_cycle import WrapContact
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation.law import wear_law
+from wearsim.simulation.limits import pin_criteria, tooth_criteria
 from wearsim.simulation.wrap import wrap_contact
-from wearsim.wear.criteria import Criterion, tip_land_criterion
+from wearsim.wear.criteria import Criterion, rising
 from wearsim.wear.dwelling import Start, advance_dwelling
 
 
@@ -47,7 +48,7 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
         elongation, chain = 0.0, chain + 1
     turned = contact.on_outline(contact.profile.mirrored())
     start = Start(depth[:, ::-1].copy(), elongation, chain)
-    criteria = _criteria(case, drive, _working_half(contact, depth))
+    criteria = _criteria(case, turned, _working_half(contact, depth))
     profile = turned.profile
     margins = [
         criterion.margin(profile.x - d * profile.normal_x, profile.y - d * profile.normal_y, d)
@@ -77,11 +78,14 @@ def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
     return side * contact.profile.mirrored().x >= 0.0
 
 
-def _criteria(case: Case, drive: WrapDrive, half: NDArray[np.bool_]) -> tuple[Criterion, ...]:
-    limit = case.critical_depth
-    depth = Criterion(
-        "critical_depth_mm", limit, lambda x, y, depth: limit - float(depth[half].max())
-    )
-    if case.min_tip_land:
-        return depth, tip_land_criterion(case.min_tip_land, drive.worn_tip_land)
-    return (depth,)
+def _criteria(case: Case, contact: WrapContact, half: NDArray[np.bool_]) -> tuple[Criterion, ...]:
+    """The limits of the case, those on the depth for the half that works."""
+    found = []
+    for criterion in (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path)):
+        of_half = criterion.name in ("critical_depth_mm", "case_depth_mm")
+        found.append(
+            rising(criterion.name, criterion.limit, lambda x, y, depth: float(depth[half].max()))
+            if of_half
+            else criterion
+        )
+    return tuple(found)

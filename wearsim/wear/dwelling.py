@@ -58,7 +58,7 @@ _ELONGATION_STEPS = 40
 _REACH = 1.2
 """Half of the stretch of outline that an event may touch, in radii of the mate."""
 
-_MOST_LEVELS = 5
+_MOST_LEVELS = 3
 
 _MOST_STEPS = 10_000
 """Steps of one run at level 0; a sprocket of some chains takes some hundreds."""
@@ -205,11 +205,11 @@ class _Bodies:
 
 
 class _Record:
-    """Snapshots, thinned out as they become too many; the end of the first chain stays."""
+    """Snapshots, thinned out as they become too many; ends of chains stay."""
 
     def __init__(self) -> None:
         self.states: list[_State] = []
-        self.chain_end: _State | None = None
+        self.ends: list[_State] = []
         self.stride, self.count = 1, 0
 
     def add(self, bodies: _Bodies, last: bool = False) -> None:
@@ -217,18 +217,16 @@ class _Record:
         if (last or self.count % self.stride == 0) and not repeated:
             self.states.append(bodies.state())
         self.count += 1
-        if len(self.states) > 2 * SNAPSHOTS:
+        if len(self.states) > 2 * SNAPSHOTS + len(self.ends):
+            stay = {id(state) for state in (*self.ends, self.states[-1])}
             self.states = [
-                state
-                for i, state in enumerate(self.states)
-                if i % 2 == 0 or state is self.chain_end
+                state for i, state in enumerate(self.states) if i % 2 == 0 or id(state) in stay
             ]
             self.stride *= 2
 
     def end_chain(self, bodies: _Bodies) -> None:
         self.add(bodies, last=True)
-        if self.chain_end is None:
-            self.chain_end = self.states[-1]
+        self.ends.append(self.states[-1])
 
     def trajectory(self, bodies: _Bodies, met: Criterion | None) -> DwellingTrajectory:
         states = self.states

@@ -7,6 +7,9 @@ import numpy as np
 
 from wearsim.geometry.profile import Vector
 
+_MOST_STEPS = 1000
+"""Steps of Newton's method; it takes about the logarithm of the factor."""
+
 
 @dataclass(frozen=True)
 class RunningIn:
@@ -63,18 +66,19 @@ class RunningIn:
         Returns
         -------
         numpy.ndarray
-            N, by Newton's method from above; increasing where tau is.
+            N, by Newton's method from tau/f, from where it rises to the answer: tau is concave.
         """
         tau = np.asarray(constant, dtype=float)
         if self.factor == 1.0:
             return tau
         excess = self.factor - 1.0
-        cycles = tau.copy()
-        for _ in range(100):
+        cycles = tau / self.factor
+        for _ in range(_MOST_STEPS):
             rest = np.exp(-cycles / self.cycles)
-            step = (cycles + excess * self.cycles * (1.0 - rest) - tau) / (1.0 + excess * rest)
-            cycles -= step
-            if np.abs(step).max(initial=0.0) <= 1e-15 * np.abs(cycles).max(initial=0.0):
+            worn = cycles - excess * self.cycles * np.expm1(-cycles / self.cycles)
+            step = (tau - worn) / (1.0 + excess * rest)
+            cycles += np.maximum(step, 0.0)
+            if (step <= 1e-15 * cycles).all():
                 break
         return cycles
 
