@@ -48,3 +48,18 @@ def test_a_roller_pushes_at_every_point_or_the_run_says_where_it_does_not():
         return
     assert run.flank_columns["load_per_width_N_per_mm"].min() >= 0.0
     assert np.all(np.isfinite(run.flank_columns["pressure_MPa"]))
+
+
+@pytest.mark.parametrize(
+    ("teeth", "every", "turns"), [(27, 2, 2), (28, 2, 1), (30, 4, 2), (27, 3, 1)]
+)
+def test_turns_between_two_loadings_of_a_gap(teeth: int, every: int, turns: int) -> None:
+    """Counted by rolling: roller m meets gap (m every) mod teeth, teeth/every rollers a turn."""
+    met = [m for m in range(1, teeth * every + 1) if m * every % teeth == 0]
+    assert met[0] * every / teeth == turns
+    chain = {"pitch_mm": PITCH, "roller_diameter_mm": 20.0, "inner_width_mm": 90.0}
+    chain |= {"pin_diameter_mm": 10.0, "bearing_area_mm2": 900.0, "mass_kg_per_m": 30.0}
+    sprocket = {"teeth": teeth, "engaged_every": every, "profile": "iso606"}
+    case = wearsim.load_case({**CRAWLER, "chain": chain, "sprocket": sprocket})
+    assert case.turns_per_cycle == turns
+    assert case.cycles_per_hour == pytest.approx(60.0 * case.speed_rpm / turns)

@@ -199,3 +199,14 @@ def test_what_does_not_fit_is_named(setting: str, key: str) -> None:
     with pytest.raises(wearsim.CaseError) as caught:
         wearsim.load_case(STRAND, [*FEW, setting])
     assert key in str(caught.value)
+
+
+@pytest.mark.parametrize("factor", [2.0, 150.0, 1e4])
+def test_running_in_is_undone_for_any_factor(factor: float) -> None:
+    """Also where the excess is far above the lasting rate: increasing, never below zero."""
+    warp = RunningIn(factor, 100.0)
+    worn = np.geomspace(1e-3, 1e9, 200)
+    cycles = warp.running_cycles(worn)
+    assert (cycles > 0.0).all() and (np.diff(cycles) > 0.0).all()
+    back = [warp.constant_cycles(float(run)) for run in cycles]
+    np.testing.assert_allclose(back, worn, rtol=1e-9)
