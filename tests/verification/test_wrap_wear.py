@@ -490,3 +490,13 @@ def test_result_does_not_depend_on_the_order_of_two_runs() -> None:
     first, second = (run() for run in runs)
     np.testing.assert_array_equal(first.cycles, second.cycles)
     np.testing.assert_array_equal(first.all_depth, second.all_depth)
+
+
+def test_margin_against_jumping_is_that_of_the_worn_gaps():
+    """Worn pockets hold the chain otherwise than new teeth; a jump ends the life where it is used up."""
+    case = wearsim.load_case({**CASE, "run": {"horizon_hours": 2000}})
+    found = {state.name: state for state in wearsim.simulate(case).limits}["min_slack_tension_N"]
+    new = wrap_contact(case, case.drive).mechanism.smallest_slack_tension(0.0)
+    assert found.limit == case.drive.slack
+    assert 0.0 < found.value < found.limit
+    assert found.value != pytest.approx(new, rel=0.02)

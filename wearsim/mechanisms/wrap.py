@@ -29,6 +29,9 @@ from wearsim.kernels.wrap import (
     solve_wrap,
 )
 
+_PHASES = 8
+"""Phases of a pitch, ends included, in which a chain is tried for jumping."""
+
 _TOLERANCE = 1e-9
 """Force along a locus left unbalanced, as a fraction of the tight tension."""
 
@@ -360,36 +363,38 @@ class WrapMechanism:
             f"jumps; give a {remedy}"
         )
 
-    def holds(self, elongation: float, phases: int = 8) -> bool:
+    def holds(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> bool:
         """Tell whether the rollers find an equilibrium in every phase.
 
         Parameters
         ----------
         elongation : float
             Relative elongation of the chain.
-        phases : int
-            How many phases are tried, ends included.
+        worn : tuple of WornPath
+            Roller paths of the gaps told apart, none for the unworn gap.
 
         Returns
         -------
         bool
             False where the chain jumps.
         """
-        locus = self.unworn.locus
+        paths = worn or (self.unworn,)
         firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
         return all(
-            self._solve(phase, elongation, first, locus, locus)[0] == SEATED
+            self._solve(phase, elongation, first, paths[0].locus, paths[-1].locus)[0] == SEATED
             for first in firsts
-            for phase in np.linspace(0.0, 1.0, phases)
+            for phase in np.linspace(0.0, 1.0, _PHASES)
         )
 
-    def smallest_slack_tension(self, elongation: float) -> float:
+    def smallest_slack_tension(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> float:
         """Return the slack tension below which the chain jumps, at the same difference of tensions.
 
         Parameters
         ----------
         elongation : float
             Relative elongation of the chain.
+        worn : tuple of WornPath
+            Roller paths of the gaps told apart, none for the unworn gap.
 
         Returns
         -------
@@ -400,7 +405,7 @@ class WrapMechanism:
 
         def _holding(slack: float) -> bool:
             pull = replace(self.pull, tight=difference + slack, slack=slack)
-            return replace(self, pull=pull).holds(elongation)
+            return replace(self, pull=pull).holds(elongation, worn)
 
         low, high = 1e-9 * self.pull.tight, max(difference, self.pull.slack)
         if not _holding(high):

@@ -19,7 +19,7 @@ from wearsim.simulation.law import running_in, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
 from wearsim.wear.criteria import Criterion
-from wearsim.wear.dwelling import DwellingTrajectory, halve_steps, run_dwelling, run_together
+from wearsim.wear.dwelling import DwellingTrajectory, Rows, halve_steps, run_dwelling, run_together
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import difference
@@ -90,7 +90,7 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts={"chain": chain, "sprocket": sprocket},
-        limits=_limits(drive, criteria, run, life),
+        limits=_limits(contact, drive, criteria, run, life),
         assumptions=(*contact.assumptions(), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -288,6 +288,7 @@ def _scaled(
 
 
 def _limits(
+    contact: WrapContact,
     drive: WrapDrive,
     criteria: tuple[Criterion, ...],
     run: DwellingTrajectory,
@@ -299,7 +300,22 @@ def _limits(
     at = min(at, run.cycles.size - 1)
     worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
-    return (*worn, LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation))
+    least = min(_smallest_slack_tension(contact, run.all_depth[at], elongation), drive.tight)
+    return (
+        *worn,
+        LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
+        LimitState("min_slack_tension_N", drive.slack, least),
+    )
+
+
+def _smallest_slack_tension(contact: WrapContact, depth: Rows, elongation: float) -> float:
+    """Slack tension below which the chain jumps on worn gaps [N]."""
+    profile, mechanism = contact.profile, contact.mechanism
+    worn = tuple(
+        mechanism.path.worn(profile.x - row * profile.normal_x, profile.y - row * profile.normal_y)
+        for row in depth
+    )
+    return mechanism.smallest_slack_tension(elongation, worn)
 
 
 def _tables(
