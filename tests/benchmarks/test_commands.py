@@ -1,12 +1,15 @@
 """Whole processes: start-up, a life with warm and with cold kernels, and peak memory.
 
-The figures to reach are those of an idle machine with two cores.
+The goals, 0.15 s for help, 1 s warm and 4 s cold, are those of an idle machine with two cores
+(reports/reference/performance.md). Here the times are held against that of importing what
+wearsim stands on, so that a slow or busy machine does not fail.
 """
 
 import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import pytest
@@ -44,6 +47,20 @@ method = "{method}"
 """
 
 
+IMPORTS = "import numba, scipy.integrate, shapely, pydantic"
+
+
+@pytest.fixture(scope="module")
+def imports():
+    """Least time of three processes that only import the libraries [s]."""
+    times = []
+    for _ in range(3):
+        start = time.perf_counter()
+        subprocess.run([sys.executable, "-c", IMPORTS], check=True)
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
 def run(*arguments, **variables):
     subprocess.run(
         [COMMAND, *arguments],
@@ -53,23 +70,23 @@ def run(*arguments, **variables):
     )
 
 
-def test_help(benchmark):
+def test_help(benchmark, imports):
     benchmark.pedantic(run, ("--help",), rounds=5, warmup_rounds=1)
-    assert benchmark.stats.stats.min < 0.15
+    assert benchmark.stats.stats.min < 0.4 * imports
 
 
-def test_life_warm(benchmark):
+def test_life_warm(benchmark, imports):
     benchmark.pedantic(run, ("life", SHIPPED), rounds=5, warmup_rounds=1)
-    assert benchmark.stats.stats.min < 1.0
+    assert benchmark.stats.stats.min < 4.0 * imports
 
 
-def test_life_cold(benchmark):
+def test_life_cold(benchmark, imports):
     def cold():
         with tempfile.TemporaryDirectory() as folder:
             run("life", SHIPPED, NUMBA_CACHE_DIR=folder)
 
     benchmark.pedantic(cold, rounds=3, warmup_rounds=0)
-    assert benchmark.stats.stats.min < 4.0
+    assert benchmark.stats.stats.min < 15.0 * imports
 
 
 @pytest.mark.parametrize("method", ["per_cycle", "advance"])

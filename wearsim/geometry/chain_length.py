@@ -8,8 +8,6 @@ exact for an open belt over both pitch circles. For 20 and 63 teeth at 36 pitche
 
 import math
 
-from scipy.optimize import brentq
-
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import pitch_diameter
 
@@ -140,6 +138,8 @@ def belt_centre(teeth_1: int, teeth_2: int, links: float) -> float:
             f"drive layout: the links must exceed the {max(teeth_1, teeth_2)} teeth of the larger "
             f"sprocket, are {links:g}: use more links"
         )
+    from scipy.optimize import brentq
+
     return float(
         brentq(
             lambda centre: belt_links(teeth_1, teeth_2, centre) - links,
