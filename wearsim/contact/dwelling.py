@@ -53,6 +53,11 @@ class Dwelling(ABC):
         """Radius of the mate [mm]."""
 
     @property
+    def cycles_per_chain(self) -> float:
+        """Cycles until a new chain has grown to its limit, apart from running-in."""
+        return self.elongation_limit / self.elongation_per_cycle
+
+    @property
     def arc_length(self) -> Vector:
         """Along the outline of a new body [mm]."""
         return self.profile.arc_length

@@ -47,12 +47,13 @@ FLANK_COLUMNS = {
 """Columns of both tables for every kind of mechanism."""
 
 _INPUTS = "inputs"
-_FILE_KEYS = (
+FILE_KEYS = (
     ("sprocket", "points_file"),
     ("sprocket", "dxf_file"),
     ("mechanism", "table_file"),
     ("load", "duty_file"),
 )
+"""Tables and keys of the inputs that name a file."""
 
 
 def write_result(result: WearResult, folder: Path, force: bool) -> None:
@@ -171,7 +172,7 @@ def _life(stored: dict[str, float]) -> Life | LowerBound:
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:
     """Names of the CSV files in a case's tables."""
-    return [inputs[table][key] for table, key in _FILE_KEYS if key in inputs.get(table, {})]
+    return [inputs[table][key] for table, key in FILE_KEYS if key in inputs.get(table, {})]
 
 
 def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
@@ -190,7 +191,7 @@ def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
         The tables, with new paths for the files.
     """
     moved = dict(inputs)
-    for table, key in _FILE_KEYS:
+    for table, key in FILE_KEYS:
         if key in inputs.get(table, {}):
             name = PurePosixPath(folder, PurePosixPath(inputs[table][key]).name)
             moved[table] = {**inputs[table], key: str(name)}

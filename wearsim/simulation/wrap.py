@@ -251,7 +251,7 @@ def _chain_life(
     case: Case, contact: WrapContact, horizon: float, warp: RunningIn
 ) -> Life | LowerBound:
     """Life of a chain: apart from running-in its joints wear at a constant rate."""
-    cycles = contact.elongation_limit / contact.elongation_per_cycle
+    cycles = contact.cycles_per_chain
     run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
     return _life(case, run, cycles <= horizon)
 

@@ -340,6 +340,5 @@ def chain_life(case: Case) -> Life:
         Whether it lies within the horizon or not.
     """
     assert isinstance(case.drive, WrapDrive)
-    contact = wrap_contact(case, case.drive)
-    cycles = contact.elongation_limit / contact.elongation_per_cycle
+    cycles = wrap_contact(case, case.drive).cycles_per_chain
     return Life(cycles, cycles / case.cycles_per_hour)

@@ -189,7 +189,7 @@ def _chain(case: Case, reading: Reading) -> _Course:
     if not isinstance(drive, WrapDrive):
         raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     contact = wrap_contact(case, drive)
-    cycles = contact.elongation_limit / contact.elongation_per_cycle
+    cycles = contact.cycles_per_chain
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _Course(
         hours=np.array([0.0, life.hours]),

@@ -9,11 +9,10 @@ from typing import Any
 
 from wearsim.case.load import load_case
 from wearsim.case.model import Case, WrapDrive
+from wearsim.case.schema.sprocket import STANDARD_FORMS
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.result import Life, LowerBound
-
-_FILE_KEYS = (("sprocket", "points_file"), ("sprocket", "dxf_file"), ("load", "duty_file"))
-_STANDARD_FORMS = ("iso606", "ansi_b29", "gost591")
+from wearsim.result.folder import FILE_KEYS
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ def meetings_around(case: Case, drive: WrapDrive) -> tuple[ToothCount, ...]:
     """
     if case.engaged_every > 1:
         return ()
-    drawn = case.inputs["sprocket"]["profile"] not in _STANDARD_FORMS
+    drawn = case.inputs["sprocket"]["profile"] not in STANDARD_FORMS
     teeth, links = drive.gaps, drive.layout.links
     return tuple(
         ToothCount(Meetings(teeth + more, links + longer), run=more >= 0 and longer >= 0)
@@ -94,8 +93,8 @@ def variant(case: Case, meetings: Meetings) -> Case:
             del sprocket["tip_diameter_mm"]
     drive["links"] = meetings.links
     drive.pop("centre_distance_mm", None)
-    for table, key in _FILE_KEYS:
-        if key in inputs[table]:
+    for table, key in FILE_KEYS:
+        if key in inputs.get(table, {}):
             name = PurePath(inputs[table][key]).name
             (path,) = (path for path in case.files if path.name == name)
             inputs[table][key] = str(path.resolve())
