@@ -405,6 +405,16 @@ CHANGES = {
         ("wrap", 0.0001),
         ("strand", 0.1, "stop.over_pins_change_mm"),
     ],
+    "stop.min_slack_tension_N": [
+        ("wrap", 2.0),
+        ("wrap", 30.1, "stop.min_slack_tension_N"),
+        ("wrap", 1e-6, "stop.min_slack_tension_N"),
+        ("strand", 1.0, "stop.min_slack_tension_N"),
+    ],
+    "wear.roller_wear_ratio": [
+        ("wrap", 0.5),
+        ("strand", 0.5, "wear.roller_wear_ratio"),
+    ],
     "run.method": [("per cycle", "advance", "run.cycles_per_update"), ("archard", "per_cycle")],
     "run.cycles_per_update": [("per cycle", 2), ("strand", 2, "run.cycles_per_update")],
     "run.life_tolerance": [("strand", 1e-5)],

@@ -1,11 +1,11 @@
 """Kernels of dwelling wear on arcs, steps and criteria of the engine, errors, and engagements."""
 
-import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from wearsim.contact.dwelling import Dwelling
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.contact.engagement import Kind
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
@@ -54,8 +54,8 @@ class Seat(Dwelling):
     def memory(self):
         return np.zeros((1, 1))
 
-    def events(self, x, y, elongation, memory):
-        self.seen.append(elongation)
+    def events(self, x, y, wear, memory):
+        self.seen.append(wear.elongation)
         memory += 1.0
         table = np.zeros((kernels.EVENT_ROWS, self.bodies))
         table[kernels.EVENT_CENTRE_Y] = 5.0
@@ -216,7 +216,7 @@ def test_a_run_begun_worn_goes_on():
     law, limit = archard(1e4 * RATE), (depth_criterion(1.0),)
     whole = run_dwelling(Seat(growth=1e-4), law, limit, 100.0, 0, 1.0)
     first = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0)
-    start = Start(first.all_depth[-1], float(first.elongation[-1]), 1)
+    start = Start(first.all_depth[-1], ChainWear(float(first.elongation[-1])), 1)
     second = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0, start=start)
     np.testing.assert_allclose(
         second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max()
@@ -225,11 +225,16 @@ def test_a_run_begun_worn_goes_on():
 
 
 def test_a_run_can_be_stopped():
-    stop = threading.Event()
-    stop.set()
     with pytest.raises(IndexError):
         # Nothing was run, so there is no trajectory; its caller has an error of its own to raise.
-        run_dwelling(Seat(), LAW, LIMIT, 1e9, 0, stop=stop)
+        run_dwelling(Seat(), LAW, LIMIT, 1e9, 0, watch=lambda part: False)
+
+
+def test_progress_rises_to_the_end():
+    told = []
+    run_together([(Seat(), 0), (Seat(), 0)], LAW, LIMIT, 1e9, progress=told.append)
+    assert told == sorted(told)
+    assert told[0] == 0.0 and 0.98 < told[-1] <= 1.0
 
 
 def test_runs_side_by_side_are_those_alone():
@@ -280,7 +285,7 @@ def test_not_a_number_is_an_error(quantity):
 def test_a_roller_out_of_reach_is_an_error():
     """Pressed sideways, the roller meets no point."""
     contact = Seat()
-    table = contact.events(None, None, 0.0, contact.memory())
+    table = contact.events(None, None, NEW_CHAIN, contact.memory())
     table[kernels.EVENT_NORMAL_X], table[kernels.EVENT_NORMAL_Y] = 1.0, 0.0
     table[kernels.EVENT_CENTRE_X] = -50.0
     contact.events = lambda *arguments: table
@@ -293,10 +298,10 @@ class Jumping(Seat):
 
     slack_tension = 30.0
 
-    def events(self, x, y, elongation, memory):
-        if elongation >= 0.01:
+    def events(self, x, y, wear, memory):
+        if wear.elongation >= 0.01:
             raise JumpError("the chain jumps")
-        return super().events(x, y, elongation, memory)
+        return super().events(x, y, wear, memory)
 
 
 def test_a_jump_ends_the_life():
@@ -310,7 +315,7 @@ def test_a_jump_ends_the_life():
 
 
 def test_a_jump_at_once_is_an_error():
-    start = Start(np.zeros((1, 151)), 0.015, 1)
+    start = Start(np.zeros((1, 151)), ChainWear(0.015), 1)
     with pytest.raises(JumpError):
         run_dwelling(Jumping(growth=1e-4), LAW, LIMIT, 1e9, 0, start=start)
 
@@ -337,3 +342,53 @@ def test_engagement_without_load():
         *(np.array(v) for v in (Seat().profile.x, Seat().profile.y)), np.zeros(151)
     )
     assert not met.load_per_width.any() and not met.slip.any() and not met.per_cycle.any()
+
+
+# -- rollers -------------------------------------------------------------------------------------
+
+
+def test_area_worn_off_a_roller():
+    """A roller of 5 mm that loses pi (25 - 16) mm2 of its section has 4 mm left."""
+    seat = Seat(growth=1e-4)
+    seat.roller_area_ratio = 2.0
+    after = seat.chain_after(ChainWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
+    assert after.elongation == pytest.approx(0.015, rel=1e-12)
+    assert after.roller == pytest.approx(1.0, rel=1e-12)
+    seat.thinnest_roller = 4.01
+    with pytest.raises(ContactError, match="worn through at an elongation of 1 %"):
+        seat.chain_after(ChainWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
+
+
+class Rubbed(Seat):
+    """Remembers the chain of every step."""
+
+    roller_area_ratio = 3.0
+
+    def events(self, x, y, wear, memory):
+        self.worn = wear
+        return super().events(x, y, wear, memory)
+
+
+@pytest.mark.parametrize("bodies", [1, 2])
+def test_rollers_lose_their_share_of_what_a_gap_loses(bodies):
+    contact = Rubbed(bodies)
+    run = run_dwelling(contact, LAW, LIMIT, 1e9, 1)
+    lost = np.pi * (5.0**2 - (5.0 - run.roller_wear[-1]) ** 2)
+    # The last step was cut back to the limit; what it left is linear in its part.
+    assert lost == pytest.approx(3.0 * run.area / bodies, rel=1e-4)
+    assert (np.diff(run.roller_wear) > 0.0).all()
+
+
+def test_a_soft_core_of_the_tooth_does_not_soften_the_roller():
+    """Below a layer of no depth the tooth wears five times as fast, its roller as before."""
+    law = replace(LAW, case_depth=1e-12, core_factor=5.0)
+    run = run_dwelling(Rubbed(), law, LIMIT, 1e9, 2)
+    lost = np.pi * (5.0**2 - (5.0 - run.roller_wear[-1]) ** 2)
+    assert lost == pytest.approx(3.0 * run.area / 5.0, rel=1e-3)
+
+
+def test_a_new_chain_brings_new_rollers():
+    run = run_dwelling(Rubbed(growth=1e-7), LAW, LIMIT, 1e9, 0)
+    assert run.chains[-1] > 2.0
+    starts = np.flatnonzero(np.diff(run.chains) > 0.0) + 1
+    assert (run.roller_wear[starts] < run.roller_wear[starts - 1]).all()

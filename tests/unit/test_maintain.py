@@ -9,6 +9,7 @@ import pytest
 
 import wearsim
 from wearsim.case.schema import MaintenanceTable
+from wearsim.contact.dwelling import ChainWear
 from wearsim.errors import CaseError
 from wearsim.report.answer import answer
 from wearsim.report.maintain import maintenance_page, maintenance_text, policy_rows
@@ -215,7 +216,7 @@ def test_a_run_goes_on_from_where_another_ended():
     whole = run_dwelling(contact, law, criteria, 1e12, 1)
     half = run_dwelling(contact, law, criteria, 0.5 * whole.cycles[-1], 1)
     assert half.met is None
-    start = Start(half.all_depth[-1], float(half.elongation[-1]), int(half.chains[-1]))
+    start = Start(half.all_depth[-1], ChainWear(float(half.elongation[-1])), int(half.chains[-1]))
     rest = run_dwelling(contact, law, criteria, 1e12, 1, start=start)
     assert np.array_equal(rest.all_depth[0], half.all_depth[-1])
     assert rest.x[0] == pytest.approx(half.x[-1], abs=1e-12)
@@ -223,19 +224,39 @@ def test_a_run_goes_on_from_where_another_ended():
     assert rest.all_depth[-1].max() == pytest.approx(0.02, rel=1e-12)
 
 
-def test_a_sprocket_turned_while_new_lives_as_long_as_one_that_is_not(life):
-    """A symmetric gap: mirror image and original live alike when the first side is unworn."""
-    unworn = copy.copy(life)
-    columns = {**life.flank_columns, "depth_mm": 1e-9 * life.flank_columns["depth_mm"]}
+def turned_while_new(result):
+    """The result of a run as if nothing had worn in it."""
+    unworn = copy.copy(result)
+    columns = {**result.flank_columns, "depth_mm": 1e-9 * result.flank_columns["depth_mm"]}
     history = {
-        **life.history_columns,
+        **result.history_columns,
         "elongation_percent": np.zeros(1),
+        "roller_wear_mm": np.zeros(1),
         "chain": np.ones(1),
     }
     object.__setattr__(unworn, "flank_columns", columns)
     object.__setattr__(unworn, "history_columns", history)
-    again, _ = turned_life(case(), unworn)
+    return unworn
+
+
+def test_a_sprocket_turned_while_new_lives_as_long_as_one_that_is_not(life):
+    """A symmetric gap: mirror image and original live alike when the first side is unworn."""
+    again, _ = turned_life(case(), turned_while_new(life))
     assert again.hours == pytest.approx(life.parts["sprocket"].hours, rel=0.05)
+
+
+def test_case_depth_of_a_turned_sprocket():
+    """It ends both lives as a critical depth of as much would."""
+    deep = case(stop={"critical_depth_mm": 0.04, "case_depth_mm": 0.01})
+    first = wearsim.simulate(deep)
+    assert first.limits[1].name == "case_depth_mm"
+    assert first.history_columns["max_depth_mm"][-1] == pytest.approx(0.01, rel=1e-9)
+    fresh, _ = turned_life(deep, turned_while_new(first))
+    assert fresh.hours == pytest.approx(first.parts["sprocket"].hours, rel=0.05)
+    shallow = case(stop={"critical_depth_mm": 0.01})
+    expected, _ = turned_life(shallow, wearsim.simulate(shallow))
+    again, _ = turned_life(deep, first)
+    assert again.hours == pytest.approx(expected.hours, rel=0.05)
 
 
 def test_a_seat_worn_through_is_worn_for_both_flanks(life):

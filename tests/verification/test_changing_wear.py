@@ -14,6 +14,8 @@ import shapely
 from scipy.integrate import quad
 
 import wearsim
+from wearsim.errors import CaseError, ContactError
+from wearsim.report.answer import answer
 from wearsim.result import WearResult
 from wearsim.wear.running_in import CONSTANT, RunningIn
 
@@ -210,3 +212,46 @@ def test_running_in_is_undone_for_any_factor(factor: float) -> None:
     assert (cycles > 0.0).all() and (np.diff(cycles) > 0.0).all()
     back = [warp.constant_cycles(float(run)) for run in cycles]
     np.testing.assert_allclose(back, worn, rtol=1e-9)
+
+
+MARGIN = (
+    "joint.pitch=alternating",
+    "mechanism.friction_roller_tooth=0.1",
+    "mechanism.friction_roller_bush=0.1",
+)
+
+
+def test_life_ends_where_the_slack_tension_needed_reaches_its_limit() -> None:
+    """The chain needs less before; at the end as much as was allowed, within the steps of the search."""
+    plain = wrap(*MARGIN)
+    result = wrap(*MARGIN, "stop.min_slack_tension_N=2.5")
+    assert (result.stop, result.stop_value) == ("min_slack_tension_N", 2.5)
+    assert 0.0 < result.cycles < plain.cycles
+    assert result.max_depth < 0.02
+    state = {limit.name: limit for limit in result.limits}["min_slack_tension_N"]
+    assert (state.limit, state.value) == (2.5, pytest.approx(2.5, rel=0.02))
+    assert "needs a slack tension of 2.5 N" in answer(result, "case.toml")
+
+
+def test_what_a_new_drive_needs_cannot_be_the_limit() -> None:
+    with pytest.raises(
+        CaseError, match=r"min_slack_tension_N: must be above what a new drive needs"
+    ):
+        wrap(*MARGIN, "stop.min_slack_tension_N=0.01")
+
+
+def test_rollers_that_wear_are_told() -> None:
+    """Half as soft as the teeth, they lose what follows from the area that the gaps lose."""
+    result = wrap("wear.roller_wear_ratio=0.5")
+    history = result.history_columns
+    first = history["chain"] == 1.0
+    area, worn = history["removed_area_mm2"][first], history["roller_wear_mm"][first]
+    lost = math.pi * (4.255**2 - (4.255 - worn) ** 2)
+    np.testing.assert_allclose(lost, 0.5 * 13 / 60 * (1.0 + 13 / 20) * area, rtol=5e-3, atol=1e-9)
+    assert {limit.name for limit in result.limits} >= {"roller_wear_mm"}
+    assert any("rollers wear all round" in text for text in result.assumptions)
+
+
+def test_rollers_worn_through_are_refused() -> None:
+    with pytest.raises(ContactError, match="roller: must keep a wall around its bush"):
+        wrap("wear.roller_wear_ratio=30000")

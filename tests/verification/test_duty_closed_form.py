@@ -13,6 +13,7 @@ from numpy.testing import assert_allclose
 
 import wearsim
 from wearsim.case.load import load_case
+from wearsim.contact.dwelling import ChainWear
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
 from wearsim.simulation.wrap import wrap_contact
 
@@ -202,7 +203,7 @@ class TestWrap:
     def table(contact):
         profile = contact.profile
         outlines = (np.tile(points, (contact.bodies, 1)) for points in (profile.x, profile.y))
-        return contact.events(*outlines, 0.01, contact.memory())
+        return contact.events(*outlines, ChainWear(0.01), contact.memory())
 
     def test_contacts_are_those_of_the_constant_loads(self):
         """Count times share times factor, all else as it is."""

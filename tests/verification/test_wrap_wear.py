@@ -15,6 +15,7 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
@@ -60,7 +61,7 @@ def wear(
 def events(of: WrapContact, elongation: float = 0.0) -> Array:
     """Return rows of events as (row, kind of link, phase, roller) of unworn gaps."""
     outlines = (np.tile(values, (of.bodies, 1)) for values in (of.profile.x, of.profile.y))
-    table = of.events(*outlines, elongation, of.memory())
+    table = of.events(*outlines, ChainWear(elongation), of.memory())
     return table.reshape(kernels.EVENT_ROWS, -1, of.phases, of.most)
 
 
@@ -425,7 +426,7 @@ def test_a_new_chain_on_a_worn_sprocket_is_the_same_run_gone_on() -> None:
     of, run = replaced()
     first = wear(of, depth=DEPTH, horizon=6e6)
     assert first.met is None and first.elongation[-1] == pytest.approx(0.03, rel=1e-9)
-    start = Start(depth=first.all_depth[-1], elongation=0.0, chain=2)
+    start = Start(depth=first.all_depth[-1], wear=NEW_CHAIN, chain=2)
     law, limit = archard(COEFFICIENT), (depth_criterion(DEPTH),)
     rest = run_dwelling(of, law, limit, ENDLESS, 0, start=start)
     assert 6e6 + rest.cycles[-1] == pytest.approx(run.cycles[-1], rel=2e-3)

@@ -16,6 +16,8 @@ _BELONGS_TO = {
     "sprocket.role": "wrap",
     "stop.elongation_percent": "wrap",
     "stop.over_pins_change_mm": "wrap",
+    "stop.min_slack_tension_N": "wrap",
+    "wear.roller_wear_ratio": "wrap",
     "chain.pin_diameter_mm": "wrap",
     "chain.bush_diameter_mm": "wrap",
     "chain.bearing_area_mm2": "wrap",

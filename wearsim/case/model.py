@@ -334,6 +334,8 @@ class WearInput:
         Where the band comes from.
     case_depth, core_factor : float
         Depth of the hardened layer [mm] and what the coefficient is multiplied by below it.
+    roller_ratio : float
+        Coefficient of the rollers over that of the teeth.
     running_in_factor, running_in_distance : float
         First coefficient over the lasting one, and the sliding distance [mm] over which the
         excess falls to 1/e.
@@ -350,6 +352,7 @@ class WearInput:
     band: str
     case_depth: float = math.inf
     core_factor: float = 1.0
+    roller_ratio: float = 0.0
     running_in_factor: float = 1.0
     running_in_distance: float = 1.0
 

@@ -211,6 +211,8 @@ def _changing(table: WearTable, wear: WearInput) -> WearInput:
             running_in_factor=table.running_in_factor,
             running_in_distance=table.running_in_distance_mm,
         )
+    if table.roller_wear_ratio is not None:
+        wear = replace(wear, roller_ratio=table.roller_wear_ratio)
     return wear
 
 
@@ -297,8 +299,20 @@ def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) 
 def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
     """Limits of the worn tooth beyond depth and tip land, by their keys."""
     stop = case.tables.stop
-    keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm")
+    keys = (
+        "case_depth_mm",
+        "min_tooth_thickness_mm",
+        "over_pins_change_mm",
+        "min_slack_tension_N",
+    )
     given = {key: value for key in keys if (value := getattr(stop, key)) is not None}
+    tension = given.get("min_slack_tension_N")
+    if tension is not None and isinstance(drive, WrapDrive) and tension > drive.slack:
+        case.faults.add(
+            "stop.min_slack_tension_N",
+            "must not be above the slack tension that the drive has, "
+            f"{drive.slack:.4g} N (got {tension:g})",
+        )
     least = given.get("min_tooth_thickness_mm")
     if least is not None and drive is not None:
         key = "stop.min_tooth_thickness_mm"

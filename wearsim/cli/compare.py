@@ -15,10 +15,12 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
+    working,
 )
 from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:
+    from wearsim.case.model import Case
     from wearsim.result import WearResult
 
 
@@ -58,12 +60,18 @@ def compare(
     return SOME_FAILED if len(found) < len(set(sources)) else 0
 
 
+def _run(case: "Case") -> "WearResult":
+    from wearsim.simulation import simulate
+
+    with working(f"wearing {case.title}") as told:
+        return simulate(case, told)
+
+
 def _results(
     sources: tuple[Path, ...], settings: tuple[str, ...], as_json: bool
 ) -> "dict[Path, WearResult]":
     """Load the runs and run the cases; a failed case is shown and left out of the rest."""
     from wearsim.result import WearResult
-    from wearsim.simulation import simulate
 
     for path in sources:
         if not path.is_dir() and path.suffix != ".toml":
@@ -77,7 +85,7 @@ def _results(
     failures: list[WearsimError] = []
     for path in dict.fromkeys(sources):
         try:
-            found[path] = runs[path] if path in runs else simulate(cases[path])
+            found[path] = runs[path] if path in runs else _run(cases[path])
         except WearsimError as error:
             failures.append(error)
             if as_json:

@@ -114,8 +114,8 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
 def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
     from wearsim.simulation import simulate
 
-    with working(f"wearing {case.title}"):
-        result = simulate(case)
+    with working(f"wearing {case.title}") as told:
+        result = simulate(case, told)
     if folder is not None:
         result.save(folder, force)
     return result

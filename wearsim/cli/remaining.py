@@ -70,8 +70,8 @@ def remaining(
     )
     error = reading_error_percent if elongation is not None else reading_error_mm
     try:
-        with working(f"wearing {loaded.title}"):
-            found = remaining_life(loaded, Reading(quantity, given[0], error, hours))
+        with working(f"wearing {loaded.title}") as told:
+            found = remaining_life(loaded, Reading(quantity, given[0], error, hours), told)
     except WearsimError as fault:
         if as_json:
             click.echo(error_json(case.stem, fault))

@@ -80,8 +80,8 @@ def warn(text: str) -> None:
 
 
 @contextmanager
-def working(text: str) -> Iterator[None]:
-    """Show on a terminal's stderr that something is under way.
+def working(text: str) -> Iterator[Callable[[float], None]]:
+    """Show on a terminal's stderr that something is under way, and the time left once that is known.
 
     Parameters
     ----------
@@ -90,17 +90,32 @@ def working(text: str) -> Iterator[None]:
 
     Yields
     ------
-    None
-        The work goes on meanwhile.
+    callable
+        To be told how much of the work is done, from 0 to 1; less than before where it
+        starts again.
     """
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
-        yield
+        yield lambda part: None
         return
     from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
 
-    with Console(stderr=True).status(text):
-        yield
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(text, total=None)
+
+        def told(part: float) -> None:
+            if part < bar.tasks[0].completed:
+                bar.reset(task)
+            bar.update(task, completed=part, total=1.0)
+
+        yield told
 
 
 def show_error(error: WearsimError, path: Path | None = None) -> None:

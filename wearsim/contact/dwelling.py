@@ -1,11 +1,14 @@
 """The seam between a mechanism whose contacts dwell and the wear engine."""
 
+import math
 from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.engagement import Engagement, Kind
+from wearsim.errors import ContactError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
@@ -18,6 +21,24 @@ from wearsim.kernels.event_rows import (
 from wearsim.kernels.flank import flank_frame
 
 Rows = NDArray[np.float64]
+
+
+class ChainWear(NamedTuple):
+    """What a chain in use has lost.
+
+    Attributes
+    ----------
+    elongation : float
+        Relative elongation by wear of its joints.
+    roller : float
+        Depth worn off its rollers all round [mm].
+    """
+
+    elongation: float = 0.0
+    roller: float = 0.0
+
+
+NEW_CHAIN = ChainWear()
 
 
 class Dwelling(ABC):
@@ -36,6 +57,15 @@ class Dwelling(ABC):
 
     slack_tension: float
     """Tension of the slack strand [N]; 0 where there is none."""
+
+    roller_area_ratio: float = 0.0
+    """Area of its section that a roller loses over that a gap would lose to it in the same cycles."""
+
+    thinnest_roller: float = 0.0
+    """Radius below which a roller is worn through [mm]."""
+
+    slack_limit: float = 0.0
+    """Least slack tension at which the life ends once it is needed [N]; 0 for no such limit."""
 
     @property
     @abstractmethod
@@ -62,6 +92,59 @@ class Dwelling(ABC):
         """Along the outline of a new body [mm]."""
         return self.profile.arc_length
 
+    def chain_after(self, wear: ChainWear, cycles: float, area: float) -> ChainWear:
+        """Return what a chain has lost after some more cycles.
+
+        Every roller gives off its share of area evenly round its circumference.
+
+        Parameters
+        ----------
+        wear : ChainWear
+            What it has lost before.
+        cycles : float
+            How many.
+        area : float
+            Worn off a gap in these cycles if all of it is as hard as its surface [mm2].
+
+        Returns
+        -------
+        ChainWear
+            What it has lost then.
+
+        Raises
+        ------
+        ContactError
+            The rollers are worn through.
+        """
+        rest = (self.roller_radius - wear.roller) ** 2 - self.roller_area_ratio * area / math.pi
+        if rest < self.thinnest_roller**2:
+            raise ContactError(
+                "roller: must keep a wall around its bush of radius "
+                f"{self.thinnest_roller:.4g} mm, but is worn through at an elongation of "
+                f"{100 * wear.elongation:.3g} %: lower stop.elongation_percent or wear.roller_wear_ratio"
+            )
+        return ChainWear(
+            wear.elongation + cycles * self.elongation_per_cycle,
+            self.roller_radius - math.sqrt(rest) if self.roller_area_ratio else 0.0,
+        )
+
+    def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+        """Tell whether worn bodies hold the chain with the least slack tension allowed.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+
+        Returns
+        -------
+        bool
+            True where there is no such limit.
+        """
+        return True
+
     @abstractmethod
     def coarsened(self) -> "Dwelling":
         """Return the same contacts on about every second point.
@@ -83,15 +166,15 @@ class Dwelling(ABC):
         """
 
     @abstractmethod
-    def events(self, x: Rows, y: Rows, elongation: float, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
         """Return what the worn bodies meet in one cycle, a column an event.
 
         Parameters
         ----------
         x, y : numpy.ndarray
             Worn outlines [mm], shape (bodies, points).
-        elongation : float
-            Relative elongation of the chain.
+        wear : ChainWear
+            What the chain has lost.
         memory : numpy.ndarray
             Of this run; changed in place.
 
@@ -124,7 +207,7 @@ class Dwelling(ABC):
         frame = np.empty((4, depth.size))
         flank_frame(x, y, *frame)
         outlines = np.tile(x, (self.bodies, 1)), np.tile(y, (self.bodies, 1))
-        table = self.events(*outlines, 0.0, self.memory())
+        table = self.events(*outlines, NEW_CHAIN, self.memory())
         table = table[:, (table[EVENT_LOAD] > 0.0) & (table[EVENT_BODY] == 0.0)]
         touched = table[EVENT_TOUCHED].round().astype(int)
         often, load, worn, speed = np.zeros((4, depth.size))

@@ -126,8 +126,23 @@ class Profile:
         Profile
             The new flank, with as many points.
         """
+        return Profile(*self.receded(depth))
+
+    def receded(self, depth: ArrayLike) -> tuple[Vector, Vector]:
+        """Return where the points lie after moving against their normals.
+
+        Parameters
+        ----------
+        depth : array_like
+            Material removed along the normal [mm]; one value, one per point, or rows of these.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            x and y [mm].
+        """
         removed = np.asarray(depth, dtype=float)
-        return Profile(self.x - removed * self.normal_x, self.y - removed * self.normal_y)
+        return self.x - removed * self.normal_x, self.y - removed * self.normal_y
 
     def mirrored(self) -> "Profile":
         """Return the mirror image on the gap's centre line, run from tip to root.

@@ -36,8 +36,8 @@ UNWORN_ROWS = 6
 NUMBERS = 9
 
 # what a step found
-AREA, PEAK_PRESSURE, UNBALANCED = range(3)
-FINDINGS = 3
+AREA, HARD_AREA, PEAK_PRESSURE, UNBALANCED = range(4)
+FINDINGS = 4
 
 _MOST_ITERATIONS = 2000.0
 
@@ -116,9 +116,11 @@ def wear_event(
     for j in range(last - first):
         p = pressure[j]
         if p > 0.0:
-            removed = factor[j] * (p if exponent == 1.0 else p**exponent) * width[first + j]
+            pressed = (p if exponent == 1.0 else p**exponent) * width[first + j]
+            removed = factor[j] * pressed
             area[body, first + j] += removed / unworn[SPACING, first + j]
             findings[AREA] += removed
+            findings[HARD_AREA] += worn * pressed
             findings[PEAK_PRESSURE] = max(findings[PEAK_PRESSURE], p)
     recede(area[body], depth[body], x[body], y[body], unworn, first, last)
 

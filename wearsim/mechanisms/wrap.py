@@ -29,7 +29,7 @@ from wearsim.kernels.wrap import (
     solve_wrap,
 )
 
-_PHASES = 8
+_PHASES = 9
 """Phases of a pitch, ends included, in which a chain is tried for jumping."""
 
 _TOLERANCE = 1e-9
@@ -386,6 +386,22 @@ class WrapMechanism:
             for phase in np.linspace(0.0, 1.0, _PHASES)
         )
 
+    def with_slack(self, slack: float) -> "WrapMechanism":
+        """Return the same wrap with another slack tension at the same difference of tensions.
+
+        Parameters
+        ----------
+        slack : float
+            Tension of the slack strand [N].
+
+        Returns
+        -------
+        WrapMechanism
+            The tight strand pulls as much more or less.
+        """
+        tight = self.pull.tight - self.pull.slack + slack
+        return replace(self, pull=replace(self.pull, tight=tight, slack=slack))
+
     def smallest_slack_tension(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> float:
         """Return the slack tension below which the chain jumps, at the same difference of tensions.
 
@@ -401,13 +417,12 @@ class WrapMechanism:
         float
             Tension [N] within 1 %, from above; infinite where no tension up to the pull holds.
         """
-        difference = self.pull.tight - self.pull.slack
 
         def _holding(slack: float) -> bool:
-            pull = replace(self.pull, tight=difference + slack, slack=slack)
-            return replace(self, pull=pull).holds(elongation, worn)
+            return self.with_slack(slack).holds(elongation, worn)
 
-        low, high = 1e-9 * self.pull.tight, max(difference, self.pull.slack)
+        low = 1e-9 * self.pull.tight
+        high = max(self.pull.tight - self.pull.slack, self.pull.slack)
         if not _holding(high):
             return math.inf
         if _holding(low):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import Dwelling
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
@@ -89,6 +89,11 @@ class WrapContact(Dwelling):
         Growth of the chain in a revolution of the sprocket, the mean over the blocks.
     elongation_limit : float
         Relative elongation at which a new chain is put on.
+    roller_area_ratio : float
+        Area of its section that a roller loses over that a gap would lose to it; 0 where
+        rollers do not wear.
+    slack_limit : float
+        Least slack tension at which the life ends once it is needed [N]; 0 for no such limit.
     """
 
     blocks: tuple[WrapBlock, ...]
@@ -99,6 +104,8 @@ class WrapContact(Dwelling):
     same_link_kind: bool
     elongation_per_cycle: float
     elongation_limit: float
+    roller_area_ratio: float = 0.0
+    slack_limit: float = 0.0
 
     @property
     def mechanism(self) -> WrapMechanism:
@@ -126,6 +133,11 @@ class WrapContact(Dwelling):
         return self.mechanism.chain.roller_radius
 
     @property
+    def thinnest_roller(self) -> float:  # type: ignore[override]
+        """Radius of the bush that the rollers turn on [mm]."""
+        return self.mechanism.chain.bush_radius
+
+    @property
     def most(self) -> int:
         """Most rollers in the wrap at once."""
         return self.mechanism.rollers(0.0)
@@ -135,7 +147,7 @@ class WrapContact(Dwelling):
         """Way that the rollers slide in a new gap in a cycle of a new chain [mm], the mean of the duty."""
         x, y = (np.tile(row, (self.bodies, 1)) for row in (self.profile.x, self.profile.y))
         blocks = tuple(replace(block, wear_factor=1.0) for block in self.blocks)
-        table = replace(self, blocks=blocks).events(x, y, 0.0, self.memory())
+        table = replace(self, blocks=blocks).events(x, y, NEW_CHAIN, self.memory())
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
@@ -183,15 +195,15 @@ class WrapContact(Dwelling):
         configurations = 2 if self.mechanism.chain.alternating else 1
         return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
 
-    def events(self, x: Rows, y: Rows, elongation: float, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
         """Return what worn gaps meet in one revolution.
 
         Parameters
         ----------
         x, y : numpy.ndarray
             Worn outlines [mm], shape (bodies, points).
-        elongation : float
-            Relative elongation of the chain.
+        wear : ChainWear
+            What the chain has lost.
         memory : numpy.ndarray
             Where the rollers were last; replaced by where they are.
 
@@ -209,16 +221,53 @@ class WrapContact(Dwelling):
         ConvergenceError
             No equilibrium is found.
         """
-        path = self.mechanism.path
-        worn = [path.worn(x[body], y[body]) for body in range(self.bodies)]
+        worn = self.worn_paths(x, y, wear)
         tables = [
-            self._block_events(block, worn, elongation, places)
+            self._block_events(block, worn, wear, places)
             for block, places in zip(self.blocks, memory, strict=True)
         ]
         return np.concatenate(tables, axis=1)
 
+    def worn_paths(self, x: Rows, y: Rows, wear: ChainWear) -> tuple[WornPath, ...]:
+        """Return where the centres of a chain's rollers can be in worn gaps.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+
+        Returns
+        -------
+        tuple of WornPath
+            One for each body.
+        """
+        path = replace(self.mechanism.path, roller_radius=self.roller_radius - wear.roller)
+        return tuple(path.worn(x[body], y[body]) for body in range(self.bodies))
+
+    def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+        """Tell whether worn gaps hold the chain with the least slack tension allowed.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+
+        Returns
+        -------
+        bool
+            True where there is no such limit.
+        """
+        if not self.slack_limit:
+            return True
+        mechanism = self.mechanism.with_slack(self.slack_limit)
+        return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
+
     def _block_events(
-        self, block: WrapBlock, worn: list[WornPath], elongation: float, memory: Rows
+        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows
     ) -> Rows:
         """Return what worn gaps meet in one revolution of a block, times its share."""
         mechanism = block.mechanism
@@ -233,27 +282,28 @@ class WrapContact(Dwelling):
         numbers = np.zeros(CYCLE_NUMBERS)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
         numbers[ARTICULATION_SLIP] = (
-            self.sliding.fraction * self.roller_radius * mechanism.pitch_angle
+            self.sliding.fraction * (self.roller_radius - wear.roller) * mechanism.pitch_angle
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
         numbers[PHASE_TIME] = block.pitch_time / self.phases
-        numbers[START] = mechanism.start(elongation, loci[0])
+        numbers[START] = mechanism.start(wear.elongation, loci[0])
         numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(
             loci, np.array([path.touched for path in worn]), configurations, self.phases, most,
             block.share * block.wear_factor * self.bodies / configurations,
-            mechanism.constants(elongation), numbers, positions,
+            mechanism.constants(wear.elongation), numbers, positions,
             np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
             np.zeros(most), table,
         )  # fmt: skip
         if status == JUMPED:
             raise JumpError(
-                f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but "
-                "it jumps on the worn teeth: raise the slack tension or replace the chain earlier"
+                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the rollers must "
+                "hold the chain, but it jumps on the worn teeth: raise the slack tension or replace the "
+                "chain earlier"
             )
         if status != SEATED:
             raise ConvergenceError(
-                f"wrap at an elongation of {100 * elongation:.3g} %: the solver must find where the "
+                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the solver must find where the "
                 "rollers rest in the worn gaps, but does not: use other nodes or phases"
             )
         memory[:] = self._by_body(positions, [path.node_place for path in worn])
@@ -282,7 +332,8 @@ class WrapContact(Dwelling):
             f"a roller slides {sliding.fraction:g} of the articulation of "
             f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the "
             f"last tooth, and {sliding.path_fraction:g} of its way along the flank",
-            "pressure from the half-space contact of the roller in the worn gap; rollers do not wear",
+            "pressure from the half-space contact of the roller in the worn gap; "
+            + ("rollers wear all round" if self.roller_area_ratio else "rollers do not wear"),
             "every tooth alike"
             if self.bodies == 1
             else "teeth of two kinds: those that meet inner and those that meet outer links",

@@ -167,7 +167,11 @@ def _life(result: WearResult) -> str:
             "over_pins_change_mm": (
                 f"until the measurement over pins is {result.stop_value:.3g} mm less"
             ),
-            "min_slack_tension_N": "until the chain jumps on the worn teeth",
+            "min_slack_tension_N": (
+                f"until the chain needs a slack tension of {result.stop_value:.3g} N on the worn teeth"
+                if "min_slack_tension_N" in result.inputs["stop"]
+                else "until the chain jumps on the worn teeth"
+            ),
             "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
         }[result.stop]
         error = result.numerical_error

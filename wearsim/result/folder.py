@@ -34,7 +34,7 @@ HISTORY_COLUMNS = {
     "strand": _HISTORY,
     "prescribed": _HISTORY,
     "wrap": (
-        "cycles", "time_hours", "max_depth_mm", "elongation_percent", "chain",
+        "cycles", "time_hours", "max_depth_mm", "elongation_percent", "roller_wear_mm", "chain",
         "peak_pressure_MPa", "max_sliding_speed_mm_per_s", "removed_area_mm2", "tip_land_mm",
         "over_pins_mm",
     ),

@@ -1,18 +1,23 @@
 """The one place that wires case, mechanism, wear engine and result."""
 
+from collections.abc import Callable
+
 from wearsim.case.model import Case, WrapDrive
 from wearsim.result import WearResult
 
 __all__ = ["simulate"]
 
 
-def simulate(case: Case) -> WearResult:
+def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
     """Wear the sprocket of a case until its first limit and return its life.
 
     Parameters
     ----------
     case : Case
         A complete case.
+    progress : callable, optional
+        Told by a wrap how much of its run is done, from 0 to 1; from 0 again where a run
+        with smaller steps follows.
 
     Returns
     -------
@@ -48,7 +53,7 @@ def simulate(case: Case) -> WearResult:
         from wearsim.simulation.wrap import simulate_wrap
 
         check_hold(case)
-        return simulate_wrap(case, case.drive)
+        return simulate_wrap(case, case.drive, progress)
     from wearsim.simulation.pointwise import simulate_points
 
     return simulate_points(case)

@@ -1,11 +1,13 @@
 """Lives of a sprocket that a chain wraps, and of the chain."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
+from wearsim.contact.dwelling import ChainWear
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
@@ -19,7 +21,14 @@ from wearsim.simulation.law import running_in, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
 from wearsim.wear.criteria import Criterion
-from wearsim.wear.dwelling import DwellingTrajectory, Rows, halve_steps, run_dwelling, run_together
+from wearsim.wear.dwelling import (
+    DwellingTrajectory,
+    Rows,
+    halve_steps,
+    reporting,
+    run_dwelling,
+    run_together,
+)
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import difference
@@ -31,7 +40,9 @@ _MOST_UPDATES = 200_000
 """Updates of a cycle-by-cycle run, each of some milliseconds."""
 
 
-def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
+def simulate_wrap(
+    case: Case, drive: WrapDrive, progress: Callable[[float], None] = lambda part: None
+) -> WearResult:
     """Wear the gaps of a wrapped sprocket and its chain until the first limit.
 
     The run goes on to the sprocket's own limit, with a new chain whenever one has grown
@@ -43,6 +54,8 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
         A complete case.
     drive : WrapDrive
         Its drive.
+    progress : callable, optional
+        Told how much of a run is done, from 0 to 1; from 0 again where another follows.
 
     Returns
     -------
@@ -62,7 +75,7 @@ def simulate_wrap(case: Case, drive: WrapDrive) -> WearResult:
     warp = running_in(case.wear, contact.sliding_per_cycle)
     horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     warnings = [*case.warnings, *rating_warnings(case)]
-    run, error = _run(case, contact, law, criteria, horizon, warnings)
+    run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
     chain = _chain_life(case, contact, horizon, warp)
     sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
@@ -164,6 +177,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
     layout, joint = drive.layout, drive.joint
     engaged = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
     own = 2.0 * math.pi / drive.pitch_angle
+    mate = layout.teeth_2 if drive.driver else layout.teeth_1
     per_loop = math.fsum(
         block.share
         * elongation_per_loop(
@@ -174,7 +188,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
             ),
             case.chain.pin_diameter,
             case.chain.pitch,
-            (own, layout.teeth_2 if drive.driver else layout.teeth_1),
+            (own, mate),
         )
         for block in drive.blocks
     )
@@ -190,6 +204,9 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
         same_link_kind=Meetings(engaged, layout.links).same_link_kind,
         elongation_per_cycle=per_loop * engaged / layout.links,
         elongation_limit=joint.elongation_limit,
+        # Another sprocket wears the rollers too, by the same way over its own articulation.
+        roller_area_ratio=case.wear.roller_ratio * engaged / layout.links * (1.0 + own / mate),
+        slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
     )
 
 
@@ -210,15 +227,18 @@ def _run(
     criteria: tuple[Criterion, ...],
     horizon: float,
     warnings: list[str],
+    progress: Callable[[float], None],
 ) -> tuple[DwellingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     tolerance = case.run.life_tolerance
     levels = ((contact, 1), (contact.coarsened(), 1), (contact, 0))
-    fine, sparse, coarse = run_together(levels, law, criteria, horizon)
-    run, error = halve_steps(contact, law, criteria, horizon, tolerance, (coarse, fine))
+    fine, sparse, coarse = run_together(levels, law, criteria, horizon, progress=progress)
+    run, error = halve_steps(
+        contact, law, criteria, horizon, tolerance, (coarse, fine), progress=progress
+    )
     if case.run.method == "per_cycle":
         check = run
-        run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]))
+        run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]), progress)
         error += difference(run, check)
     error += difference(fine, sparse)
     if error > tolerance:
@@ -235,6 +255,7 @@ def _per_cycle(
     criteria: tuple[Criterion, ...],
     horizon: float,
     expected: float,
+    progress: Callable[[float], None],
 ) -> DwellingTrajectory:
     """Run the case with steps of given cycles; about so many are expected in all."""
     cycles = float(case.run.cycles_per_update)
@@ -244,7 +265,7 @@ def _per_cycle(
             f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MOST_UPDATES} updates, takes "
             f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
         )
-    return run_dwelling(contact, law, criteria, horizon, 0, cycles)
+    return run_dwelling(contact, law, criteria, horizon, 0, cycles, reporting(progress))
 
 
 def _chain_life(
@@ -300,22 +321,22 @@ def _limits(
     at = min(at, run.cycles.size - 1)
     worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
-    least = min(_smallest_slack_tension(contact, run.all_depth[at], elongation), drive.tight)
+    wear = ChainWear(elongation, float(run.roller_wear[at]))
+    least = min(_smallest_slack_tension(contact, run.all_depth[at], wear), drive.tight)
+    wall = contact.roller_radius - contact.thinnest_roller
+    rollers = LimitState("roller_wear_mm", wall, wear.roller)
     return (
         *worn,
         LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
-        LimitState("min_slack_tension_N", drive.slack, least),
+        *((rollers,) if contact.roller_area_ratio else ()),
+        LimitState("min_slack_tension_N", contact.slack_limit or drive.slack, least),
     )
 
 
-def _smallest_slack_tension(contact: WrapContact, depth: Rows, elongation: float) -> float:
+def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: ChainWear) -> float:
     """Slack tension below which the chain jumps on worn gaps [N]."""
-    profile, mechanism = contact.profile, contact.mechanism
-    worn = tuple(
-        mechanism.path.worn(profile.x - row * profile.normal_x, profile.y - row * profile.normal_y)
-        for row in depth
-    )
-    return mechanism.smallest_slack_tension(elongation, worn)
+    worn = contact.worn_paths(*contact.profile.receded(depth), wear)
+    return contact.mechanism.smallest_slack_tension(wear.elongation, worn)
 
 
 def _tables(
@@ -328,6 +349,7 @@ def _tables(
         "time_hours": run.cycles / case.cycles_per_hour,
         "max_depth_mm": run.depth.max(axis=1),
         "elongation_percent": 100.0 * run.elongation,
+        "roller_wear_mm": run.roller_wear,
         "chain": run.chains,
         "peak_pressure_MPa": run.peak_pressure,
         "max_sliding_speed_mm_per_s": run.sliding_speed,
@@ -344,13 +366,14 @@ def _tables(
     shots = np.unique(np.linspace(0, run.cycles.size - 1, _FLANKS).round().astype(int))
     bodies = contact.bodies
     depth = run.all_depth[shots]
+    x, y = profile.receded(depth)
     flank = {
         "cycles": np.repeat(run.cycles[shots], bodies * points),
         "gap_kind": np.tile(np.repeat(np.arange(1, bodies + 1), points), shots.size),
         "node": np.tile(np.arange(1, points + 1), shots.size * bodies),
         "arc_length_mm": np.tile(contact.arc_length, shots.size * bodies),
-        "x_mm": (profile.x - depth * profile.normal_x).ravel(),
-        "y_mm": (profile.y - depth * profile.normal_y).ravel(),
+        "x_mm": x.ravel(),
+        "y_mm": y.ravel(),
         "depth_mm": depth.ravel(),
     }
     return history, flank

@@ -1,5 +1,6 @@
 """What is left of a life after one reading in service."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,7 +100,9 @@ class _Course:
         return float(np.interp(value, highest[rising], self.hours[rising]))
 
 
-def remaining_life(case: Case, reading: Reading) -> RemainingLife:
+def remaining_life(
+    case: Case, reading: Reading, progress: Callable[[float], None] = lambda part: None
+) -> RemainingLife:
     """Return the life that remains after a reading in service.
 
     Wear depends on coefficient times time only. If the case's own coefficient k gives the
@@ -114,6 +117,8 @@ def remaining_life(case: Case, reading: Reading) -> RemainingLife:
         The case.
     reading : Reading
         The reading.
+    progress : callable, optional
+        Told how much of a run is done, from 0 to 1.
 
     Returns
     -------
@@ -137,7 +142,9 @@ def remaining_life(case: Case, reading: Reading) -> RemainingLife:
             reading,
             f"must be larger than its error of {reading.error:g}: measure later or better",
         )
-    course = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading)
+    course = (
+        _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
+    )
     most = float(course.values.max())
     reached = isinstance(course.life, Life)
     if reading.value > most * (1.0 + 1e-12):
@@ -201,9 +208,9 @@ def _chain(case: Case, reading: Reading) -> _Course:
     )
 
 
-def _teeth(case: Case, reading: Reading) -> _Course:
+def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _Course:
     """Depth or measurement over pins of the sprocket."""
-    result = simulate(case)
+    result = simulate(case, progress)
     columns = result.history_columns
     if reading.quantity not in columns:
         raise _fault(case, reading, "needs a sprocket with gaps: set kind = 'wrap'")

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.case.model import Case, WrapDrive
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap_cycle import WrapContact
 from wearsim.result import Life, LowerBound, WearResult
@@ -42,18 +43,19 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     contact = wrap_contact(case, drive)
     points = contact.profile.x.size
     depth = first.flank_columns["depth_mm"][-contact.bodies * points :].reshape(-1, points)
-    elongation = 0.01 * float(first.history_columns["elongation_percent"][-1])
-    chain = int(first.history_columns["chain"][-1])
-    if elongation >= contact.elongation_limit * (1.0 - 1e-9):
-        elongation, chain = 0.0, chain + 1
+    history = first.history_columns
+    wear = ChainWear(
+        0.01 * float(history["elongation_percent"][-1]), float(history["roller_wear_mm"][-1])
+    )
+    chain = int(history["chain"][-1])
+    if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
+        wear, chain = NEW_CHAIN, chain + 1
     turned = contact.on_outline(contact.profile.mirrored())
-    start = Start(depth[:, ::-1].copy(), elongation, chain)
+    start = Start(depth[:, ::-1].copy(), wear, chain)
     criteria = _criteria(case, turned, _working_half(contact, depth))
     profile = turned.profile
     margins = [
-        criterion.margin(profile.x - d * profile.normal_x, profile.y - d * profile.normal_y, d)
-        for criterion in criteria
-        for d in start.depth
+        criterion.margin(*profile.receded(d), d) for criterion in criteria for d in start.depth
     ]
     if min(margins) <= 0.0:
         return Life(0.0, 0.0), 0.0

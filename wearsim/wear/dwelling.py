@@ -10,14 +10,14 @@ of it follow until two agree.
 import math
 import os
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import Dwelling
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.dwelling import (
@@ -27,6 +27,7 @@ from wearsim.kernels.dwelling import (
     CORE_FACTOR,
     CYCLES,
     FINDINGS,
+    HARD_AREA,
     MATE_RADIUS,
     NUMBERS,
     PEAK_PRESSURE,
@@ -60,6 +61,9 @@ _REACH = 1.2
 
 _MOST_LEVELS = 3
 
+Watch = Callable[[float], bool]
+"""Told before every step how much of a run is done; whether to go on."""
+
 _MOST_STEPS = 10_000
 """Steps of one run at level 0; a sprocket of some chains takes some hundreds."""
 
@@ -74,6 +78,8 @@ class DwellingTrajectory(Trajectory):
         Depth of every body [mm], shape (snapshots, bodies, points).
     elongation : numpy.ndarray
         Relative elongation of the chain in use, shape (snapshots,).
+    roller_wear : numpy.ndarray
+        Depth worn off its rollers [mm], shape (snapshots,).
     chains : numpy.ndarray
         Number of the chain in use from 1, shape (snapshots,).
     peak_pressure, sliding_speed : numpy.ndarray
@@ -84,6 +90,7 @@ class DwellingTrajectory(Trajectory):
 
     all_depth: Rows
     elongation: Vector
+    roller_wear: Vector
     chains: Vector
     peak_pressure: Vector
     sliding_speed: Vector
@@ -98,14 +105,14 @@ class Start:
     ----------
     depth : numpy.ndarray
         Depth of every body along the normals of the new outline [mm], shape (bodies, points).
-    elongation : float
-        Relative elongation of the chain.
+    wear : ChainWear
+        What the chain has lost.
     chain : int
         Its number from 1.
     """
 
     depth: Rows
-    elongation: float
+    wear: ChainWear
     chain: int
 
 
@@ -117,7 +124,7 @@ class _State:
     y: Rows
     depth: Rows
     removed: float
-    elongation: float
+    wear: ChainWear
     cycles: float
     chain: int
     pressure: float
@@ -145,7 +152,6 @@ class _Bodies:
         self.coefficients = np.empty(2 * points - 1)
         influence_coefficients(contact.modulus, self.coefficients)
         self.numbers = np.zeros(NUMBERS)
-        self.numbers[MATE_RADIUS] = contact.roller_radius
         self.numbers[COEFFICIENT] = law.coefficient
         self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
         self.numbers[SPEED_EXPONENT] = law.speed_exponent
@@ -156,7 +162,7 @@ class _Bodies:
         self.findings = np.zeros(FINDINGS)
         self.pressures = np.zeros((0, points))
         self.memory = contact.memory()
-        self.elongation, self.cycles, self.chain = 0.0, 0.0, 1
+        self.wear, self.cycles, self.chain = NEW_CHAIN, 0.0, 1
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
         if start is not None:
             self._begin(profile, start)
@@ -164,20 +170,19 @@ class _Bodies:
     def _begin(self, profile: Profile, start: Start) -> None:
         self.depth = start.depth.copy()
         self.area = self.depth * (1.0 - 0.5 * profile.curvature * self.depth)
-        self.x = profile.x - self.depth * profile.normal_x
-        self.y = profile.y - self.depth * profile.normal_y
-        self.elongation, self.chain = start.elongation, start.chain
+        self.x, self.y = profile.receded(self.depth)
+        self.wear, self.chain = start.wear, start.chain
 
     def state(self) -> "_State":
         """Return a copy of all that changes."""
         return _State(
-            self.x.copy(), self.y.copy(), self.depth.copy(), self.removed, self.elongation,
+            self.x.copy(), self.y.copy(), self.depth.copy(), self.removed, self.wear,
             self.cycles, self.chain, float(self.findings[PEAK_PRESSURE]), self.speed,
         )  # fmt: skip
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles at once; return the most that any point receded."""
-        table = self.contact.events(self.x, self.y, self.elongation, self.memory)
+        table = self.contact.events(self.x, self.y, self.wear, self.memory)
         if self.pressures.shape[0] != table.shape[1]:
             self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
         if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
@@ -186,6 +191,7 @@ class _Bodies:
                 "load and sliding there is no wear and no life"
             )
         self.numbers[CYCLES] = cycles
+        self.numbers[MATE_RADIUS] = self.contact.roller_radius - self.wear.roller
         before = self.depth.copy()
         wear_events(
             table, self.updates % 2, self.x, self.y, self.area, self.depth, self.unworn,
@@ -198,7 +204,8 @@ class _Bodies:
             )
         self.speed = float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max())
         self.removed += float(self.findings[AREA])
-        self.elongation += cycles * self.contact.elongation_per_cycle
+        hard_area = float(self.findings[HARD_AREA]) / self.contact.bodies
+        self.wear = self.contact.chain_after(self.wear, cycles, hard_area)
         self.cycles += cycles
         self.updates += 1
         return float((self.depth - before).max())
@@ -245,7 +252,8 @@ class _Record:
             met=met,
             updates=bodies.updates,
             all_depth=depth,
-            elongation=np.array([state.elongation for state in states]),
+            elongation=np.array([state.wear.elongation for state in states]),
+            roller_wear=np.array([state.wear.roller for state in states]),
             chains=np.array([float(state.chain) for state in states]),
             peak_pressure=pressure,
             sliding_speed=speed,
@@ -269,6 +277,31 @@ def _margins(criteria: tuple[Criterion, ...], bodies: _Bodies) -> float:
     )
 
 
+def _done(criteria: tuple[Criterion, ...], bodies: _Bodies, horizon: float) -> float:
+    return min(1.0, max(float(bodies.depth.max()) / criteria[0].limit, bodies.cycles / horizon))
+
+
+def reporting(progress: Callable[[float], None]) -> Watch:
+    """Return a watch over a run that only tells how much of it is done.
+
+    Parameters
+    ----------
+    progress : callable
+        Told a part from 0 to 1.
+
+    Returns
+    -------
+    callable
+        For ``run_dwelling``.
+    """
+
+    def _goes_on(part: float) -> bool:
+        progress(part)
+        return True
+
+    return _goes_on
+
+
 def _met(criteria: tuple[Criterion, ...], bodies: _Bodies) -> Criterion | None:
     found = [
         first_met(criteria, bodies.x[body], bodies.y[body], bodies.depth[body])
@@ -284,7 +317,7 @@ def run_dwelling(
     horizon: float,
     level: int,
     cycles_per_step: float = 0.0,
-    stop: threading.Event | None = None,
+    watch: Watch = lambda part: True,
     start: Start | None = None,
 ) -> DwellingTrajectory:
     """Wear outlines and chain until a criterion is met or the horizon is reached.
@@ -305,8 +338,9 @@ def run_dwelling(
         Steps are smaller by half for each level above 0.
     cycles_per_step : float
         Cycles of every step; 0 for steps by the depth that they take off.
-    stop : threading.Event, optional
-        Ends the run early when it is set; what comes back then is not complete.
+    watch : callable, optional
+        Told before every step how much of the run is done, from 0 to 1. Where it returns
+        False the run ends early; what comes back then is not complete.
     start : Start, optional
         Worn outlines and a used chain to begin with; new ones otherwise.
 
@@ -328,7 +362,7 @@ def run_dwelling(
     elongation_limit = contact.elongation_limit
     sizes = _step_sizes(limit, level)
     rate, met = 0.0, None
-    while met is None and bodies.cycles < horizon and not (stop and stop.is_set()):
+    while met is None and bodies.cycles < horizon and watch(_done(criteria, bodies, horizon)):
         before = bodies.state()
         if not cycles_per_step and bodies.updates > _MOST_STEPS * 2**level:
             raise ConvergenceError(
@@ -343,32 +377,46 @@ def run_dwelling(
             cycles = max(cycles, min(1.0, 1.0 / 2**level))
         if growth > 0.0:
             longest = elongation_limit / growth / (_ELONGATION_STEPS * 2**level)
-            cycles = min(cycles, longest, (elongation_limit - bodies.elongation) / growth)
+            cycles = min(cycles, longest, (elongation_limit - bodies.wear.elongation) / growth)
         cycles = min(cycles, horizon - bodies.cycles)
         try:
             rate = bodies.step(cycles) / cycles
         except JumpError:
             if bodies.cycles == 0.0:
                 raise
+            record.add(bodies, last=True)
             met = jump_criterion(contact.slack_tension)
             break
-        met = _met(criteria, bodies)
-        if met is not None:
-            _cut(criteria, bodies, before)
-        elif growth > 0.0 and bodies.elongation >= elongation_limit * (1.0 - 1e-9):
+        met = _limit_met(criteria, bodies, before)
+        if (
+            met is None
+            and growth > 0.0
+            and bodies.wear.elongation >= elongation_limit * (1.0 - 1e-9)
+        ):
             record.end_chain(bodies)
-            bodies.elongation, bodies.chain = 0.0, bodies.chain + 1
+            bodies.wear, bodies.chain = NEW_CHAIN, bodies.chain + 1
             sizes = _step_sizes(limit, level)
         else:
-            record.add(bodies, last=not bodies.cycles < horizon)
-    if met is not None:
-        record.add(bodies, last=True)
+            record.add(bodies, last=met is not None or not bodies.cycles < horizon)
     return record.trajectory(bodies, met)
+
+
+def _limit_met(
+    criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State
+) -> Criterion | None:
+    """Return the limit that the last step has met, if any, and go back to where it was met."""
+    contact, met = bodies.contact, _met(criteria, bodies)
+    if met is not None:
+        _cut(bodies, before, lambda: _margins(criteria, bodies) > 0.0)
+    if not contact.holds(bodies.x, bodies.y, bodies.wear):
+        met = jump_criterion(contact.slack_limit)
+        _cut(bodies, before, lambda: contact.holds(bodies.x, bodies.y, bodies.wear))
+    return met
 
 
 def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) -> float:
     """Cycles that wear about so deep: the worst event under the Hertz pressure on a flat."""
-    table = contact.events(bodies.x, bodies.y, bodies.elongation, bodies.memory)
+    table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
     table = table[:, table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT] > 0.0]
     if table.shape[1] == 0:
         return 1.0
@@ -378,8 +426,8 @@ def _first_cycles(contact: Dwelling, bodies: _Bodies, law: Law, depth: float) ->
     return depth / float(worn.max())
 
 
-def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> None:
-    """Go back on the last step to the place where the first margin vanishes."""
+def _cut(bodies: _Bodies, before: _State, allowed: Callable[[], bool]) -> None:
+    """Go back on the last step to the place up to which it was allowed."""
     after = bodies.state()
 
     def place(part: float) -> None:
@@ -387,7 +435,9 @@ def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> No
         bodies.y = before.y + part * (after.y - before.y)
         bodies.depth = before.depth + part * (after.depth - before.depth)
         bodies.removed = before.removed + part * (after.removed - before.removed)
-        bodies.elongation = before.elongation + part * (after.elongation - before.elongation)
+        bodies.wear = ChainWear(
+            *(b + part * (a - b) for b, a in zip(before.wear, after.wear, strict=True))
+        )
         bodies.cycles = before.cycles + part * (after.cycles - before.cycles)
 
     low, high = 0.0, 1.0
@@ -396,7 +446,7 @@ def _cut(criteria: tuple[Criterion, ...], bodies: _Bodies, before: _State) -> No
         if not low < middle < high:
             break
         place(middle)
-        low, high = (middle, high) if _margins(criteria, bodies) > 0.0 else (low, middle)
+        low, high = (middle, high) if allowed() else (low, middle)
     place(high)
 
 
@@ -406,6 +456,7 @@ def run_together(
     criteria: tuple[Criterion, ...],
     horizon: float,
     start: Start | None = None,
+    progress: Callable[[float], None] = lambda part: None,
 ) -> list[DwellingTrajectory]:
     """Run several contacts side by side, each with its own size of steps.
 
@@ -421,6 +472,8 @@ def run_together(
         Cycles at which the runs end in any case.
     start : Start, optional
         Worn outlines and a used chain to begin with; contacts on the same points then.
+    progress : callable, optional
+        Told how much of the first run is done, from 0 to 1.
 
     Returns
     -------
@@ -435,10 +488,19 @@ def run_together(
         A pressure cannot be found.
     """
     stop = threading.Event()
+
+    def _first(part: float) -> bool:
+        progress(part)
+        return not stop.is_set()
+
+    def _others(part: float) -> bool:
+        return not stop.is_set()
+
+    watches = [_first, *[_others] * (len(contacts) - 1)]
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         runs = [
-            pool.submit(run_dwelling, contact, law, criteria, horizon, level, 0.0, stop, start)
-            for contact, level in contacts
+            pool.submit(run_dwelling, contact, law, criteria, horizon, level, 0.0, watch, start)
+            for (contact, level), watch in zip(contacts, watches, strict=True)
         ]
         try:
             return [run.result() for run in runs]
@@ -499,6 +561,7 @@ def halve_steps(
     life_tolerance: float,
     runs: tuple[DwellingTrajectory, DwellingTrajectory],
     start: Start | None = None,
+    progress: Callable[[float], None] = lambda part: None,
 ) -> tuple[DwellingTrajectory, float]:
     """Go on from runs of the levels 0 and 1 until two successive lives agree.
 
@@ -518,6 +581,8 @@ def halve_steps(
         Those of the levels 0 and 1.
     start : Start, optional
         What they began with.
+    progress : callable, optional
+        Told how much of each further run is done, from 0 to 1.
 
     Returns
     -------
@@ -536,8 +601,9 @@ def halve_steps(
     change, level = difference(fine, coarse), 1
     while change > 0.5 * life_tolerance and level < _MOST_LEVELS:
         level += 1
+        watch = reporting(progress)
         coarse, fine = (
-            fine, run_dwelling(contact, law, criteria, horizon, level, start=start)
+            fine, run_dwelling(contact, law, criteria, horizon, level, 0.0, watch, start)
         )  # fmt: skip
         change = difference(fine, coarse)
     return fine, change

@@ -16,4 +16,5 @@ class StopTable(Table):
     case_depth_mm: Positive | None = None
     min_tooth_thickness_mm: Positive | None = None
     over_pins_change_mm: Positive | None = None
+    min_slack_tension_N: Positive | None = None
     elongation_percent: Annotated[PositiveNumber, Field(le=10.0)] | None = None

@@ -34,6 +34,7 @@ class WearTable(Table):
     speed_exponent: Number | None = None
     case_depth_mm: Positive | None = None
     core_factor: PositiveNumber | None = None
+    roller_wear_ratio: Annotated[Number, Field(ge=0.0)] | None = None
     running_in_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
     running_in_distance_mm: Positive | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
