@@ -7,7 +7,7 @@ from wearsim.errors import ContactError, ConvergenceError, GeometryError
 
 
 def raising(error):
-    def simulate(case):
+    def simulate(case, progress):
         raise error
 
     return simulate
