@@ -103,7 +103,7 @@ def test_table_is_marked_and_narrow(cli, checked, name):
     assert max(len(line) for line in table) <= 100
     rated = {line[11:34].strip(): line for line in lines if line.startswith("  rating   ")}
     for found in checked(name)["rating"]:
-        assert list(found) == ["name", "value", "limit", "unit", "ok", "source", "note"]
+        assert list(found) == ["name", "value", "limit", "unit", "ok", "source", "note", "load"]
         line = rated[found["name"]]
         assert ("OUTSIDE" in line) == (not found["ok"])
         assert f" {found['unit']} " in line

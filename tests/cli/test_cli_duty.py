@@ -49,7 +49,7 @@ def test_check_says_how_the_blocks_count(cli, case):
     done = cli("check", case(BLOCKS))
     assert done.code == 0
     assert "speed 100 rpm is the mean over the time of the duty" in done.out
-    assert "those of the heaviest block" in done.out
+    assert "that of the heaviest one" in done.out
 
 
 def test_every_fault_of_the_blocks_with_its_line(cli, case):

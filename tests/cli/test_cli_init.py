@@ -27,6 +27,12 @@ def test_output_passes_check_and_lives(cli, tmp_path, chain, teeth):
     assert cli("life", path).code == 0
 
 
+def test_designation_is_written_as_in_the_catalogue(cli):
+    text = cli("init", "--chain", "#40", "--kind", "wrap").out
+    assert tomllib.loads(text)["chain"]["designation"] == "ANSI 40"
+    assert tomllib.loads(text)["sprocket"]["profile"] == "ansi_b29"
+
+
 def test_commented_keys_are_the_defaults(cli, tmp_path):
     """With every comment of a key taken away the case is still good, and its flank the same."""
     path, bare = tmp_path / "drive.toml", tmp_path / "bare.toml"

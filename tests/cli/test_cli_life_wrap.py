@@ -222,7 +222,8 @@ def test_locked_case_gives_the_same_life(cli, wrapped, tmp_path):
 
 def test_every_cycle_on_its_own_is_refused(cli, wrapped, conforms):
     """Some 1e7 updates of a millisecond; the message says which number of cycles is possible."""
-    slow = ("--set", "run.method=per_cycle")
+    phases = ("--set", "mechanism.phases=8")
+    slow = (*phases, "--set", "run.method=per_cycle")
     done = cli("life", "--json", wrapped, *slow)
     assert done.code == 3
     error = strict(done.out)["error"]
@@ -233,7 +234,7 @@ def test_every_cycle_on_its_own_is_refused(cli, wrapped, conforms):
     assert least > 1
     coarse = 400 * least
     line = answer(cli, wrapped, *slow, "--set", f"run.cycles_per_update={coarse}")
-    advance = answer(cli, wrapped)
+    advance = answer(cli, wrapped, *phases)
     assert line["method"] == "per_cycle"
     assert line["updates"] == pytest.approx(line["cycles"] / coarse, abs=1.0)
     assert line["life_hours"] == pytest.approx(advance["life_hours"], rel=0.02)

@@ -2,14 +2,18 @@
 
 import pytest
 
+from wearsim.case.load import load_case
 from wearsim.catalogue.tables import (
     KG_PER_M,
+    chain_name,
     chains,
     materials,
     nearest,
+    nearest_chain,
     rows,
     wear_conditions,
 )
+from wearsim.errors import CaseError
 
 # p, d1, b1 [mm] and tensile strength [kN] typed from ISO 606 (ANSI B29.1 for the A series).
 ISO_606 = {
@@ -212,3 +216,92 @@ def test_wear_conditions_are_bands_around_a_typical_value():
 def test_nearest_names(name, hint):
     assert nearest(name, dict(chains())).startswith(hint)
     assert bool(nearest(name, dict(chains()))) is bool(hint)
+
+
+@pytest.mark.parametrize(
+    ("typed", "name"),
+    [
+        ("08B-1", "08B-1"),
+        ("08b", "08B"),
+        ("08 B", "08B"),
+        ("08B1", "08B-1"),
+        ("16 - b - 2", "16B-2"),
+        ("ANSI40", "ANSI 40"),
+        ("ANSI-40", "ANSI 40"),
+        ("ansi  40 - 2", "ANSI 40-2"),
+        ("#40", "ANSI 40"),
+        ("# 40-3", "ANSI 40-3"),
+        ("no. 40", "ANSI 40"),
+        ("ANSI No 40", "ANSI 40"),
+        ("№ 40", "ANSI 40"),
+        ("ПР-12.7-18.2", "ПР-12,7-18,2"),
+        ("пр 12,7-18.2", "ПР-12,7-18,2"),
+        ("2ПР25.4-114", "2ПР-25,4-114"),
+    ],
+)
+def test_designation_as_people_type_it(typed, name):
+    assert chain_name(typed) == name
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "40",
+        "8B",
+        "08",
+        "08-1",
+        "0851",
+        "ANSI 402",
+        "ANSI 4-1",
+        "ПР-12.71-8.2",
+        "#08B",
+        "#",
+        "-",
+        "",
+    ],
+)
+def test_designation_that_could_be_another(typed):
+    """Digits on both sides of a hyphen, and a number without its series, are not guessed at."""
+    assert chain_name(typed) is None
+
+
+def test_every_name_stands_for_itself_whatever_its_case_and_spaces():
+    for name in chains():
+        assert chain_name(f" {name.lower().replace(' ', '')} ") == chain_name(name) == name
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [
+        ("40", "'ANSI 40' (pitch 12.7 mm) or '40A' (pitch 63.5 mm) or '40B' (pitch 63.5 mm)?"),
+        ("8B", "'08B' (pitch 12.7 mm)?"),
+        ("8b-2", "'08B-2' (pitch 12.7 mm)?"),
+        ("60", "'ANSI 60' (pitch 19.05 mm) or '60H' (pitch 19.05 mm)?"),
+        ("16X", "'16B' or '16A'?"),
+    ],
+)
+def test_nearest_chains(typed, hint):
+    assert nearest_chain(typed) == f"; did you mean {hint}"
+
+
+@pytest.mark.parametrize("typed", ["40", 40])
+def test_a_number_without_its_series_is_refused(typed):
+    with pytest.raises(CaseError, match=r"did you mean 'ANSI 40' \(pitch 12.7 mm\) or '40A'"):
+        load_case({"chain": {"designation": typed}})
+
+
+def test_case_says_how_it_reads_a_designation():
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "16b"},
+        "sprocket": {"teeth": 20, "profile": "evolute"},
+        "load": {"power_kW": 3, "speed_rpm": 100},
+        "wear": {"condition": "hardened, oiled"},
+    }
+    read, text = load_case(tables), "chain '16b' is read as 16B of the catalogue"
+    assert read.chain.designation == "16B-1"
+    assert read.inputs["chain"]["designation"] == "16B"
+    assert text in read.assumptions
+    given = load_case(read.inputs)
+    assert text not in given.assumptions
+    assert given.chain == read.chain

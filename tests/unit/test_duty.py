@@ -129,7 +129,7 @@ def test_strings_with_units_are_read_in_a_block(case):
 
 def test_answer_says_what_the_heaviest_block_is_for(case):
     texts = " ".join(case(blocks((0.5, 5000, 100), (0.5, 3000, 100))).assumptions)
-    assert "those of the heaviest block" in texts
+    assert "that of the heaviest one" in texts
     assert "heaviest" not in " ".join(case(blocks((1.0, 5000, 100))).assumptions)
 
 

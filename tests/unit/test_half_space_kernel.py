@@ -55,6 +55,15 @@ def test_coefficients_are_those_of_constant_pressure_cells():
     assert (coefficients > 0.0).all()
 
 
+def test_work_of_a_longer_line_is_left_out():
+    """Rows of work may be longer than the line and hold anything."""
+    given, other = arguments(), arguments()
+    other["work"] = np.full((half_space.WORK_ROWS, 90), -1e3)
+    (pressure, _, status), (found, _, found_status) = solve(given), solve(other)
+    assert (found_status, half_space.CONVERGED) == (status, status)
+    np.testing.assert_array_equal(found, pressure)
+
+
 def test_two_cells_by_hand():
     """One cell 2 um deeper: D (p1 - p2) = 2 um - (a0 - a1)(f1 - f2), p1 + p2 = q/w."""
     a0 = 2.0 / (np.pi * MODULUS) * (1.0 + np.log(4.0))

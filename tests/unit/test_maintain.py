@@ -20,8 +20,9 @@ from wearsim.simulation.wrap import wrap_contact
 from wearsim.study.maintain import MaintenancePlan, Policy, cost_per_1000_hours, maintain
 from wearsim.study.tooth_count import meetings_around, variant
 from wearsim.study.turned import turned_life
+from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import Start, run_dwelling
+from wearsim.wear.dwelling import run_dwelling
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -272,6 +273,8 @@ def test_page_and_text_hold_the_same_numbers(plan):
         for shown in (f"{found.chains}", f"{found.last_chain_used:.0%}".replace("%", " %")):
             assert shown in text and shown in page
     assert max(map(len, text.splitlines())) <= 100
+    for shown in (" ".join(text.split()), page):
+        assert "- among teeth and links: a life that was not calculated" in shown
     assert "new chain at" in text and "new chain at" in page
 
 

@@ -3,7 +3,15 @@
 import pytest
 
 import wearsim
-from wearsim.sizing.rating import rated_drive, rating, rating_warnings, warning
+from wearsim.errors import CaseError
+from wearsim.report.rating import drive_notes
+from wearsim.sizing.rating import (
+    rated_drive,
+    rating,
+    rating_warnings,
+    rules_without_limit,
+    warning,
+)
 from wearsim.sizing.selection import Finding, RatedDrive, assess
 
 WRAP = {
@@ -24,12 +32,12 @@ def case(**tables):
 def test_numbers_of_the_catalogue_and_the_load():
     """Two strands of 179.4 mm2 and 55.6 kN; 20 * 25.4 mm * 750 rpm = 6.35 m/s."""
     drive = case().drive
-    found = rated_drive(case(), drive)
+    found = rated_drive(case(), drive, drive.heaviest)
     assert (found.pitch, found.teeth, found.speed, found.strands) == (25.4, 20.0, 750.0, 2)
     assert (found.bearing_area, found.tensile, found.light) == (358.8, 111_200.0, False)
     assert found.power == pytest.approx(30.0, rel=1e-12)
     assert found.pull == pytest.approx(30e6 / 6350.0, rel=1e-12)
-    assert found.own_tension == drive.slack + drive.centrifugal
+    assert found.own_tension == drive.slack + drive.heaviest.centrifugal
     assert found.series == "ISO606-A/ANSI B29.1"
 
 
@@ -45,13 +53,15 @@ def test_power_of_other_loads(load):
     """P = T omega = (T_t - T_s) v."""
     tables = {**WRAP, "load": load, "drive": {**WRAP["drive"], "slack_tension_N": 200.0}}
     found = wearsim.load_case(tables)
-    assert rated_drive(found, found.drive).power == pytest.approx(30.0, rel=1e-12)
+    assert rated_drive(found, found.drive, found.drive.heaviest).power == pytest.approx(
+        30.0, rel=1e-12
+    )
 
 
 def test_no_41_is_the_light_chain():
     chain = {"designation": "085-1", "mass_kg_per_m": 0.4}
     found = case(chain=chain, load={"power_kW": 0.2, "speed_rpm": 100})
-    assert rated_drive(found, found.drive).light
+    assert rated_drive(found, found.drive, found.drive.heaviest).light
 
 
 def test_every_other_gap_of_an_odd_number_is_half_a_tooth():
@@ -74,7 +84,7 @@ def test_every_other_gap_of_an_odd_number_is_half_a_tooth():
                 "load": {"power_kW": 30, "speed_rpm": 10},
             }
         )
-        rated = rated_drive(found, found.drive)
+        rated = rated_drive(found, found.drive, found.drive.heaviest)
         assert (rated.teeth, rated.speed) == pytest.approx((teeth, speed))
         assert rated.power == pytest.approx(30.0, rel=1e-12)
 
@@ -107,3 +117,55 @@ def test_warnings_are_of_what_is_outside():
 def test_lower_limit_in_words():
     found = Finding("safety", 6.0, 7.0, "", "iwis", at_least=True)
     assert warning(found) == "outside a rating: safety 6, allowed at least 7 (iwis)"
+
+
+ONE_19 = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 19, "profile": "iso606"},
+    "drive": {"mate_teeth": 57, "links": 120},
+    "mechanism": {"kind": "wrap"},
+    "wear": {"condition": "hardened, oiled"},
+}
+
+
+def test_every_rule_is_judged_by_its_own_worst_block():
+    """The lighter block runs five times as fast: each rule as of the block alone that is worse."""
+    slow, fast = ({"tension_N": 790, "speed_rpm": 1000}, {"tension_N": 780, "speed_rpm": 5000})
+    both = [{"share_of_time": 0.5, **slow}, {"share_of_time": 0.5, **fast}]
+    together = {found.name: found for found in rating(wearsim.load_case({**ONE_19, "duty": both}))}
+    alone = [
+        {found.name: found for found in rating(wearsim.load_case({**ONE_19, "load": load}))}
+        for load in (slow, fast)
+    ]
+    for name, found in together.items():
+        worst = max((of[name] for of in alone if name in of), key=lambda one: one.used)
+        assert (found.value, found.limit) == (worst.value, worst.limit)
+    assert not together["roller impact"].ok
+    assert together["roller impact"].load == "780 N at 5000 rpm"
+    warned = rating_warnings(wearsim.load_case({**ONE_19, "duty": both}))
+    assert any("roller impact of 780 N at 5000 rpm" in text for text in warned)
+
+
+def test_a_rule_without_a_row_is_named():
+    """The table of joint pressures ends below 5000 rpm at this pitch."""
+    fast = wearsim.load_case({**ONE_19, "load": {"tension_N": 780, "speed_rpm": 5000}})
+    assert rules_without_limit(fast) == ("joint pressure",)
+    assert "joint pressure" in drive_notes(fast)[-1]
+    slow = wearsim.load_case({**ONE_19, "load": {"tension_N": 780, "speed_rpm": 500}})
+    assert rules_without_limit(slow) == ()
+
+
+def test_a_typical_regime_is_rated_by_the_load_given():
+    constant, light = (
+        rating(wearsim.load_case({**ONE_19, "load": {"power_kW": 6, "speed_rpm": 1000, **regime}}))
+        for regime in ({}, {"regime": "V"})
+    )
+    assert light == constant
+
+
+def test_a_typical_regime_cannot_break_the_chain():
+    load = {"tension_N": 22000, "speed_rpm": 100, "regime": "V"}
+    drive = {**ONE_19["drive"], "slack_tension_N": 100}
+    with pytest.raises(CaseError, match=r"load\.tension_N.*tensile strength"):
+        wearsim.load_case({**ONE_19, "drive": drive, "load": load})

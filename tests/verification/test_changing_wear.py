@@ -218,6 +218,7 @@ MARGIN = (
     "joint.pitch=alternating",
     "mechanism.friction_roller_tooth=0.1",
     "mechanism.friction_roller_bush=0.1",
+    "run.life_tolerance=0.1",
 )
 
 
@@ -255,3 +256,33 @@ def test_rollers_that_wear_are_told() -> None:
 def test_rollers_worn_through_are_refused() -> None:
     with pytest.raises(ContactError, match="roller: must keep a wall around its bush"):
         wrap("wear.roller_wear_ratio=30000")
+
+
+def test_part_renewed_later_runs_in_once_more() -> None:
+    """The integral of its own coefficient over the cycles since it was new, by quadrature."""
+    warp = RunningIn(5.0, 300.0)
+    new_at, until = (warp.constant_cycles(cycles) for cycles in (200.0, 1000.0))
+    expected, _ = quad(lambda n: 1.0 + 4.0 * math.exp(-n / 300.0), 0.0, 800.0)
+    worn = warp.renewed(new_at, until)
+    assert worn == pytest.approx(expected, rel=1e-9)
+    assert warp.until_renewed(new_at, worn) == pytest.approx(until, rel=1e-9)
+    assert warp.renewed(0.0, until) == until
+    assert CONSTANT.renewed(7.0, 9.0) == 2.0
+    assert CONSTANT.until_renewed(7.0, 2.0) == 9.0
+
+
+def test_every_chain_runs_in() -> None:
+    """Chains of one drive live alike."""
+    result = wrap(
+        "wear.running_in_factor=5",
+        "wear.running_in_distance_mm=100",
+        "joint.specific_wear_rate_mm2_per_N=2e-7",
+        "stop.elongation_percent=2",
+        "run.horizon_hours=60",
+        "run.life_tolerance=0.1",
+    )
+    cycles, chain = result.history_columns["cycles"], result.history_columns["chain"]
+    ends = [cycles[chain == number][-1] for number in (1.0, 2.0, 3.0)]
+    # The end of a chain is the last row with its number.
+    np.testing.assert_allclose(np.diff([0.0, *ends]), result.parts["chain"].cycles, rtol=1e-6)
+    assert any("every new chain" in text for text in result.assumptions)

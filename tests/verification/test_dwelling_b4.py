@@ -9,9 +9,10 @@ of linear wear is k q s for any pressure where its directions are parallel.
 import numpy as np
 import pytest
 
-from wearsim.contact.dwelling import Dwelling
+from wearsim.contact.dwelling import NEW_CHAIN, Dwelling
 from wearsim.geometry.profile import Profile, area_between
 from wearsim.kernels import event_rows as kernels
+from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.dwelling import run_dwelling
 from wearsim.wear.law import archard, power
@@ -55,7 +56,7 @@ class Resting(Dwelling):
     def memory(self):
         return np.zeros((1, 1))
 
-    def events(self, x, y, elongation, memory):
+    def events(self, x, y, wear, memory, at=0.5):
         table = np.zeros((kernels.EVENT_ROWS, len(self._places)))
         start, step = self.profile.x[0], self.profile.x[0] - self.profile.x[1]
         for column, (place, load, path, count, body) in zip(table.T, self._places, strict=True):
@@ -205,6 +206,21 @@ def test_order_of_events_matters_less_with_smaller_steps():
     assert change[1] < 0.4 * change[0]
 
 
+def test_highest_load_is_that_of_the_outline_as_it_is():
+    """Hertz on the flat whatever the coefficient; as in the scar at its end afterwards."""
+    contact = Resting((0.0, q, 1.0, 3.0, 0), half=0.15)
+    hertz = np.sqrt(4.0 * q * R / (np.pi * MODULUS))
+    start = Start(np.zeros((1, contact.profile.x.size)), NEW_CHAIN, 1)
+    pressure, speed = highest_load(contact, archard(1e-3), start)
+    assert pressure == pytest.approx(2.0 * q / (np.pi * hertz), rel=1e-3)
+    assert speed == 10.0
+    run = slid(162.0)
+    worn, _ = highest_load(
+        Resting((0.0, q, 1.0, 3.0, 0)), archard(k), Start(run.all_depth[-1], NEW_CHAIN, 1)
+    )
+    assert q / (2.4 * half_width(run)) < worn < 0.5 * pressure
+
+
 def test_power_law_under_the_pressure_of_the_end():
     """m = 2 in one tiny step: depth K s p^2 at every point under Hertz pressure."""
     coefficient = 1e-14
@@ -216,4 +232,3 @@ def test_power_law_under_the_pressure_of_the_end():
     np.testing.assert_allclose(
         run.depth[-1][inside], coefficient * pressure[inside] ** 2, rtol=5e-3
     )
-    assert run.peak_pressure[-1] == pytest.approx(peak, rel=1e-3)

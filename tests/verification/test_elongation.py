@@ -153,7 +153,7 @@ def test_rating_point_verifies_equation_4_1_and_validates_nothing() -> None:
             "stop": {"elongation_percent": 3.0},
         }
     )
-    assert case.drive.tight - case.drive.slack == pytest.approx(1145.0, rel=1.2e-3)
+    assert case.drive.heaviest.tension - case.drive.slack == pytest.approx(1145.0, rel=1.2e-3)
     assert chain_hours(case) == pytest.approx(15_000.0, rel=0.05)
 
 

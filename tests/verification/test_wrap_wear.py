@@ -21,8 +21,9 @@ from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
 from wearsim.mechanisms.wrap_cycle import WrapContact
 from wearsim.simulation.wrap import wrap_contact
+from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import DwellingTrajectory, Start, run_dwelling
+from wearsim.wear.dwelling import DwellingTrajectory, run_dwelling
 from wearsim.wear.law import archard, power
 
 Array = NDArray[np.float64]
@@ -286,7 +287,7 @@ def test_steps_converge() -> None:
 
 def test_one_step_for_the_whole_life_is_stable() -> None:
     """No point stands out of its neighbours; the depth is right within 25 %, with ten steps 5 %."""
-    of = contact("mechanism.phases=2")
+    of = replace(contact("mechanism.phases=2"), elongation_per_cycle=1e-12)
     fine = wear(of, 1, depth=0.05)
     cycles = float(fine.cycles[-1])
     one = wear(of, depth=1.0, horizon=cycles, step=cycles)
@@ -325,7 +326,7 @@ def test_cycle_by_cycle() -> None:
     advance = wear(of, 3, depth=0.05, factor=factor)
     cycles = wear(of, depth=0.05, factor=factor, step=1.0)
     assert cycles.updates == math.ceil(cycles.cycles[-1]) > 1000
-    assert cycles.cycles[-1] == pytest.approx(advance.cycles[-1], rel=3e-3)
+    assert cycles.cycles[-1] == pytest.approx(advance.cycles[-1], rel=5e-3)
     np.testing.assert_allclose(cycles.depth[-1], advance.depth[-1], rtol=0.0, atol=5e-3 * 0.05)
 
 
@@ -346,7 +347,10 @@ def test_power_law_wears_less_where_pressure_is_low() -> None:
     law = power(COEFFICIENT / 250.0, 2.0)
     square = run_dwelling(of, law, (depth_criterion(0.02),), ENDLESS, 0)
     line = wear(of, depth=0.02)
-    assert line.peak_pressure[-1] < 250.0 < line.peak_pressure[0]
+    first, last = (
+        highest_load(of, law, Start(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]]
+    )
+    assert last < 250.0 < first
     early = 1e-4 * line.cycles[-1]
     depths = [np.interp(early, run.cycles, run.depth.max(axis=1)) for run in (square, line)]
     assert depths[0] > 1.05 * depths[1]

@@ -127,17 +127,19 @@ def _blocks(
     case: Resolution, duty: Duty, centrode: float, chain: Chain
 ) -> tuple[Block, ...] | None:
     """Return the blocks of a duty with their pulls."""
-    found = []
-    for block in duty.blocks:
-        speed = 2.0 * math.pi * centrode * block.speed_rpm / 60.0
-        pull = block.part * effective_pull(block, speed, centrode)
-        found.append(Block(block.share, block.speed_rpm, pull, 0.0, block.wear_factor))
-    blocks = tuple(found)
+
+    def _block(load: LoadBlock) -> Block:
+        speed = 2.0 * math.pi * centrode * load.speed_rpm / 60.0
+        pull = load.part * effective_pull(load, speed, centrode)
+        return Block(load.share, load.speed_rpm, pull, 0.0, load.wear_factor)
+
+    blocks, rated = (tuple(map(_block, loads)) for loads in (duty.blocks, duty.rated))
     pull, least = heaviest(blocks).tension, min(block.tension for block in blocks)
     shown = f"{pull:.6g} N" if len(blocks) == 1 else f"{least:.4g} to {pull:.6g} N"
     case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
-    key = duty.blocks[blocks.index(heaviest(blocks))].key
-    return blocks if within_strength(case, pull, chain, key) else None
+    most = heaviest(rated)
+    key = duty.rated[rated.index(most)].key
+    return blocks if within_strength(case, most.tension, chain, key) else None
 
 
 def effective_pull(block: LoadBlock, speed: float, lever: float) -> float:

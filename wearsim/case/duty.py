@@ -65,10 +65,14 @@ class Duty:
         Their shares sum to 1; none where a table of loads takes their place.
     speed_rpm : float
         Mean over the time.
+    rated : tuple of LoadBlock
+        The loads that strength and ratings are judged by: the blocks, but of a typical regime
+        the load given.
     """
 
     blocks: tuple[LoadBlock, ...]
     speed_rpm: float
+    rated: tuple[LoadBlock, ...]
 
 
 def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
@@ -108,9 +112,9 @@ def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
     if load.speed_rpm is None:
         return None
     if name is None or kind == "prescribed":
-        return Duty((), load.speed_rpm)
+        return Duty((), load.speed_rpm, ())
     block = LoadBlock(1.0, load.speed_rpm, name, getattr(load, name), 1.0, f"load.{name}")
-    return Duty(_regime(case, block), load.speed_rpm)
+    return Duty(_regime(case, block), load.speed_rpm, (block,))
 
 
 def _regime(case: Resolution, block: LoadBlock) -> tuple[LoadBlock, ...]:
@@ -162,7 +166,7 @@ def _given(case: Resolution) -> Duty | None:
     )
     case.assumptions.append(f"speed {speed:.6g} rpm is the mean over the time of the duty")
     _say_heaviest(case, len(found))
-    return Duty(found, speed)
+    return Duty(found, speed, found)
 
 
 def _load_block(block: DutyBlock, number: int, share: float) -> LoadBlock:
@@ -242,7 +246,7 @@ def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None
         )
         for block in blocks
     )
-    return Duty(found, 60.0 * cycles / math.fsum(block.time for block in blocks))
+    return Duty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
 
 
 def _log_summary(
@@ -262,5 +266,5 @@ def _say_heaviest(case: Resolution, count: int) -> None:
     if count > 1:
         case.assumptions.append(
             f"wear in a cycle is the mean over {count} blocks of the duty, weighted by their cycles; "
-            "pressure, ratings and tooth loads are those of the heaviest block"
+            "pressure is that of the heaviest one"
         )

@@ -204,6 +204,8 @@ class WrapDrive:
         b [mm].
     blocks : tuple of Block
         The duty.
+    rated : tuple of Block
+        Loads that strength, ratings and the grip of the chain are judged by.
     slack : float
         Tension of the slack strand without the centrifugal part [N].
     link_stiffness : float
@@ -233,6 +235,7 @@ class WrapDrive:
     wrap_angle: float
     face_width: float
     blocks: tuple[Block, ...]
+    rated: tuple[Block, ...]
     slack: float
     link_stiffness: float
     bush_radius: float
@@ -246,18 +249,8 @@ class WrapDrive:
 
     @property
     def heaviest(self) -> Block:
-        """The block of the largest tension."""
-        return heaviest(self.blocks)
-
-    @property
-    def tight(self) -> float:
-        """Tension of the tight strand in the heaviest block without the centrifugal part [N]."""
-        return self.heaviest.tension
-
-    @property
-    def centrifugal(self) -> float:
-        """Tension that the chain's own speed adds in the heaviest block [N]."""
-        return self.heaviest.centrifugal
+        """The rated load of the largest tension."""
+        return heaviest(self.rated)
 
     @property
     def profile(self) -> Profile:

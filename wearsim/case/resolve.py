@@ -20,7 +20,7 @@ from wearsim.case.model import (
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import CaseTables, ChainTable, MaterialTable, WearTable
 from wearsim.case.wrap import resolve_wrap
-from wearsim.catalogue.tables import KG_PER_M, Chain, chains, materials, wear_conditions
+from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains, materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
 
 DEFAULT_BAND = 3.0
@@ -143,7 +143,12 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
             bearing_area=table.bearing_area_mm2 or 0.0,
             mass_per_length=KG_PER_M * (table.mass_kg_per_m or 0.0),
         )
-    chain = chains()[table.designation]
+    name = chain_name(table.designation)
+    assert name is not None
+    if name != table.designation:
+        case.inputs["chain"]["designation"] = name
+        case.assumptions.append(f"chain {table.designation!r} is read as {name} of the catalogue")
+    chain = chains()[name]
     chain = replace(
         chain,
         pin_diameter=chain.pin_diameter or table.pin_diameter_mm or 0.0,

@@ -56,7 +56,7 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
     tensions = _tensions(case, chain, layout, duty)
     if tensions is None:
         return None
-    blocks, slack = tensions
+    blocks, rated, slack = tensions
     width = face_width(case, table, chain)
     mechanism = tables.mechanism
     if mechanism.phases is None:
@@ -75,6 +75,7 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
         wrap_angle=layout.wrap_1 if driver else layout.wrap_2,
         face_width=width,
         blocks=blocks,
+        rated=rated,
         slack=slack,
         link_stiffness=_link_stiffness(case, chain),
         bush_radius=0.5 * _bush_diameter(case, chain),
@@ -162,28 +163,21 @@ def _alternating(case: Resolution) -> bool:
 
 def _tensions(
     case: Resolution, chain: Chain, layout: DriveLayout, duty: Duty
-) -> tuple[tuple[Block, ...], float] | None:
-    """Return the blocks of the duty with their tensions, and the tension of the slack strand."""
-    pulls = [_pull(case, chain, block) for block in duty.blocks]
-    slack = _slack(case, chain, layout, max(pulls))
+) -> tuple[tuple[Block, ...], tuple[Block, ...], float] | None:
+    """Return the blocks of the duty and the rated loads with their tensions, and the slack strand's."""
+    slack = _slack(case, chain, layout, max(_pull(case, chain, load) for load in duty.rated))
     if slack is None:
         return None
-    blocks = []
-    for load, pull in zip(duty.blocks, pulls, strict=True):
-        whole = pull if load.kind == "tension_N" else pull + slack
-        tight = whole - (1.0 - load.part) * (whole - slack)
-        if load.measured:
-            tight = max(tight, slack)
-        elif tight <= slack:
+    rated = [_block(case, chain, load, slack) for load in duty.rated]
+    found = [_block(case, chain, load, slack) for load in duty.blocks]
+    for load, block in zip((*duty.rated, *duty.blocks), (*rated, *found), strict=True):
+        if block.tension <= slack and not load.measured:
             key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
-            _fault_slack(case, key, tight, slack)
+            _fault_slack(case, key, block.tension, slack)
             return None
-        centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
-        blocks.append(Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor))
-    found = tuple(blocks)
-    most = heaviest(found)
+    most = heaviest(tuple(rated))
     if most.tension <= slack:
-        _fault_slack(case, duty.blocks[0].key, most.tension, slack)
+        _fault_slack(case, duty.rated[0].key, most.tension, slack)
         return None
     idle = math.fsum(block.share for block in found if block.tension == slack)
     if idle:
@@ -191,16 +185,31 @@ def _tensions(
             f"for {100 * idle:.3g} % of the cycles the tight strand of the log pulls no more than the "
             "slack one, whose tension it takes then"
         )
-    least = min(block.tension for block in found)
-    shown = f"{most.tension:.6g} N" if len(found) == 1 else f"{least:.4g} to {most.tension:.6g} N"
     case.assumptions.append(
-        f"tight strand {shown}, slack strand {slack:.4g} N, and {most.centrifugal:.3g} N in both from "
-        "the chain's own speed, which loads joints but not teeth"
+        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "
+        f"{_range([block.centrifugal for block in found], 3)} N in both from the chain's own speed, which "
+        "loads joints but not teeth"
     )
-    strained = max(found, key=lambda block: block.tension + block.centrifugal)
-    key = duty.blocks[found.index(strained)].key
+    strained = max(rated, key=lambda block: block.tension + block.centrifugal)
+    key = duty.rated[rated.index(strained)].key
     holds = within_strength(case, strained.tension + strained.centrifugal, chain, key)
-    return (found, slack) if holds else None
+    return (tuple(found), tuple(rated), slack) if holds else None
+
+
+def _range(values: list[float], digits: int) -> str:
+    low, high = f"{min(values):.{digits}g}", f"{max(values):.{digits}g}"
+    return high if low == high else f"{low} to {high}"
+
+
+def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Block:
+    """Return a load with its tensions; that of a log is at least the slack one."""
+    pull = _pull(case, chain, load)
+    whole = pull if load.kind == "tension_N" else pull + slack
+    tight = whole - (1.0 - load.part) * (whole - slack)
+    if load.measured:
+        tight = max(tight, slack)
+    centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
+    return Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor)
 
 
 def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:

@@ -2,6 +2,7 @@
 
 import csv
 import difflib
+import re
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -160,6 +161,70 @@ def chains() -> dict[str, Chain]:
             multiple = _multiple(chain, f"{base}-{strands}", strands)
             found |= {f"{name}-{strands}": multiple for name in (base, ansi) if name}
     return found
+
+
+def chain_name(typed: str) -> str | None:
+    """Return the name of the catalogue that a typed designation stands for.
+
+    Parameters
+    ----------
+    typed : str
+        In any case, with or without the spaces and hyphens that set letters off from digits;
+        ``#40`` and ``no. 40`` stand for ``ANSI 40``, a decimal point for a comma.
+
+    Returns
+    -------
+    str or None
+        A key of `chains`, the very same where it is one; None where no chain goes by it, as by
+        a bare ``40``.
+
+    Examples
+    --------
+    >>> chain_name("08b"), chain_name("#40"), chain_name("40")
+    ('08B', 'ANSI 40', None)
+    """
+    return typed if typed in chains() else _spellings().get(_plain(typed))
+
+
+def nearest_chain(typed: str) -> str:
+    """Return a hint at the chains most like a designation that is none.
+
+    Parameters
+    ----------
+    typed : str
+        What was given.
+
+    Returns
+    -------
+    str
+        Those that lack only ``ANSI``, a leading zero or the letter of the series, with their
+        pitches; else as `nearest`.
+
+    Examples
+    --------
+    >>> nearest_chain("8B")
+    "; did you mean '08B' (pitch 12.7 mm)?"
+    """
+    plain, known = _plain(typed), _spellings()
+    likely = [f"ANSI{plain}"]
+    likely += [f"{zero}{plain}{series}" for zero in ("", "0") for series in ("", *"ABCH")]
+    found = [known[spelling] for spelling in likely if spelling in known]
+    if not found:
+        return nearest(typed, dict(chains()))
+    shown = (f"{name!r} (pitch {chains()[name].pitch:g} mm)" for name in found)
+    return f"; did you mean {' or '.join(shown)}?"
+
+
+@cache
+def _spellings() -> dict[str, str]:
+    return {_plain(name): name for name in chains()}
+
+
+def _plain(name: str) -> str:
+    """Return a designation in capitals, its parts apart only where digits meet."""
+    text = re.sub(r"^(ANSI)?[\s-]*(#|№|NO\.?)\s*(?=\d)", "ANSI", name.strip().upper())
+    text = re.sub(r"[\s\u2010-\u2015-]+", "-", text.replace(".", ","))
+    return re.sub(r"(?<!\d)-|-(?!\d)", "", text)
 
 
 def _chain(row: dict[str, str]) -> Chain:

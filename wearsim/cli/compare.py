@@ -45,7 +45,7 @@ def compare(
 
     check_folder(out, force)
     found = _results(sources, settings, as_json)
-    from wearsim.report.compare import distinct, save_comparison
+    from wearsim.report.compare import differing_limits, distinct, save_comparison
 
     results = distinct(list(found.values()), [str(path) for path in found])
     summary = save_comparison(results, out, force)
@@ -56,6 +56,8 @@ def compare(
             click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
     else:
         click.echo(summary)
+    if limits := differing_limits(results):
+        warn(f"warning: {limits}")
     warn(f"written to {out}")
     return SOME_FAILED if len(found) < len(set(sources)) else 0
 

@@ -40,7 +40,7 @@ def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
     power = float(f"{case.chain.tensile / 10.0 * case.chain.pitch * teeth * speed / 6e7:.2g}")
     template = Path(__file__).with_name("templates") / f"{kind}.toml"
     text = template.read_text(encoding="utf-8").format(
-        chain=chain, teeth=teeth, power=power, speed=speed, **_values(case)
+        teeth=teeth, power=power, speed=speed, **_values(case)
     )
     if str(out) == "-":
         click.echo(text, nl=False)
@@ -51,9 +51,9 @@ def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
 def _seed(chain: str, teeth: int, kind: str) -> "Case":
     """A case that takes every default."""
     from wearsim.case.load import load_case
-    from wearsim.catalogue.tables import chains
+    from wearsim.catalogue.tables import chain_name, chains
 
-    known = chains().get(chain)
+    known = chains().get(chain_name(chain) or "")
     form = _FORMS.get(known.series if known else "", "iso606") if kind == "wrap" else "evolute"
     seed = {
         "format_version": 1,
@@ -78,7 +78,11 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
 def _values(case: "Case") -> dict[str, Any]:
     """What the template shows of the defaults."""
     sprocket, stop = case.inputs["sprocket"], case.inputs["stop"]
-    shown = {"width": sprocket["face_width_mm"], "depth": stop["critical_depth_mm"]}
+    shown = {
+        "chain": case.inputs["chain"]["designation"],
+        "width": sprocket["face_width_mm"],
+        "depth": stop["critical_depth_mm"],
+    }
     if case.inputs["mechanism"]["kind"] == "strand":
         return shown | {
             "start": sprocket["contact_start_mm"],

@@ -165,8 +165,23 @@ class Dwelling(ABC):
             Numbers of the mechanism's own.
         """
 
+    def at(self, step: int) -> float:
+        """Return which phases of the cycle a step of the wear takes.
+
+        Parameters
+        ----------
+        step : int
+            Number of the step from 0.
+
+        Returns
+        -------
+        float
+            For ``events``.
+        """
+        return 0.5
+
     @abstractmethod
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
         """Return what the worn bodies meet in one cycle, a column an event.
 
         Parameters
@@ -177,6 +192,8 @@ class Dwelling(ABC):
             What the chain has lost.
         memory : numpy.ndarray
             Of this run; changed in place.
+        at : float, optional
+            From 0 to 1: which phases of the cycle stand for all others.
 
         Returns
         -------

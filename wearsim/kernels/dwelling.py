@@ -40,6 +40,8 @@ AREA, HARD_AREA, PEAK_PRESSURE, UNBALANCED = range(4)
 FINDINGS = 4
 
 _MOST_ITERATIONS = 2000.0
+_NEAR = 0.25
+"""Part of the reach on which a roller is pressed first."""
 
 
 @kernel(void(VECTOR, TABLE, int64, int64, VECTOR))
@@ -70,6 +72,36 @@ def recede(
         y[j] = unworn[UNWORN_Y, j] - depth[j] * unworn[UNWORN_NORMAL_Y, j]
 
 
+@kernel(void(int64, TABLE, VECTOR, VECTOR))
+def place_roller(event: int, events: Vector, numbers: Vector, constants: Vector) -> None:
+    """Write what `power_contact` takes of the roller of an event."""
+    constants[0], constants[1] = events[EVENT_CENTRE_X, event], events[EVENT_CENTRE_Y, event]
+    constants[2] = numbers[MATE_RADIUS]
+    constants[3], constants[4] = events[EVENT_NORMAL_X, event], events[EVENT_NORMAL_Y, event]
+    constants[5], constants[6] = events[EVENT_LOAD, event], numbers[TOLERANCE]
+    constants[7] = _MOST_ITERATIONS
+
+
+@kernel(int64(VECTOR, VECTOR, int64, int64, VECTOR, VECTOR))
+def touches_beyond(
+    x: Vector, y: Vector, first: int, last: int, constants: Vector, result: Vector
+) -> int:
+    """Return 1 where a roller pressed on the cells from ``first`` to before ``last`` may touch others.
+
+    The cells that may press must not reach an end of these, and all others must lie farther
+    from the roller than it has come nearer: displacements are positive.
+    """
+    if int(result[4]) == 0 or int(result[5]) == last - first:
+        return 1
+    away = constants[2] + max(result[0], 0.0)
+    near = 0
+    for j in range(x.size):
+        to_x, to_y = constants[0] - x[j], constants[1] - y[j]
+        inside = to_x * to_x + to_y * to_y < away * away
+        near += 1 if inside and (j < first or j >= last) else 0
+    return 1 if near > 0 else 0
+
+
 @kernel(void(int64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, VECTOR, VECTOR, TABLE, TABLE, VECTOR))
 def wear_event(
     event: int,
@@ -85,40 +117,50 @@ def wear_event(
     work: Vector,
     findings: Vector,
 ) -> None:
-    """Press one roller on its outline, wear it implicitly, and take the wear off."""
-    body, n = int(events[EVENT_BODY, event]), x.shape[1]
-    touched, reach = int(events[EVENT_TOUCHED, event]), int(numbers[REACH])
-    first, last = max(0, touched - reach), min(n, touched + reach + 1)
-    pressure = pressures[event][first:last]
-    width, factor = work[0], work[1][0 : last - first]
-    constants, result = work[2][0:8], work[2][8:15]
-    worn_width(depth[body], unworn, first, last, width)
-    constants[0], constants[1] = events[EVENT_CENTRE_X, event], events[EVENT_CENTRE_Y, event]
-    constants[2] = numbers[MATE_RADIUS]
-    constants[3], constants[4] = events[EVENT_NORMAL_X, event], events[EVENT_NORMAL_Y, event]
-    constants[5], constants[6] = events[EVENT_LOAD, event], numbers[TOLERANCE]
-    constants[7] = _MOST_ITERATIONS
+    """Press one roller on its outline, wear it implicitly, and take the wear off.
+
+    The roller is pressed on the cells near the place it touches and, where these might not be
+    all, on all that it can reach.
+    """
+    body, n, touched = int(events[EVENT_BODY, event]), x.shape[1], int(events[EVENT_TOUCHED, event])
+    width, factor, constants, result = work[0], work[1], work[2][0:8], work[2][8:15]
+    place_roller(event, events, numbers, constants)
     exponent, speed = numbers[PRESSURE_EXPONENT], events[EVENT_SPEED, event]
     worn = numbers[COEFFICIENT] * numbers[CYCLES] * events[EVENT_COUNT, event]
     worn *= events[EVENT_SLIP, event]
     if numbers[SPEED_EXPONENT] != 0.0:
         worn *= speed ** numbers[SPEED_EXPONENT] if speed > 0.0 else 0.0
-    for j in range(last - first):
-        soft = depth[body, first + j] > numbers[CASE_DEPTH]
-        factor[j] = worn * numbers[CORE_FACTOR] if soft else worn
-    status = power_contact(
-        x[body][first:last], y[body][first:last], width[first:last], factor, exponent, coefficients,
-        constants, pressure, work[3:], result,
-    )  # fmt: skip
+    first, last, status = 0, n, NOT_CONVERGED
+    for attempt in range(2):
+        reach = int(numbers[REACH]) if attempt == 1 else int(numbers[REACH] * _NEAR)
+        first, last = max(0, touched - reach), min(n, touched + reach + 1)
+        worn_width(depth[body], unworn, first, last, width)
+        for j in range(first, last):
+            soft = depth[body, j] > numbers[CASE_DEPTH]
+            factor[j] = worn * numbers[CORE_FACTOR] if soft else worn
+        status = power_contact(
+            x[body][first:last], y[body][first:last], width[first:last], factor[first:last], exponent,
+            coefficients, constants, pressures[event][first:last], work[3:], result,
+        )  # fmt: skip
+        low, high = max(0, touched - int(numbers[REACH])), min(n, touched + int(numbers[REACH]) + 1)
+        elsewhere = touches_beyond(
+            x[body][low:high], y[body][low:high], first - low, last - low, constants, result
+        )
+        if attempt == 1 or (status == CONVERGED and elsewhere == 0):
+            break
+        if status != CONVERGED:
+            for j in range(first, last):
+                pressures[event, j] = 0.0
     findings[UNBALANCED] += 0.0 if status == CONVERGED else 1.0
     if status != CONVERGED and status != NOT_CONVERGED:
         return
-    for j in range(last - first):
+    pressure = pressures[event]
+    for j in range(first, last):
         p = pressure[j]
         if p > 0.0:
-            pressed = (p if exponent == 1.0 else p**exponent) * width[first + j]
+            pressed = (p if exponent == 1.0 else p**exponent) * width[j]
             removed = factor[j] * pressed
-            area[body, first + j] += removed / unworn[SPACING, first + j]
+            area[body, j] += removed / unworn[SPACING, j]
             findings[AREA] += removed
             findings[HARD_AREA] += worn * pressed
             findings[PEAK_PRESSURE] = max(findings[PEAK_PRESSURE], p)

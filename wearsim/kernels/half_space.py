@@ -225,10 +225,9 @@ def first_force(
     a guess from the overlap is. The solution's energy is not above that of these forces, and
     load times (approach - level) is at most twice that. Returns 1 where the guess was made.
     """
-    gap, cosine, sine, wear, force, displaced = (
-        work[0], work[1], work[2], work[3], work[5], work[6],
-    )  # fmt: skip
-    n, guessed = gap.size, 0
+    n, guessed = width.size, 0
+    gap, cosine, sine, wear = work[0][0:n], work[1][0:n], work[2][0:n], work[3][0:n]
+    force, displaced = work[5][0:n], work[6][0:n]
     for j in range(n):
         usable = cosine[j] > 0.0 and pressure[j] > 0.0 and pressure[j] < _ENDLESS
         force[j] = pressure[j] * width[j] if usable else 0.0
@@ -365,16 +364,17 @@ def line_contact(
     Returns CONVERGED, NOT_CONVERGED (the pressure carries the load all the same),
     OUT_OF_REACH where the roller touches no cell or INVALID; pressure zero in both.
     """
-    gap, cosine, sine, wear = work[0], work[1], work[2], work[3]
-    mobility, force, load = work[4], work[5], constants[5]
+    n, load = x.size, constants[5]
+    gap, cosine, sine, wear = work[0][0:n], work[1][0:n], work[2][0:n], work[3][0:n]
+    mobility, force = work[4][0:n], work[5][0:n]
     faults = 0 if load >= 0.0 else 1
     for i in range(constants.size):
         faults += 0 if abs(constants[i]) < _ENDLESS else 1
-    for j in range(x.size):
+    for j in range(n):
         size = abs(x[j]) + abs(y[j]) + width[j] + wear_compliance[j] + abs(recess[j])
         sound = size < _ENDLESS and width[j] > 0.0 and wear_compliance[j] >= 0.0
         faults += 0 if sound else 1
-    for j in range(x.size):
+    for j in range(n):
         work[10][j] = pressure[j]
         pressure[j] = 0.0
     for i in range(result.size):
@@ -386,14 +386,14 @@ def line_contact(
         result[0] = level
         return OUT_OF_REACH if level == _ENDLESS else CONVERGED
     local = local_compliance(coefficients)
-    for j in range(x.size):
+    for j in range(n):
         wear[j] = wear_compliance[j] / width[j]
         mobility[j] = 1.0 / (wear[j] + local)
     first_force(work[10], width, coefficients, level, load, work, result[4:6])
     first, last = int(result[4]), int(result[5])
     result[6] = balance_forces(coefficients, constants, work, first, last, result[0:4])
     scale_to_load(force, cosine, load)
-    for j in range(x.size):
+    for j in range(n):
         pressure[j] = force[j] / width[j]
     return CONVERGED if result[1] <= constants[6] else NOT_CONVERGED
 
@@ -423,7 +423,8 @@ def power_contact(
     carries nothing like the load is replaced by the elastic pressure. ``result`` counts the
     iterations of all turns.
     """
-    compliance, recess, n, load = work[12], work[13], x.size, constants[5]
+    n, load = x.size, constants[5]
+    compliance, recess = work[12][0:n], work[13][0:n]
     iterations, floor, status = 0.0, 0.0, INVALID
     for turn in range(40):
         carried, squared = 0.0, 0.0

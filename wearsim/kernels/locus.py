@@ -42,10 +42,17 @@ def roller_locus(
             along, half = ax * nx + ay * ny, math.sqrt(max(rest, 0.0))
             met = rest > 0.0 and along + half > 1e-9 * radius
             reach[j] = along - half if met else math.inf
-        best, least = 0, math.inf
-        for j in range(points):
-            if reach[j] < least:
-                best, least = j, reach[j]
+        # Four at a time: a minimum waits for the one before it.
+        least, least_1, least_2, least_3 = math.inf, math.inf, math.inf, math.inf
+        for j in range(0, points - 3, 4):
+            least, least_1 = min(least, reach[j]), min(least_1, reach[j + 1])
+            least_2, least_3 = min(least_2, reach[j + 2]), min(least_3, reach[j + 3])
+        for j in range(points - points % 4, points):
+            least = min(least, reach[j])
+        least = min(min(least, least_1), min(least_2, least_3))
+        best = 0
+        while reach[best] != least:
+            best += 1
         if least == math.inf:
             locus[0, k], locus[1, k], locus[2, k], locus[3, k] = bx, by, nx, ny
             touched[k] = -1.0

@@ -40,11 +40,13 @@ if TYPE_CHECKING:
 
 _TABLES = types.Array(float64, 3, "C")
 _TOLERANCE = 1e-9
-_LOOSEST = 1e-2
+LOOSEST = 1e-2
 
 # numbers of a cycle
-WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST = range(8)
-CYCLE_NUMBERS = 8
+WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST, SHIFT = (
+    range(9)
+)
+CYCLE_NUMBERS = 9
 
 
 @kernel(int64(float64, float64, float64))
@@ -75,23 +77,26 @@ def wrap_events(
     force: Vector,
     events: Vector,
 ) -> int:
-    """Solve every phase of one pitch and write what a gap meets in one revolution.
+    """Solve phases of one pitch and write what a gap meets in one revolution.
+
+    Phase k is (k + shift)/phases with ``numbers[SHIFT]`` from 0 to 1.
 
     ``loci`` and ``touched``: roller path and touched places of each worn body;
     ``configurations`` 2 where inner and outer links differ. ``positions`` (configuration,
     phase, roller) holds where to start from (below zero: nowhere) and the answers; where
     that fails ``numbers[START]`` and ``numbers[LOWEST]`` are tried. On a worn
-    path an equilibrium may stay loose: up to `_LOOSEST` of the tight tension without balance
+    path an equilibrium may stay loose: up to `LOOSEST` of the tight tension without balance
     along the path is accepted, the most of all phases written to ``numbers[LOOSE]``. Event
-    (configuration, phase, roller) stands in column (configuration phases + phase) most +
-    roller. Slip of an articulation is shared out over the phases of the first and the
-    last position, the way along the path is half of that from the phase before and to the
-    phase after. Returns SEATED or how the first failing solve ended.
+    (configuration, phase, roller) stands in column (configuration phases + phase) most + roller,
+    without load where the force is below the solver's tolerance. Slip of an articulation is
+    shared out over the phases of the first and the last position, the way along the path is half
+    of that from the phase before and to the phase after. Returns SEATED or how the first failing
+    solve ended.
     """
     bodies, angle = loci.shape[0], constants[PITCH_ANGLE]
     for configuration in range(configurations):
         for step in range(phases):
-            phase = (step + 0.5) / phases
+            phase = (step + numbers[SHIFT]) / phases
             rollers = engaged(numbers[WRAP_ANGLE], angle, phase)
             tight = angle * (phase - 0.5)
             slack = numbers[WRAP_ANGLE] - tight - (rollers - 1) * angle
@@ -110,7 +115,7 @@ def wrap_events(
             if status == STALLED:
                 left = residual(rollers, work) / constants[TIGHT_TENSION]
                 numbers[LOOSE] = max(numbers[LOOSE], left)
-                status = SEATED if left <= _LOOSEST else STALLED
+                status = SEATED if left <= LOOSEST else STALLED
             if status != SEATED:
                 return status
             base = (configuration * phases + step) * most
@@ -130,7 +135,8 @@ def wrap_events(
                 events[EVENT_TOUCHED, event] = (1.0 - part) * touched[body, k] + part * touched[
                     body, k + 1
                 ]
-                events[EVENT_LOAD, event] = max(0.0, force[i]) / numbers[FACE_WIDTH]
+                pressed = force[i] > _TOLERANCE * constants[TIGHT_TENSION]
+                events[EVENT_LOAD, event] = force[i] / numbers[FACE_WIDTH] if pressed else 0.0
                 events[EVENT_COUNT, event] = count
                 events[EVENT_BODY, event] = body
                 ends = (1.0 if i == 0 else 0.0) + (1.0 if i == rollers - 1 else 0.0)

@@ -23,11 +23,14 @@ from wearsim.kernels.wrap import (
     PITCH_ODD,
     SEATED,
     SLACK_TENSION,
+    STALLED,
     STIFFNESS,
     TIGHT_TENSION,
     WORK_ROWS,
+    residual,
     solve_wrap,
 )
+from wearsim.kernels.wrap_cycle import LOOSEST
 
 _PHASES = 9
 """Phases of a pitch, ends included, in which a chain is tried for jumping."""
@@ -381,10 +384,24 @@ class WrapMechanism:
         paths = worn or (self.unworn,)
         firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
         return all(
-            self._solve(phase, elongation, first, paths[0].locus, paths[-1].locus)[0] == SEATED
+            self._seated(phase, elongation, first, paths[0].locus, paths[-1].locus)
             for first in firsts
             for phase in np.linspace(0.0, 1.0, _PHASES)
         )
+
+    def _seated(
+        self,
+        phase: float,
+        elongation: float,
+        first: int,
+        even: NDArray[np.float64],
+        odd: NDArray[np.float64],
+    ) -> bool:
+        """Tell whether the rollers rest, on a worn path as nearly as wear takes them to."""
+        status, _, work, _, force = self._solve(phase, elongation, first, even, odd)
+        if status == STALLED:
+            return bool(residual(force.size, work) <= LOOSEST * self.pull.tight)
+        return status == SEATED
 
     def with_slack(self, slack: float) -> "WrapMechanism":
         """Return the same wrap with another slack tension at the same difference of tensions.

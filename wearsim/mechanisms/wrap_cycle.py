@@ -20,6 +20,7 @@ from wearsim.kernels.wrap_cycle import (
     LOWEST,
     PATH_SLIP,
     PHASE_TIME,
+    SHIFT,
     START,
     WRAP_ANGLE,
     wrap_events,
@@ -27,6 +28,8 @@ from wearsim.kernels.wrap_cycle import (
 from wearsim.mechanisms.wrap import WrapMechanism
 
 Rows = NDArray[np.float64]
+
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,8 @@ class WrapContact(Dwelling):
         rollers do not wear.
     slack_limit : float
         Least slack tension at which the life ends once it is needed [N]; 0 for no such limit.
+    thin : bool
+        Whether each step of the wear takes other phases.
     """
 
     blocks: tuple[WrapBlock, ...]
@@ -106,11 +111,17 @@ class WrapContact(Dwelling):
     elongation_limit: float
     roller_area_ratio: float = 0.0
     slack_limit: float = 0.0
+    thin: bool = False
 
     @property
     def mechanism(self) -> WrapMechanism:
         """Rollers and chain in the first block."""
         return self.blocks[0].mechanism
+
+    @property
+    def gripping(self) -> WrapMechanism:
+        """Rollers and chain in the block of the largest tension, in which the chain jumps first."""
+        return max((block.mechanism for block in self.blocks), key=lambda of: of.pull.tight)
 
     @property
     def slack_tension(self) -> float:  # type: ignore[override]
@@ -151,7 +162,7 @@ class WrapContact(Dwelling):
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
-        """Return the same contact on every second point of the outline and half of the phases.
+        """Return the same contact on every second point of the outline and three quarters of the phases.
 
         Returns
         -------
@@ -162,7 +173,7 @@ class WrapContact(Dwelling):
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
         coarse = Profile(outline.x[keep], outline.y[keep])
-        return replace(self.on_outline(coarse), phases=max(1, self.phases // 2))
+        return replace(self.on_outline(coarse), phases=max(1, 3 * self.phases // 4))
 
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline.
@@ -184,6 +195,32 @@ class WrapContact(Dwelling):
         )
         return replace(self, blocks=blocks)
 
+    def thinned(self) -> "WrapContact":
+        """Return the same contact with a quarter of the phases, others for each step of the wear.
+
+        Returns
+        -------
+        WrapContact
+            With two phases at least if it has as many.
+        """
+        return replace(self, phases=max(min(self.phases, 2), self.phases // 4), thin=True)
+
+    def at(self, step: int) -> float:
+        """Return which phases a step of the wear takes.
+
+        Parameters
+        ----------
+        step : int
+            Number of the step from 0.
+
+        Returns
+        -------
+        float
+            Place in every phase's part of the pitch, 0 to 1: its middle, but of a thinned
+            contact one step on by the golden section from the next, which spreads evenly.
+        """
+        return (0.5 + step * _GOLDEN) % 1.0 if self.thin else 0.5
+
     def memory(self) -> Rows:
         """Return the places where no roller has been found yet.
 
@@ -195,7 +232,7 @@ class WrapContact(Dwelling):
         configurations = 2 if self.mechanism.chain.alternating else 1
         return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
 
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
         """Return what worn gaps meet in one revolution.
 
         Parameters
@@ -206,6 +243,8 @@ class WrapContact(Dwelling):
             What the chain has lost.
         memory : numpy.ndarray
             Where the rollers were last; replaced by where they are.
+        at : float, optional
+            From 0 to 1: place of every phase in its part of the pitch; the middle otherwise.
 
         Returns
         -------
@@ -223,7 +262,7 @@ class WrapContact(Dwelling):
         """
         worn = self.worn_paths(x, y, wear)
         tables = [
-            self._block_events(block, worn, wear, places)
+            self._block_events(block, worn, wear, places, at)
             for block, places in zip(self.blocks, memory, strict=True)
         ]
         return np.concatenate(tables, axis=1)
@@ -263,11 +302,16 @@ class WrapContact(Dwelling):
         """
         if not self.slack_limit:
             return True
-        mechanism = self.mechanism.with_slack(self.slack_limit)
+        mechanism = self.gripping.with_slack(self.slack_limit)
         return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
 
     def _block_events(
-        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows
+        self,
+        block: WrapBlock,
+        worn: tuple[WornPath, ...],
+        wear: ChainWear,
+        memory: Rows,
+        at: float,
     ) -> Rows:
         """Return what worn gaps meet in one revolution of a block, times its share."""
         mechanism = block.mechanism
@@ -286,6 +330,7 @@ class WrapContact(Dwelling):
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
         numbers[PHASE_TIME] = block.pitch_time / self.phases
+        numbers[SHIFT] = at
         numbers[START] = mechanism.start(wear.elongation, loci[0])
         numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from wearsim.output import new_folder
-from wearsim.report.answer import hours
+from wearsim.report.answer import grouped, hours
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, LowerBound, WearResult
 
@@ -23,8 +23,8 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
     -------
     pandas.DataFrame
         Life and its band [h] (nan and ``life_reached`` false where only a bound is
-        known), ratio to the first, peak pressure, removed area, where the deepest
-        point is.
+        known), ratio to the first, the limit that ended it, peak pressure, removed
+        area, where the deepest point is.
     """
     first = results[0].life
     rows = []
@@ -42,6 +42,7 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
                 "life_hours_high": _number(result.life_high),
                 "ratio_to_first": life.hours / first.hours if both else float("nan"),
                 "stop": result.stop,
+                "stop_value": result.stop_value,
                 "initial_peak_pressure_MPa": result.initial_peak_pressure,
                 "final_peak_pressure_MPa": result.final_peak_pressure,
                 "removed_area_mm2": float(result.history_columns["removed_area_mm2"][-1]),
@@ -63,27 +64,56 @@ def comparison_text(results: list[WearResult]) -> str:
     Returns
     -------
     str
-        A row per result, then the warnings and assumptions of each.
+        A row per result.
     """
     table = comparison_table(results)
     head = [
-        "case", "life", "at low / high wear", "ratio to first", "peak pressure, MPa",
-        "removed area, mm2", "deepest, mm from root",
+        "case", "life", "limit", "at low / high wear", "ratio to first", "peak pressure, MPa",
+        "removed area, mm2", "deepest, mm",
     ]  # fmt: skip
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for result, row in zip(results, table.to_dict("records"), strict=True):
         ratio = row["ratio_to_first"]
+        start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
         cells = [
             result.title,
             hours(result.life),
+            _limit(result.stop, result.stop_value),
             f"{hours(result.life_high)} / {hours(result.life_low)}",
             f"{ratio:.3g}" if ratio == ratio else "-",
             f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}",
             f"{row['removed_area_mm2']:.3g}",
-            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f}",
+            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f} from the {start}",
         ]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines)
+
+
+def differing_limits(results: list[WearResult]) -> str:
+    """Return a warning that results were run to different values of the same limit.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        At least one.
+
+    Returns
+    -------
+    str
+        Such limits with the case of each value; empty where they agree.
+    """
+    cases: dict[str, dict[str, list[str]]] = {}
+    for result in results:
+        for state in result.limits:
+            values = cases.setdefault(state.name, {})
+            values.setdefault(_limit(state.name, state.limit), []).append(result.case)
+    found = [
+        f"{limit} ({', '.join(names)})"
+        for values in cases.values()
+        if len(values) > 1
+        for limit, names in values.items()
+    ]
+    return f"limits differ between the cases: {', '.join(found)}" if found else ""
 
 
 def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
@@ -138,6 +168,9 @@ def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str
 
 def _page(results: list[WearResult], table: str) -> str:
     parts = ["# Comparison", table]
+    limits = differing_limits(results)
+    if limits:
+        parts.append(f"- warning: {limits}")
     for result in results:
         parts.append(f"## {result.title}")
         parts.append("\n".join(f"- warning: {text}" for text in result.warnings) or "No warnings.")
@@ -147,6 +180,13 @@ def _page(results: list[WearResult], table: str) -> str:
     pictures = ("flanks", "along_flank", "depth_over_hours")
     parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
     return "\n\n".join(parts) + "\n"
+
+
+def _limit(name: str, value: float) -> str:
+    """Value of a limit in words, such as ``critical depth 0.34 mm``."""
+    words, _, unit = name.rpartition("_")
+    shown = {"percent": "%", "hours": "h"}.get(unit, unit)
+    return f"{words.replace('_', ' ')} {grouped(value)} {shown}"
 
 
 def _number(life: Life | LowerBound) -> float:

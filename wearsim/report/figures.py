@@ -7,6 +7,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
 from wearsim.case.load import load_case
@@ -18,6 +19,9 @@ from wearsim.result import Life, WearResult
 
 _LARGEST_SHOWN = 0.12
 """Depth in the picture of a flank, as a fraction of the flank's extent."""
+
+_LEGEND = 0.24
+"""Part of the height of the same picture that is left free for the legend."""
 
 _ROUND = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
@@ -70,11 +74,12 @@ def flanks_figure(results: list[WearResult]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Equal scale on both axes; the enlargement stands in the title of each panel.
+        Square panels of equal scale on both axes; enlargement and depth stand in the legends.
     """
     columns = min(3, len(results))
     rows = -(-len(results) // columns)
-    figure = Figure(figsize=(0.8 + 4.0 * columns, 0.4 + 4.4 * rows), layout="constrained")
+    layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.1)
+    figure = Figure(figsize=(0.8 + 4.0 * columns, 0.4 + 4.4 * rows), layout=layout)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel, result in zip(panels, results, strict=False):
         _draw_flank(panel, result)
@@ -101,31 +106,23 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
     panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
     panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {enlarged}")
-    panel.annotate(
-        f"{result.max_depth:.3g} mm",
-        (x[deepest], y[deepest]),
-        xytext=(-12, 0),
-        textcoords="offset points",
-        ha="right",
-        va="center",
-        color="tab:red",
-        arrowprops={"arrowstyle": "-", "color": "tab:red", "linewidth": 0.8},
-    )
-    reach, aside = 1.6 * extent, 0.2 if result.parts else 0.8
-    panel.set_xlim(
-        new.x.min() - aside * extent,
-        new.x.max() + min(reach, centre_x + radius + 0.15 * extent - new.x.max()),
-    )
-    panel.set_ylim(
-        min(new.y.min(), max(centre_y - radius, new.y.min() - reach)) - 0.2 * extent,
-        new.y.max() + min(reach, centre_y + radius + 0.08 * extent - new.y.max()),
-    )
+    label = f"deepest, {result.max_depth:.3g} mm"
+    panel.plot(x[deepest], y[deepest], "o", color="tab:red", markersize=5, label=label)
+    reach = 1.6 * extent
+    left = new.x.min() - (0.2 if result.parts else 0.7) * extent
+    right = max(new.x.max(), min(centre_x + radius, new.x.max() + reach)) + 0.2 * extent
+    low = min(new.y.min(), y.min(), max(centre_y - radius, new.y.min() - reach))
+    top = max(new.y.max(), min(centre_y + radius, new.y.max() + reach)) + 0.1 * extent
+    side, middle = max(right - left, (top - low) / (1.0 - _LEGEND)), 0.5 * (left + right)
+    panel.set_xlim(middle - 0.5 * side, middle + 0.5 * side)
+    panel.set_ylim(top - side, top)
     panel.set_aspect("equal", "box")
+    panel.locator_params(nbins=9, steps=[1, 2, 5, 10])
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
     title = textwrap.fill(result.title, 42)
     panel.set_title(f"{title}\nafter {_run_time(result)}", fontsize=9)
-    panel.legend(loc="lower right", frameon=False, fontsize=8)
+    panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
 def _roller_radius(result: WearResult) -> float:
@@ -150,14 +147,13 @@ def _outline(result: WearResult) -> tuple[Vector, Vector]:
 
 
 def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
-    """Half of the teeth on both sides of a gap, down to a roller radius below it."""
+    """Half of the teeth on both sides of a gap, down to the sprocket's axis."""
     first = _snapshot(result, 0)
     x, y = first["x_mm"], first["y_mm"]
     half = np.pi / result.inputs["sprocket"]["teeth"]
-    tip, low = float(np.hypot(x[0], y[0])), float(y.min()) - _roller_radius(result)
-    left, right = np.array([-np.sin(half), np.cos(half)]), np.array([np.sin(half), np.cos(half)])
-    corners = np.array([tip * left, low * left, low * right, tip * right])
-    return np.append(x, corners[:, 0]), np.append(y, corners[:, 1])
+    tip = np.hypot(x[0], y[0])
+    across, up = tip * np.sin(half), tip * np.cos(half)
+    return np.append(x, (-across, 0.0, across)), np.append(y, (up, 0.0, up))
 
 
 def _run_time(result: WearResult) -> str:

@@ -227,6 +227,11 @@ def _notes(plan: MaintenancePlan) -> list[str]:
             "classes: of teeth that never share a roller, gcd of teeth and links; 1 is a hunting drive, "
             "all teeth and rollers wear alike"
         )
+    if any(not count.run for count in plan.counts):
+        texts.append(
+            "- among teeth and links: a life that was not calculated; those of the case's own numbers and "
+            "of one tooth or two links more are"
+        )
     return texts
 
 

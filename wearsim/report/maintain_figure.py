@@ -1,5 +1,7 @@
 """The picture of maintenance: cost and hours against the elongation at which chains are replaced."""
 
+import math
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -32,9 +34,10 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
     if priced:
         panels[2].set_ylabel("cost per 1000 h")
     for panel in panels:
-        panel.set_ylim(bottom=0.0)
+        panel.set_xlim(0.0, 108.0 * max(policy.replace_at for policy in plan.policies))
+        panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
         panel.grid(alpha=0.3)
-    panels[0].legend(frameon=False, fontsize=8)
+    panels[0].legend(loc="lower left", frameon=False, fontsize=8)
     panels[0].set_title(plan.title, fontsize=9, loc="left")
     panels[-1].set_xlabel("elongation at which the chain is replaced, %")
     return figure
@@ -43,13 +46,17 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
 def _draw(panels: list[Axes], policies: list[Policy], turned: bool, priced: bool) -> None:
     at = [100.0 * policy.replace_at for policy in policies]
     style, colour = ("--", "tab:orange") if turned else ("-", "tab:blue")
-    label = "sprocket turned" if turned else "sprocket not turned"
-    panels[0].plot(at, [policy.hours for policy in policies], style, color=colour, label=label)
-    for percent, policy in zip(at, policies, strict=True):
-        mark = "o" if isinstance(policy.sprocket, Life) else "^"
-        panels[0].plot(percent, policy.hours, mark, color=colour)
-    chains = [policy.hours / policy.chain_hours for policy in policies]
-    panels[1].plot(at, chains, style, marker="o", color=colour)
+    shown = [
+        [policy.hours for policy in policies],
+        [policy.hours / policy.chain_hours for policy in policies],
+    ]
     if priced:
-        costs = [(p, policy.cost) for p, policy in zip(at, policies, strict=True) if policy.cost]
-        panels[2].plot(*zip(*costs, strict=True), style, marker="o", color=colour)
+        shown.append([math.nan if policy.cost is None else policy.cost for policy in policies])
+    reached = [isinstance(policy.sprocket, Life) for policy in policies]
+    label = "sprocket turned" if turned else "sprocket not turned"
+    for panel, values in zip(panels, shown, strict=True):
+        panel.plot(at, values, style, color=colour)
+        for mark, wanted, what in (("o", True, ""), ("^", False, ", limit not reached: at least")):
+            some = [(x, y) for x, y, met in zip(at, values, reached, strict=True) if met == wanted]
+            if some:
+                panel.plot(*zip(*some, strict=True), mark, color=colour, label=label + what)

@@ -7,7 +7,7 @@ from typing import Any
 from wearsim.case.model import Case, WrapDrive
 from wearsim.geometry.drive_layout import Meetings, polygon_effect
 from wearsim.report.answer import grouped
-from wearsim.sizing.rating import rated_drive, rating
+from wearsim.sizing.rating import rated_drive, rating, rules_without_limit
 
 _WIDTH = 100
 
@@ -27,7 +27,7 @@ def rating_json(case: Case) -> dict[str, Any]:
     """
     if not isinstance(case.drive, WrapDrive):
         return {}
-    keys = ("name", "value", "limit", "unit", "ok", "source", "note")
+    keys = ("name", "value", "limit", "unit", "ok", "source", "note", "load")
     return {
         "rating": [{key: getattr(finding, key) for key in keys} for finding in rating(case)],
         "notes": drive_notes(case),
@@ -61,7 +61,8 @@ def rating_table(case: Case) -> str:
             f"{grouped(finding.limit):>7}  {finding.unit:<5} {state:<8} "
         )
         mark = f" [{notes.index(finding.note) + 1}]" if finding.note else ""
-        lines.append(_folded(f"{finding.source}{mark}", lead, " " * len(lead)))
+        of = f"; {finding.load}" if finding.load else ""
+        lines.append(_folded(f"{finding.source}{mark}{of}", lead, " " * len(lead)))
     return "\n".join(
         [
             *lines,
@@ -106,7 +107,8 @@ def drive_notes(case: Case) -> list[str]:
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return []
-    layout, rated = drive.layout, rated_drive(case, drive)
+    layout, rated = drive.layout, rated_drive(case, drive, drive.heaviest)
+    silent = rules_without_limit(case)
     small = min(layout.teeth_1, layout.teeth_2)
     speed = rated.teeth * rated.pitch * rated.speed / 6e4
     return [
@@ -120,6 +122,7 @@ def drive_notes(case: Case) -> list[str]:
         f"polygon effect: the speed of the chain varies by {100.0 * polygon_effect(small):.2f} % "
         f"over a tooth of the small sprocket",
         _meetings(case, drive),
+        *([f"no limit known, so not judged: {', '.join(silent)}"] if silent else []),
     ]
 
 

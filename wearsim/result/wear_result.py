@@ -43,9 +43,10 @@ class WearResult:
     max_depth : float
         Depth at the deepest point at the end [mm].
     max_depth_arc_length : float
-        Where it lies on the unworn flank from the root [mm].
+        Where it lies along the unworn flank from the root, on a wrap along the unworn gap
+        from its right tip [mm].
     initial_peak_pressure, final_peak_pressure : float
-        Highest Hertz pressure along the flank [MPa].
+        Highest contact pressure on the unworn flank or gaps, and at the end of the run [MPa].
     speed_rpm : float
         Speed of the sprocket.
     method : str

@@ -37,6 +37,27 @@ def wear_law(wear: WearInput, coefficient: float) -> Law:
     return replace(laws[wear.law](), case_depth=wear.case_depth, core_factor=wear.core_factor)
 
 
+def running_in_assumptions(warp: RunningIn) -> tuple[str, ...]:
+    """Return what running-in takes for granted.
+
+    Parameters
+    ----------
+    warp : RunningIn
+        Of the drive.
+
+    Returns
+    -------
+    tuple of str
+        A sentence, or none without running-in.
+    """
+    if warp.factor == 1.0:
+        return ()
+    return (
+        f"running-in: the coefficients of teeth and joints are {warp.factor:g} times as high at first, "
+        f"the excess falls to 1/e in {warp.cycles:.3g} cycles; joints of every new chain run in as well",
+    )
+
+
 def running_in(wear: WearInput, sliding_per_cycle: float) -> RunningIn:
     """Return how the law of a case runs in.
 

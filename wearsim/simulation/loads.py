@@ -100,7 +100,7 @@ def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) 
         wrap_degrees=float(np.degrees(drive.wrap_angle)),
         face_width=drive.face_width,
         slack=drive.slack,
-        centrifugal=drive.centrifugal,
+        centrifugal=drive.heaviest.centrifugal,
         smallest_slack=mechanism.smallest_slack_tension(elongation),
         assumptions=(*mechanism.assumptions(), *case.assumptions),
         warnings=case.warnings,

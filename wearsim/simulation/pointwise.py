@@ -14,7 +14,7 @@ from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import running_in, wear_law
+from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, tooth_criteria
 from wearsim.wear.accuracy import grid_error
 from wearsim.wear.advance import run_advance
@@ -97,7 +97,11 @@ def simulate_points(case: Case) -> WearResult:
         life_tolerance=case.run.life_tolerance,
         parts={},
         limits=limit_states(criteria, run.x[-1], run.y[-1], run.depth[-1]),
-        assumptions=(*mechanism.assumptions(), *case.assumptions),
+        assumptions=(
+            *mechanism.assumptions(),
+            *running_in_assumptions(warp),
+            *case.assumptions,
+        ),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
-from wearsim.contact.dwelling import ChainWear
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
@@ -17,18 +17,13 @@ from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
 from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import running_in, wear_law
+from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
+from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
-from wearsim.wear.dwelling import (
-    DwellingTrajectory,
-    Rows,
-    halve_steps,
-    reporting,
-    run_dwelling,
-    run_together,
-)
+from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
+from wearsim.wear.halving import halve_steps, run_together
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import difference
@@ -70,9 +65,9 @@ def simulate_wrap(
         A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
-    law = wear_law(case.wear, case.wear.coefficient)
-    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
     warp = running_in(case.wear, contact.sliding_per_cycle)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
+    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
     horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
@@ -80,7 +75,7 @@ def simulate_wrap(
     chain = _chain_life(case, contact, horizon, warp)
     sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
-    history, flank = _tables(case, contact, drive, run)
+    history, flank = _tables(case, contact, drive, run, law)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -104,7 +99,11 @@ def simulate_wrap(
         life_tolerance=case.run.life_tolerance,
         parts={"chain": chain, "sprocket": sprocket},
         limits=_limits(contact, drive, criteria, run, life),
-        assumptions=(*contact.assumptions(), *case.assumptions),
+        assumptions=(
+            *contact.assumptions(),
+            *running_in_assumptions(warp),
+            *case.assumptions,
+        ),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
@@ -127,7 +126,7 @@ def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
     Returns
     -------
     WrapMechanism
-        Rollers on the unworn gap, under the tensions of the heaviest block of the duty.
+        Rollers on the unworn gap, under the largest of the rated tensions.
     """
     radius = 0.5 * case.chain.roller_diameter
     return WrapMechanism(
@@ -143,7 +142,7 @@ def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
             alternating=drive.joint.alternating,
         ),
         pull=Pull(
-            tight=drive.tight,
+            tight=drive.heaviest.tension,
             slack=drive.slack,
             driver=drive.driver,
             friction_roller_tooth=drive.friction_roller_tooth,
@@ -231,10 +230,11 @@ def _run(
 ) -> tuple[DwellingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     tolerance = case.run.life_tolerance
-    levels = ((contact, 1), (contact.coarsened(), 1), (contact, 0))
+    thin = contact.thinned()
+    levels = ((thin, 1), (thin.coarsened(), 1), (thin, 0))
     fine, sparse, coarse = run_together(levels, law, criteria, horizon, progress=progress)
     run, error = halve_steps(
-        contact, law, criteria, horizon, tolerance, (coarse, fine), progress=progress
+        thin, law, criteria, horizon, tolerance, (coarse, fine), progress=progress
     )
     if case.run.method == "per_cycle":
         check = run
@@ -322,28 +322,33 @@ def _limits(
     worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
     wear = ChainWear(elongation, float(run.roller_wear[at]))
-    least = min(_smallest_slack_tension(contact, run.all_depth[at], wear), drive.tight)
+    least = _smallest_slack_tension(contact, run.all_depth[at], wear)
     wall = contact.roller_radius - contact.thinnest_roller
     rollers = LimitState("roller_wear_mm", wall, wear.roller)
     return (
         *worn,
         LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
         *((rollers,) if contact.roller_area_ratio else ()),
-        LimitState("min_slack_tension_N", contact.slack_limit or drive.slack, least),
+        LimitState(
+            "min_slack_tension_N",
+            contact.slack_limit or drive.slack,
+            min(least, drive.heaviest.tension),
+        ),
     )
 
 
 def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: ChainWear) -> float:
     """Slack tension below which the chain jumps on worn gaps [N]."""
     worn = contact.worn_paths(*contact.profile.receded(depth), wear)
-    return contact.mechanism.smallest_slack_tension(wear.elongation, worn)
+    return contact.gripping.smallest_slack_tension(wear.elongation, worn)
 
 
 def _tables(
-    case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory
+    case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory, law: Law
 ) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Return the columns of history.csv and flank.csv."""
     profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
+    pressure, speed = highest_load(contact, law, Start(run.all_depth[0], NEW_CHAIN, 1))
     history = {
         "cycles": run.cycles,
         "time_hours": run.cycles / case.cycles_per_hour,
@@ -351,8 +356,8 @@ def _tables(
         "elongation_percent": 100.0 * run.elongation,
         "roller_wear_mm": run.roller_wear,
         "chain": run.chains,
-        "peak_pressure_MPa": run.peak_pressure,
-        "max_sliding_speed_mm_per_s": run.sliding_speed,
+        "peak_pressure_MPa": np.array([pressure, *run.peak_pressure[1:]]),
+        "max_sliding_speed_mm_per_s": np.array([speed, *run.sliding_speed[1:]]),
         "removed_area_mm2": np.array(
             [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
         ),

@@ -1,7 +1,9 @@
 """The drive of a case against the ratings of the handbooks."""
 
-from wearsim.case.model import Case, WrapDrive
-from wearsim.sizing.selection import Finding, RatedDrive, assess, elongation_limit
+from dataclasses import replace
+
+from wearsim.case.model import Block, Case, WrapDrive
+from wearsim.sizing.selection import RULES, Finding, RatedDrive, assess, elongation_limit
 
 _LIGHT = "085-1"
 """Designation of no. 41, the light chain of 12.7 mm pitch."""
@@ -9,7 +11,7 @@ _LIGHT = "085-1"
 _SAFETY = "safety against breaking"
 
 
-def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
+def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
     """Return what the ratings need to know of a case.
 
     The ratings are those of the smaller sprocket, so its teeth and speed follow from the chain's
@@ -21,12 +23,13 @@ def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
         The case.
     drive : WrapDrive
         Its drive.
+    load : Block
+        One of its rated loads.
 
     Returns
     -------
     RatedDrive
-        The power is that of the pull, tight less slack strand, at the chain's speed, in the
-        heaviest block of the duty.
+        The power is that of the pull, tight less slack strand, at the chain's speed.
 
     Examples
     --------
@@ -39,7 +42,7 @@ def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
     ...     "load": {"power_kW": 30, "speed_rpm": 250},
     ...     "wear": {"condition": "hardened, oiled"},
     ... })
-    >>> found = rated_drive(case, case.drive)
+    >>> found = rated_drive(case, case.drive, case.drive.heaviest)
     >>> found.teeth, found.speed, round(found.power, 9)
     (20.0, 750.0, 30.0)
     """
@@ -48,16 +51,16 @@ def rated_drive(case: Case, drive: WrapDrive) -> RatedDrive:
     own = drive.gaps / case.engaged_every
     # 27 gaps of which every second carries a roller are 13.5 teeth, and no more than 13.
     teeth = own if int(own) <= mate else float(mate)
-    pitches = own * drive.heaviest.speed_rpm
+    pitches = own * load.speed_rpm
     return RatedDrive(
         pitch=chain.pitch,
         teeth=teeth,
         speed=pitches / teeth,
-        power=1e-6 * (drive.tight - drive.slack) * chain.pitch * pitches / 60.0,
+        power=1e-6 * (load.tension - drive.slack) * chain.pitch * pitches / 60.0,
         strands=chain.strands,
         bearing_area=chain.bearing_area,
         tensile=chain.tensile,
-        own_tension=drive.slack + drive.centrifugal,
+        own_tension=drive.slack + load.centrifugal,
         series=chain.series,
         light=chain.designation == _LIGHT,
     )
@@ -74,15 +77,47 @@ def rating(case: Case) -> tuple[Finding, ...]:
     Returns
     -------
     tuple of Finding
-        `assess` and the limit of elongation; empty where no chain wraps the sprocket.
+        `assess`, of each rule the load that comes nearest to it, and the limit of elongation;
+        empty where no chain wraps the sprocket.
     """
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return ()
-    return (
-        *assess(rated_drive(case, drive), drive.service_factor, drive.exploitation_factor),
-        _elongation(drive),
-    )
+    worst: dict[str, Finding] = {}
+    for load in drive.rated:
+        if load.tension <= drive.slack:
+            continue
+        of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(drive.rated) > 1 else ""
+        rated = rated_drive(case, drive, load)
+        for finding in assess(rated, drive.service_factor, drive.exploitation_factor):
+            before = worst.get(finding.name)
+            if before is None or finding.used > before.used:
+                worst[finding.name] = replace(finding, load=of)
+    return (*worst.values(), _elongation(drive))
+
+
+def rules_without_limit(case: Case) -> tuple[str, ...]:
+    """Return the rules that say nothing about the drive of a case: a number or a row is missing.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    tuple of str
+        Names of findings; empty where no chain wraps the sprocket.
+    """
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        return ()
+    found = [
+        {finding.name for finding in assess(rated_drive(case, drive, load))}
+        for load in drive.rated
+        if load.tension > drive.slack
+    ]
+    return tuple(name for name in RULES if not all(name in names for names in found))
 
 
 def rating_warnings(case: Case) -> list[str]:
@@ -124,8 +159,9 @@ def warning(finding: Finding) -> str:
     side = "least" if finding.at_least else "most"
     unit = f" {finding.unit}" if finding.unit else ""
     source = f"{finding.source}; indicative here" if finding.note else finding.source
+    of = f" of {finding.load}" if finding.load else ""
     return (
-        f"outside a rating: {finding.name} {finding.value:.4g}{unit}, allowed at {side} "
+        f"outside a rating: {finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
         f"{finding.limit:.4g}{unit} ({source})"
     )
 

@@ -20,6 +20,17 @@ from wearsim.sizing.power_rating import (
 LARGEST_PITCH = 76.2
 """Of the chains that the ANSI rating knows, no. 240 [mm]."""
 
+RULES = (
+    "plate fatigue",
+    "roller impact",
+    "corrected power",
+    "joint pressure",
+    "recommended speed",
+    "greatest speed",
+    "safety against breaking",
+)
+"""Names of the findings in the order of `assess`."""
+
 LEAST_SAFETY = 7.0
 """Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
 
@@ -107,6 +118,8 @@ class Finding:
         Why the rule is only indicative here; empty where it applies as it stands.
     at_least : bool
         Whether the limit is a lower one.
+    load : str
+        Which of several loads of the drive it is about; empty where there is one.
 
     Examples
     --------
@@ -121,6 +134,12 @@ class Finding:
     source: str
     note: str = ""
     at_least: bool = False
+    load: str = ""
+
+    @property
+    def used(self) -> float:
+        """Part of the limit that the value takes up, above 1 outside."""
+        return self.limit / self.value if self.at_least else self.value / self.limit
 
     @property
     def ok(self) -> bool:

@@ -11,8 +11,9 @@ from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation.law import wear_law
 from wearsim.simulation.limits import pin_criteria, tooth_criteria
 from wearsim.simulation.wrap import wrap_contact
+from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import Criterion, rising
-from wearsim.wear.dwelling import Start, advance_dwelling
+from wearsim.wear.halving import advance_dwelling
 
 
 def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
@@ -50,7 +51,7 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     chain = int(history["chain"][-1])
     if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
         wear, chain = NEW_CHAIN, chain + 1
-    turned = contact.on_outline(contact.profile.mirrored())
+    turned = contact.on_outline(contact.profile.mirrored()).thinned()
     start = Start(depth[:, ::-1].copy(), wear, chain)
     criteria = _criteria(case, turned, _working_half(contact, depth))
     profile = turned.profile

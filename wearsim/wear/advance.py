@@ -221,7 +221,7 @@ def run_advance(
     """
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.dwelling import advance_dwelling
+        from wearsim.wear.halving import advance_dwelling
 
         return advance_dwelling(contact, law, criteria, horizon, life_tolerance)
     rate = _Rate(contact, law)

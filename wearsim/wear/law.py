@@ -11,6 +11,7 @@ import numpy as np
 
 from wearsim.contact.engagement import Kind
 from wearsim.geometry.profile import Vector
+from wearsim.wear.running_in import CONSTANT, RunningIn
 
 
 def mean_pressure_factor(exponent: float) -> float:
@@ -54,6 +55,9 @@ class Law:
         Depth of the hardened layer [mm], infinite where there is none.
     core_factor : float
         What the coefficient is multiplied by below it.
+    running_in : RunningIn
+        How the coefficient falls at first. The engines count cycles of constant coefficient;
+        it tells how a part that is renewed meanwhile runs in.
     """
 
     coefficient: float
@@ -61,6 +65,7 @@ class Law:
     speed_exponent: float
     case_depth: float = math.inf
     core_factor: float = 1.0
+    running_in: RunningIn = CONSTANT
 
     def numbers(self, kind: Kind) -> Vector:
         """Return the law as the kernel takes it.

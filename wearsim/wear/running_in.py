@@ -82,6 +82,49 @@ class RunningIn:
                 break
         return cycles
 
+    def renewed(self, new_at: float, until: float) -> float:
+        """Return what a part has worn that was new later than the drive.
+
+        Parameters
+        ----------
+        new_at, until : float
+            Times in cycles of constant coefficient since the drive was new.
+
+        Returns
+        -------
+        float
+            In cycles of constant coefficient: the part runs in once more.
+
+        Examples
+        --------
+        Long after the drive has run in, a new part still costs (f - 1) N_r cycles:
+
+        >>> round(RunningIn(3.0, 100.0).renewed(1e6, 1.1e6), 6)
+        100200.0
+        """
+        if self.factor == 1.0 or new_at == 0.0:
+            return until - new_at
+        start, end = self.running_cycles(np.array([new_at, until]))
+        return self.constant_cycles(float(end - start))
+
+    def until_renewed(self, new_at: float, worn: float) -> float:
+        """Return when a part that was new later has worn so much, the inverse of ``renewed``.
+
+        Parameters
+        ----------
+        new_at, worn : float
+            In cycles of constant coefficient.
+
+        Returns
+        -------
+        float
+            Time in cycles of constant coefficient since the drive was new.
+        """
+        if self.factor == 1.0 or new_at == 0.0:
+            return new_at + worn
+        start, run = self.running_cycles(np.array([new_at, worn]))
+        return self.constant_cycles(float(start + run))
+
 
 CONSTANT = RunningIn(1.0, 1.0)
 """No running-in."""

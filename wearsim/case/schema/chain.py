@@ -2,9 +2,9 @@
 
 from pydantic import field_validator
 
-from wearsim.case.schema.table import Table, known
+from wearsim.case.schema.table import Table
 from wearsim.case.units import Positive
-from wearsim.catalogue.tables import chains
+from wearsim.catalogue.tables import chain_name, chains, nearest_chain
 
 
 class ChainTable(Table):
@@ -19,10 +19,20 @@ class ChainTable(Table):
     bearing_area_mm2: Positive | None = None
     mass_kg_per_m: Positive | None = None
 
+    @field_validator("designation", mode="before")
+    @classmethod
+    def _text(cls, value: object) -> object:
+        """A number is refused as its text is, with the chains that may be meant."""
+        return str(value) if type(value) is int else value
+
     @field_validator("designation")
     @classmethod
     def _known(cls, value: str | None) -> str | None:
-        return known(value, dict(chains()), "chain in the catalogue", "wearsim list chains")
+        if value is None or chain_name(value):
+            return value
+        raise ValueError(
+            f"no such chain in the catalogue{nearest_chain(value)} (wearsim list chains shows them all)"
+        )
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -53,7 +63,7 @@ class ChainTable(Table):
         return []
 
     def _known_by_designation(self) -> list[str]:
-        chain = chains()[self.designation or ""]
+        chain = chains()[chain_name(self.designation or "") or ""]
         values = {
             "pin_diameter_mm": chain.pin_diameter,
             "bearing_area_mm2": chain.bearing_area,

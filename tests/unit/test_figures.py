@@ -1,0 +1,72 @@
+"""Pictures: what must be seen lies inside the frames, and panels are alike."""
+
+import copy
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.report.figures import flanks_figure
+from wearsim.report.maintain_figure import maintenance_figure
+from wearsim.result import Life, LowerBound
+from wearsim.study.maintain import MaintenancePlan, Policy
+
+STRAND = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 51},
+    "load": {"power_kW": 3, "speed_rpm": 100},
+    "wear": {"condition": "hardened, oiled"},
+    "run": {"horizon_hours": 100, "life_tolerance": 0.1},
+}
+
+
+def wrap(profile):
+    tables = copy.deepcopy(STRAND)
+    tables["sprocket"]["profile"] = profile
+    tables["mechanism"] = {"kind": "wrap", "phases": 1}
+    return tables
+
+
+@pytest.fixture(scope="module")
+def results():
+    cases = (STRAND, wrap("iso606"), wrap("evolute"))
+    return [wearsim.simulate(wearsim.load_case(tables)) for tables in cases]
+
+
+@pytest.mark.parametrize("count", [1, 3, 5])
+def test_flanks_lie_inside_panels_of_one_size(results, count):
+    shown = (results * 2)[:count]
+    figure = flanks_figure(shown)
+    figure.draw_without_rendering()
+    panels = [panel for panel in figure.axes if panel.get_visible()]
+    sizes = [panel.get_window_extent().size for panel in panels]
+    assert np.ptp(sizes) < 1e-6 * np.max(sizes)
+    for panel, result in zip(panels, shown, strict=True):
+        frame = panel.get_window_extent()
+        points = np.column_stack([result.flank_columns["x_mm"], result.flank_columns["y_mm"]])
+        pixels = panel.transData.transform(points)
+        legend = panel.get_legend().get_window_extent()
+        assert (pixels > frame.min).all() and (pixels < frame.max).all()
+        assert pixels[:, 1].min() > legend.y1
+        assert all(frame.contains(*corner) for corner in legend.corners())
+
+
+def plan(*policies):
+    return MaintenancePlan("case", "Title", policies, (), 0.03, (), (), ())
+
+
+@pytest.mark.parametrize("last", [Life(1e9, 60_000.0), LowerBound(1e9, 50_000.0)])
+def test_a_single_elongation_of_maintenance(last):
+    """A turned sprocket whose limit was not reached has no cost."""
+    straight = Policy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
+    turned = Policy(0.01, True, 7000.0, last, 0.01, 9.0 if isinstance(last, Life) else None)
+    figure = maintenance_figure(plan(straight, turned))
+    figure.draw_without_rendering()
+    for panel in figure.axes:
+        assert panel.get_xlim()[0] == panel.get_ylim()[0] == 0.0
+        assert panel.get_xlim()[1] > 1.0
+        assert panel.get_ylim()[1] > panel.dataLim.y1
+    words = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert words[0] == "sprocket not turned"
+    assert ("limit not reached" in words[1]) == isinstance(last, LowerBound)
