@@ -100,9 +100,46 @@ def test_open_joints_are_closed_within_the_tolerance(drawing: Drawing, save: Sav
         outline_from_dxf(save(drawing), TEETH, tolerance=1e-4)
 
 
+def test_spokes_that_end_on_a_polyline_do_not_break_it(drawing: Drawing, save: Save) -> None:
+    space = drawing.modelspace()
+    space.add_lwpolyline(star(), close=True)
+    alone, _ = outline_from_dxf(save(drawing), TEETH)
+    for x, y in star()[1:4]:
+        space.add_line((0.0, 0.0), (x, y))
+    spoked, _ = outline_from_dxf(save(drawing), TEETH)
+    np.testing.assert_array_equal(spoked, alone)
+
+
+def test_gap_ends_at_the_near_end_of_a_straight_tip_land(drawing: Drawing, save: Save) -> None:
+    """Of every land the right end lies 3e-3 mm higher, as rounded coordinates may have it."""
+    angles = np.array([-0.1, 0.1, math.pi / TEETH])
+    radii = np.array([40.003, 40.0, 20.0])
+    corners = [
+        (radius * math.cos(at), radius * math.sin(at))
+        for turn in 2.0 * math.pi / TEETH * np.arange(TEETH)
+        for radius, at in zip(radii, angles + turn, strict=True)
+    ]
+    drawing.modelspace().add_lwpolyline(corners, close=True)
+    points, notes = outline_from_dxf(save(drawing), TEETH)
+    bottom = int(np.hypot(*points.T).argmin())
+    assert np.hypot(*points[[0, -1]].T) == pytest.approx([39.999, 40.002], abs=1e-6)
+    wide = np.ptp(np.arctan2(points[:, 1], points[:, 0]))
+    assert wide == pytest.approx(2.0 * math.pi / TEETH - 0.2, abs=1e-3)
+    assert points[bottom] == pytest.approx((0.0, 20.0), abs=0.05)
+    assert "differ by at most" in notes[-1]
+
+
+def test_circles_alone_are_no_wheel(drawing: Drawing, save: Save) -> None:
+    drawing.modelspace().add_circle((0.0, 0.0), 30.0)
+    with pytest.raises(GeometryError, match=r"1 closed outlines \(with 0 gaps\) and 0 open"):
+        outline_from_dxf(save(drawing), TEETH)
+
+
 def test_layer_is_chosen(drawing: Drawing, save: Save) -> None:
     space = drawing.modelspace()
-    space.add_lwpolyline(star(), close=True, dxfattribs={"layer": "Outline"})
+    corners = star()
+    for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+        space.add_line(a, b, dxfattribs={"layer": "Outline"})
     for i in (0, 6):
         space.add_line((0.0, 0.0), star()[i], dxfattribs={"layer": "centre"})
     for layer in ("Outline", "outline"):

@@ -33,8 +33,9 @@ def test_uneven_points_give_equal_steps() -> None:
     np.testing.assert_allclose(np.diff(gap.arc_length), 5.0 * math.pi / 200, rtol=1e-4)
 
 
-def test_corners_stay_corners() -> None:
-    gap = gap_from_points(*trapezoid(60), 0.0, 801, 4.5)
+@pytest.mark.parametrize("count", [60, 7001])
+def test_corners_stay_corners(count: int) -> None:
+    gap = gap_from_points(*trapezoid(count), 0.0, 801, 4.5)
     slanted = np.abs(10.0 * (np.abs(gap.x) - 4.0) - 4.0 * (gap.y - 20.0)) / math.hypot(10.0, 4.0)
     distance = np.where(np.abs(gap.x) > 4.0, slanted, np.abs(gap.y - 20.0))
     assert distance.max() < 1e-9

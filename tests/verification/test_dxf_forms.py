@@ -192,6 +192,61 @@ def test_polyline_with_bulges_in_several_units(
     assert bool(notes) == (unit != 4)
 
 
+def with_chords(drawing: Drawing, form: Arcs, tolerance: float, turn: float) -> None:
+    """The gap as one polyline of chords that stay within a tolerance of its arcs."""
+    rows = []
+    for (centre, radius, start, end), way in zip(form.arcs(), (1, -1, 1), strict=True):
+        count = math.ceil(radius * (end - start) / math.sqrt(8.0 * radius * tolerance))
+        at = np.linspace(start, end, count + 1)[::way]
+        rows.append(centre + radius * np.column_stack([np.cos(at), np.sin(at)]))
+    vertices = np.concatenate([rows[0], rows[1][1:], rows[2][1:]])
+    drawing.modelspace().add_lwpolyline([turned(vertex, turn) for vertex in vertices])
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(("tolerance", "error"), [(1e-4, 1e-4), (1e-3, 2e-3)])
+def test_polyline_of_chords_is_read_as_the_curve(
+    form: Arcs, tolerance: float, error: float, save: Callable[[Drawing], Path]
+) -> None:
+    """Its vertices are exact and few on the flat flanks; what lies between them is a guess."""
+    drawing = ezdxf.new(units=4)
+    with_chords(drawing, form, tolerance, 0.7)
+    points, _ = outline_from_dxf(save(drawing), TEETH)
+    gap = gap_from_points(*points.T, 0.0, 401, 0.5 * ROLLER)
+    distances = np.abs(form.distances(np.column_stack([gap.x, gap.y])))
+    assert distances.max() < error
+    assert math.sqrt(np.mean(np.square(distances))) < 0.3 * tolerance
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("loose", [False, True], ids=["polyline", "lines"])
+def test_even_chords_of_a_whole_wheel(
+    form: Arcs, loose: bool, save: Callable[[Drawing], Path]
+) -> None:
+    """Chords of 0.3 mm, up to 3e-3 mm inside the arcs."""
+    vertices = [
+        turned(point, 2.0 * math.pi * i / TEETH) for i in range(TEETH) for point in form.points(0.3)
+    ]
+    drawing = ezdxf.new(units=4)
+    if loose:
+        for a, b in zip(vertices, vertices[1:] + vertices[:1], strict=True):
+            drawing.modelspace().add_line(a, b)
+    else:
+        drawing.modelspace().add_lwpolyline(vertices, close=True)
+    points, _ = outline_from_dxf(save(drawing), TEETH)
+    gap = gap_from_points(*points.T, 0.0, 401, 0.5 * ROLLER)
+    assert form.error(np.column_stack([gap.x, gap.y])) < 1e-4
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_joints_are_found_in_few_exact_points(form: Arcs) -> None:
+    """Two joints that mirror each other pay only together."""
+    points = form.points(0.4)
+    assert len(points) < 50
+    gap = gap_from_points(*points.T, 0.0, 401, 0.5 * ROLLER)
+    assert form.error(np.column_stack([gap.x, gap.y])) < 1e-4
+
+
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("noise", "step"), [(0.0, 0.02), (1e-4, 0.02), (0.0, 0.1), (1e-4, 0.1)])
 def test_smooth_outline_keeps_the_joints_of_exact_points(

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from wearsim.case.flank import POINTS_NOISE, evolute_tooth
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
@@ -11,16 +13,27 @@ from wearsim.catalogue.tables import Chain, chains
 from wearsim.errors import GeometryError
 from wearsim.geometry.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.dxf import outline_from_dxf
-from wearsim.geometry.gap import Gap, pitch_diameter
-from wearsim.geometry.gap_points import evolute_gap, gap_from_points
+from wearsim.geometry.gap import Gap
+from wearsim.geometry.gap_points import (
+    ON_CENTRE_LINE,
+    evolute_gap,
+    gap_from_points,
+    lowest_centre,
+)
 from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import iso606_gap
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.iso606 import gap_form, iso606_gap
+from wearsim.geometry.profile import Profile, Vector
 
 OUTLINE_NODES = 601
 
 _SAME_ROLLER = 0.1
 """Difference of roller diameters [mm] within which one sprocket takes both chains."""
+
+_SAME_SEAT = 0.01
+"""Distance [mm] beyond the standards' seats of a roller up to which nothing is said."""
+
+_ENOUGH_POINTS = 70
+"""Points of a gap from which on the joints of a standard's arcs are found within 0.001 mm."""
 
 _SERIES = {
     "iso606": ("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H"),
@@ -85,7 +98,7 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
         seat = "pitch_circle"
         case.take("sprocket.seat_centre", seat, "default")
     # Where only every second gap carries a roller the gaps lie nearer than a pitch.
-    radius = 0.5 * chain.pitch / math.sin(math.pi * table.engaged_every / table.teeth)
+    radius = _pitch_radius(table, chain)
     pitch = chain.pitch
     if table.engaged_every > 1:
         pitch = 2.0 * radius * math.sin(math.pi / table.teeth)
@@ -110,6 +123,11 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
             f"sprocket.tip_diameter_mm = {table.tip_diameter_mm:g}: cut off there"
         )
     return gap
+
+
+def _pitch_radius(table: SprocketTable, chain: Chain) -> float:
+    """Radius of the circle through the centres of the rollers [mm]."""
+    return 0.5 * chain.pitch / math.sin(math.pi * table.engaged_every / table.teeth)
 
 
 def _check_series(case: Resolution, table: SprocketTable, chain: Chain) -> None:
@@ -160,27 +178,86 @@ def _drawn(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> 
         case.take("sprocket.points_noise_mm", noise, "error of the points, sets the smoothing")
     name = table.points_file or table.dxf_file
     assert name is not None
-    path = case.path(key, name)
+    points = _points(case, key, name, table)
+    if points is None or not _has_right_size(case, key, points, table, chain):
+        return None
+    x, y = points
     try:
-        if table.points_file:
-            points = read_points(path, key, case.faults)
-            if points is None:
-                return None
-            x, y = points
-        else:
-            drawn, notes = outline_from_dxf(path, table.teeth, layer=table.dxf_layer)
-            x, y = drawn.T
-            case.assumptions += [f"drawing {name}: {note}" for note in notes]
         outline = gap_from_points(x, y, noise, nodes, 0.5 * chain.roller_diameter)
+    except GeometryError as error:
+        case.faults.add(key, f"{name}: {error}")
+        return None
+    count = 2 * x.size if abs(x[0]) <= ON_CENTRE_LINE else x.size
+    if count < _ENOUGH_POINTS:
+        case.warnings.append(
+            f"{name} gives the gap by {count} points: where arcs meet the outline may be 0.01 mm off, "
+            f"forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs or shorter "
+            "lines"
+        )
+    return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
+
+
+def _points(
+    case: Resolution, key: str, name: str, table: SprocketTable
+) -> tuple[Vector, Vector] | None:
+    """Coordinates from the file, None where there was a fault."""
+    path = case.path(key, name)
+    if table.points_file:
+        return read_points(path, key, case.faults)
+    try:
+        points, notes = outline_from_dxf(path, table.teeth, layer=table.dxf_layer)
     except GeometryError as error:
         case.faults.add(key, str(error))
         return None
-    radius = 0.5 * pitch_diameter(chain.pitch, table.teeth)
-    if not outline.y.min() < radius:
+    case.assumptions += [f"drawing {name}: {note}" for note in notes]
+    return points[:, 0], points[:, 1]
+
+
+def _has_right_size(
+    case: Resolution, key: str, points: tuple[Vector, Vector], table: SprocketTable, chain: Chain
+) -> bool:
+    """Whether the bottom lies less than a pitch inside the pitch circle, else a fault."""
+    radius, bottom = _pitch_radius(table, chain), float(np.hypot(*points).min())
+    if radius - chain.pitch < bottom < radius:
+        return True
+    case.faults.add(
+        key,
+        f"the bottom of the gap must lie inside the pitch circle of radius {radius:.5g} mm, by less than "
+        f"a pitch, but lies {bottom:.5g} mm from the sprocket's centre: check sprocket.teeth, the chain, "
+        "the unit of the file ($INSUNITS in a drawing) and that the centre is at (0, 0)",
+    )
+    return False
+
+
+def _seats_roller(
+    case: Resolution, key: str, outline: Profile, table: SprocketTable, chain: Chain
+) -> bool:
+    """Whether a roller seats about as on new sprockets of these teeth, else a fault.
+
+    Standard forms seat it on the pitch circle or below, the lowest of them ISO 606's maximum
+    form by 0.005 d1 + 0.069 cbrt(d1): by 0.65 mm on the largest chain of the catalogue and by
+    0.022 p on the smallest, from 9 to 150 teeth. A tooth more or less moves all of them by
+    p/(2 pi engaged_every); from halfway to there on it is a fault, between a warning.
+    """
+    radius, roller_radius = _pitch_radius(table, chain), 0.5 * chain.roller_diameter
+    seat = math.hypot(*lowest_centre(outline.x, outline.y, roller_radius))
+    deepest = gap_form("max", chain.roller_diameter, table.teeth).seat_radius - roller_radius
+    beyond = max(seat - radius, radius - deepest - seat)
+    step = chain.pitch / (2.0 * math.pi * table.engaged_every)
+    new = f"{radius - deepest:.5g} to {radius:.5g} mm"
+    if beyond > 0.5 * (step - deepest):
         case.faults.add(
             key,
-            f"the gap must reach inside the pitch circle of radius {radius:.5g} mm, its bottom lies at "
-            f"{outline.y.min():.5g} mm: check teeth, pitch and the drawing's units",
+            f"the gap must seat a roller of {chain.roller_diameter:g} mm near the pitch circle of radius "
+            f"{radius:.5g} mm, as new sprockets do at {new}, but seats it {seat:.5g} mm from the "
+            f"sprocket's centre: check sprocket.teeth = {table.teeth}, the chain and the unit of the file",
         )
-        return None
-    return GapShape(outline, None)
+        return False
+    if beyond > _SAME_SEAT + (table.points_noise_mm or 0.0):
+        way = "higher" if seat > radius else "lower"
+        case.warnings.append(
+            f"the gap of {key} seats a roller {seat:.5g} mm from the sprocket's centre, {beyond:.2g} mm "
+            f"{way} than a new sprocket of {table.teeth} teeth would ({new}): right if it is worn or made "
+            "so, else check teeth, chain and points"
+        )
+    return True

@@ -18,6 +18,8 @@ from wearsim.geometry.profile import Vector
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.entities.dxfgfx import DXFGraphic
+    from ezdxf.entities.lwpolyline import LWPolyline
+    from ezdxf.entities.polyline import Polyline
 
 OFF_CENTRE = 1e-3
 """Distance [mm] of a wheel's centroid from the origin that is taken as none."""
@@ -27,6 +29,8 @@ ALIKE = 1e-2
 
 _TIP_CUT = 1e-3
 _LINE_STEP = 0.1
+_SHARP = 0.5
+_FLAT = 1e-5
 _SHALLOWEST = 0.01
 _MILLIMETRES = {
     1: ("inches", 25.4),
@@ -71,7 +75,8 @@ def outline_from_dxf(
     """Return the outline of one gap of a drawn sprocket.
 
     Lines, arcs, circles, ellipses, splines and polylines of the model space are flattened
-    with all their vertices on the curves and joined into chains. The largest closed chain
+    with all their vertices on the curves and joined into chains. Lines get points every
+    0.1 mm, except where many short ones are the chords of a curve. The largest closed chain
     with as many gaps as the sprocket has teeth is the wheel, and its gap nearest +y the one
     returned; bores, keyways and construction circles are passed over. Without a wheel, the
     one open chain that dips towards the origin between two tips is the gap. Either is
@@ -119,6 +124,7 @@ def outline_from_dxf(
     factor = _unit(document, path, notes)
     edges = _flattened(_entities(document, path, layer), factor, sagitta, path, notes)
     chains, junctions = _joined(edges, tolerance, notes)
+    chains = [_Chain(_filled(chain), chain.closed) for chain in chains]
     outline = _wheel_gap(chains, teeth, centre, path, notes)
     if outline is None:
         outline = _single_gap(chains, teeth, centre, notes)
@@ -208,7 +214,10 @@ def _flattened(
             elif isinstance(entity, LWPolyline) or (
                 isinstance(entity, Polyline) and (entity.is_2d_polyline or entity.is_3d_polyline)
             ):
-                edges += [_points(part, factor, sagitta) for part in entity.virtual_entities()]
+                if entity.has_arc:
+                    edges += [_points(part, factor, sagitta) for part in entity.virtual_entities()]
+                else:
+                    edges.append(_vertices(entity, factor))
             else:
                 unknown[kind] += 1
         except (ValueError, ArithmeticError) as error:
@@ -235,16 +244,22 @@ def _points(entity: "DXFGraphic", factor: float, sagitta: float) -> Vector:
     from ezdxf.entities.spline import Spline
 
     if isinstance(entity, Line):
-        start, end = np.array([entity.dxf.start, entity.dxf.end])[:, :2] * factor
-        length = math.hypot(*(end - start))
-        count = math.ceil(min(length / _LINE_STEP, 2000.0))
-        points = np.linspace(start, end, count + 1)
+        points = np.array([entity.dxf.start, entity.dxf.end])[:, :2] * factor
     elif isinstance(entity, Circle | Ellipse | Spline):
         vertices = [(vertex.x, vertex.y) for vertex in entity.flattening(sagitta / factor)]
         points = np.array(vertices, dtype=float).reshape(-1, 2) * factor
     else:
         raise ValueError(f"{entity.dxftype()} in a polyline")
     return _without_repeats(points)
+
+
+def _vertices(entity: "LWPolyline | Polyline", factor: float) -> Vector:
+    """Vertices of a polyline without arcs, the first one again at the end of a closed one."""
+    from ezdxf.entities.polyline import Polyline
+
+    rows = entity.points_in_wcs() if isinstance(entity, Polyline) else entity.vertices_in_wcs()
+    points = np.array([(vertex.x, vertex.y) for vertex in rows]).reshape(-1, 2) * factor
+    return _without_repeats(np.concatenate([points, points[:1]]) if entity.is_closed else points)
 
 
 def _without_repeats(points: Vector) -> Vector:
@@ -274,9 +289,11 @@ def _joined(
             links.append(edgeminer.make_edge(points[0], points[-1], payload=points))
     if len(edges) > len(seen):
         notes.append(f"{len(edges) - len(seen)} edges drawn twice or too short: passed over")
+    if not links:
+        return chains, []
     deposit = edgeminer.Deposit(links, gap_tol=tolerance)
     widest, junctions = 0.0, set()
-    for chain in edgeminer.find_all_simple_chains(deposit) if links else ():
+    for chain in edgeminer.find_all_simple_chains(deposit):
         rows = [e.payload[::-1] if e.is_reverse else e.payload for e in chain]
         first, last = rows[0][0], rows[-1][-1]
         closed = math.dist(first, last) <= tolerance
@@ -301,6 +318,42 @@ def _end_to_end(rows: list[Vector], closed: bool) -> Vector:
         before[-1] = after[0] = 0.5 * (before[-1] + after[0])
     points = _without_repeats(np.concatenate(rows))
     return points[:-1] if closed else points
+
+
+def _filled(chain: _Chain) -> Vector:
+    """Points of a chain with more of them on its long edges.
+
+    Between two corners that are not sharp an edge is the chord of a curve if it turns at both
+    ends and is not much longer than both edges beside it; beyond a sharp corner nothing is
+    known. A chord is cut as finely as the edges mostly are, with the new points on an arc of
+    the lesser of the curvatures at its ends. All other edges are straight.
+    """
+    points = np.concatenate([chain.points, chain.points[:1]]) if chain.closed else chain.points
+    way = np.diff(points, axis=0)
+    # The edges beside the first and the last one; an open chain has only one of each.
+    around = way[[-1, 0]] if chain.closed else way[[1, -2]] if len(way) > 1 else way[[0, 0]]
+    padded = np.concatenate([around[:1], way, around[1:]])
+    heading, lengths = np.arctan2(padded[:, 1], padded[:, 0]), np.hypot(*padded.T)
+    turn = np.remainder(np.diff(heading) + math.pi, 2.0 * math.pi) - math.pi
+    if not chain.closed:
+        turn[[0, -1]] *= -1.0
+    sharp = np.abs(turn) > _SHARP
+    curvature = np.where(sharp, math.inf, 2.0 * turn / (lengths[:-1] + lengths[1:]))
+    before, after = curvature[:-1], curvature[1:]
+    bent = np.where(np.abs(before) < np.abs(after), before, after)
+    length = lengths[1:-1]
+    beside = np.maximum(lengths[:-2] * ~sharp[:-1], lengths[2:] * ~sharp[1:])
+    is_straight = (np.abs(bent) * length**2 < 8.0 * _FLAT) | (length > 3.0 * beside)
+    bent[is_straight] = 0.0
+    fine = np.ceil(np.minimum(length / _LINE_STEP, 2000.0))
+    alike = np.maximum(length // max(_LINE_STEP, float(np.median(length))), 1.0)
+    steps = np.where(is_straight, fine, alike).astype(int)
+    edge = np.repeat(np.arange(steps.size), steps)
+    share = (np.arange(edge.size) - np.repeat(np.cumsum(steps) - steps, steps)) / steps[edge]
+    aside = 0.5 * (bent * length)[edge] * share * (1.0 - share)
+    outwards = way[edge] @ np.array([[0.0, -1.0], [1.0, 0.0]])
+    filled = points[edge] + share[:, None] * way[edge] + aside[:, None] * outwards
+    return filled if chain.closed else np.concatenate([filled, points[-1:]])
 
 
 def _wheel_gap(
@@ -465,9 +518,15 @@ def _between_tips(points: Vector, bottom: int) -> _Gap:
 
 
 def _up_to_tip(side: Vector) -> Vector:
-    """A side of a gap from its bottom to where it comes within the cut of its tip."""
+    """A side of a gap from its bottom to where it comes within the cut of its tip.
+
+    Its tip is the first top near its greatest radius: the other end of a tip land that is
+    drawn as a straight line may lie a little higher.
+    """
     radius = np.hypot(*side.T)
-    level = radius.max() - _TIP_CUT
+    near = int(np.flatnonzero(radius >= radius.max() - ALIKE)[0])
+    falls = np.flatnonzero(np.diff(radius[near:]) < 0.0)
+    level = radius[near + falls[0] if falls.size else -1] - _TIP_CUT
     last = int(np.flatnonzero(radius >= level)[0])
     share = (level - radius[last - 1]) / (radius[last] - radius[last - 1])
     end = side[last - 1] + share * (side[last] - side[last - 1])

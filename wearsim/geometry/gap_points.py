@@ -27,6 +27,7 @@ _MOST_JOINTS = 10
 _LEAST_NOISE = 2e-5
 _LEAST_BETWEEN = 6
 _NO_FIT = 1e12
+_MOST_POINTS = 1000
 
 
 def gap_from_points(
@@ -174,7 +175,7 @@ def _whole_outline(x: Vector, y: Vector, noise: float) -> Vector:
     if x.ndim != 1 or x.shape != y.shape or x.size < FEWEST_POINTS:
         raise GeometryError(
             f"gap points: at least {FEWEST_POINTS} points with as many x as y are needed, got {x.size} x "
-            f"and {y.size} y: give more points"
+            f"and {y.size} y: give more points, in a drawing arcs or shorter lines"
         )
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         raise GeometryError("gap points: every coordinate must be finite: remove nan and inf")
@@ -213,16 +214,19 @@ def _whole_outline(x: Vector, y: Vector, noise: float) -> Vector:
 def _thinned(points: Vector, noise: float) -> tuple[Vector, float]:
     """Means of successive points where they lie closer than the noise can tell apart.
 
-    Otherwise the noise would lengthen the chords, and with them the spline's parameter.
+    Otherwise the noise would lengthen the chords, and with them the spline's parameter. Of
+    very many points some are passed over, none of them a corner.
     """
     step = float(np.median(np.hypot(*np.diff(points, axis=0).T)))
     group = min(int(8.0 * noise / step), points.shape[0] // FEWEST_POINTS)
-    if group < 2:
-        return points, noise
-    count = points.shape[0] // group
-    first = (points.shape[0] - count * group) // 2
-    grouped = points[first : first + count * group].reshape(count, group, 2)
-    return np.asarray(grouped.mean(axis=1)), noise / math.sqrt(group)
+    if group > 1:
+        count = points.shape[0] // group
+        first = (points.shape[0] - count * group) // 2
+        grouped = points[first : first + count * group].reshape(count, group, 2)
+        points, noise = np.asarray(grouped.mean(axis=1)), noise / math.sqrt(group)
+    last = points.shape[0] - 1
+    spread = range(0, last, max(1, points.shape[0] // _MOST_POINTS))
+    return points[sorted({*spread, last, *_corners(points, noise)})], noise
 
 
 class _JointedFit:
@@ -257,17 +261,19 @@ class _JointedFit:
         return self._fitted(self._spread(numbers, joints), joints)
 
     def _joints(self) -> list[float]:
-        """Joints found one by one on top of evenly spread knots, all placed anew each time."""
-        joints: list[float] = []
-        score = self._even_score(joints)
-        while len(joints) < _MOST_JOINTS:
-            trials = [[float(at), *joints] for at in self.chord[:: self.step]]
+        """Joints found one by one on top of evenly spread knots, all placed anew each time.
+
+        Of joints that mirror each other one alone may not pay: two more than pay are tried.
+        """
+        found: list[float] = []
+        joints, lowest = found, self._even_score(found)
+        while len(found) < min(_MOST_JOINTS, len(joints) + 2):
+            trials = [[float(at), *found] for at in self.chord[:: self.step]]
             best = min(trials, key=self._even_score)
-            best = self._all_placed(self._all_placed(best, self._even_score), self._even_score)
-            gain = score - self._even_score(best)
-            if gain < 9.0 * self.cost:
-                break
-            joints, score = best, score - gain
+            found = self._all_placed(self._all_placed(best, self._even_score), self._even_score)
+            score = self._even_score(found) + 9.0 * self.cost * len(found)
+            if score <= lowest:
+                joints, lowest = found, score
         return joints
 
     def _all_placed(
@@ -298,13 +304,17 @@ class _JointedFit:
     def _numbers(self, joints: list[float]) -> tuple[int, ...]:
         """How many knots every piece between breaks gets, added while they pay."""
         numbers = (0,) * (len(joints) + len(self.corners) + 1)
+        most = (np.diff(self._breaks(joints)) - _LEAST_BETWEEN) // 3
         total = self._spread_score(numbers, joints)
         while sum(numbers) < self.count // 6:
             trials = [
                 (*numbers[:i], numbers[i] + more, *numbers[i + 1 :])
                 for i in range(len(numbers))
                 for more in (1, 2, 4)
+                if numbers[i] + more <= most[i]
             ]
+            if not trials:
+                break
             totals = [
                 self._spread_score(trial, joints) + 2.0 * sum(trial) * self.cost for trial in trials
             ]
@@ -316,7 +326,7 @@ class _JointedFit:
 
     def _spread(self, numbers: tuple[int, ...], joints: list[float]) -> list[float]:
         """Knots evenly spread over the points of every piece between breaks."""
-        ends = self._index(np.sort([*joints, *self.corners, *self.chord[[0, -1]]]))
+        ends = self._breaks(joints)
         inner = [
             np.linspace(first, last, number + 2)[1:-1]
             for (first, last), number in zip(pairwise(ends), numbers, strict=True)
@@ -335,8 +345,7 @@ class _JointedFit:
 
     def _score(self, knots: list[float], joints: list[float]) -> float:
         """Return n log(sum of squared residuals + n noise^2), very large without a fit."""
-        breaks = self._index(np.sort([*joints, *self.corners, *self.chord[[0, -1]]]))
-        if np.diff(breaks).min() < _LEAST_BETWEEN:
+        if np.diff(self._breaks(joints)).min() < _LEAST_BETWEEN:
             return _NO_FIT
         try:
             residuals = self.points - self._fitted(knots, joints)(self.chord)
@@ -353,6 +362,10 @@ class _JointedFit:
         return make_lsq_spline(
             self.chord, self.points, np.concatenate([ends[:6], inner, ends[6:]]), k=5
         )
+
+    def _breaks(self, joints: list[float]) -> Vector:
+        """Indices of the ends, corners and joints, in order."""
+        return self._index(np.sort([*joints, *self.corners, *self.chord[[0, -1]]]))
 
     def _index(self, chord: float | Vector) -> Vector:
         return np.asarray(np.interp(chord, self.chord, np.arange(self.count)))
