@@ -29,7 +29,7 @@ PROCESSES = {
 def measured(folder):
     """Results of all benchmarks, by name."""
     file = folder / "benchmarks.json"
-    words = ["--benchmark-only", "--benchmark-warmup=on", f"--benchmark-json={file}"]
+    words = ["-n", "0", "--benchmark-only", "--benchmark-warmup=on", f"--benchmark-json={file}"]
     subprocess.run([sys.executable, "-m", "pytest", str(FOLDER), *words], check=True)
     content = json.loads(file.read_text(encoding="utf-8"))
     return content["machine_info"]["cpu"], {item["name"]: item for item in content["benchmarks"]}
