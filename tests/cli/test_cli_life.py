@@ -211,3 +211,70 @@ def test_next_command_can_be_pasted(cli, drive):
     assert f"wearsim compare '{path}' --out 'reports/my drive'" in " ".join(
         cli("life", path).out.split()
     )
+
+
+# -- solving for a key -----------------------------------------------------------------------------
+
+
+def test_solve_for_prints_value_life_and_slope(cli, drive, conforms):
+    """On a strand the life goes with one over the speed: the same cycles take longer."""
+    path = drive()
+    hours = strict(cli("life", path, "--json").out)["life_hours"]
+    asked = ("--solve-for", "load.speed_rpm", "--require-hours", 1.6 * hours)
+    done = cli("life", path, "--json", *asked, "--set", "load={tension_N=3000, speed_rpm=100}")
+    assert done.code == 0
+    line = strict(done.out)
+    conforms(line)
+    found = line["solve_for"]
+    assert found["met"] and found["key"] == "load.speed_rpm"
+    assert found["life_hours"] == line["life_hours"] == pytest.approx(1.6 * hours, rel=1e-3)
+    assert found["elasticity"] == pytest.approx(-1.0, rel=1e-3)
+    assert found["lowest"] <= found["value"] <= found["highest"]
+    text = cli("life", path, *asked, "--set", "load={tension_N=3000, speed_rpm=100}").out
+    assert text.startswith(f"  Solved     load.speed_rpm = {found['value']:.6g} lives ")
+    assert "1 % more of it lives 1 % less" in text
+
+
+def test_solve_for_without_an_answer_is_4(cli, drive, conforms):
+    asked = ("--solve-for", "sprocket.face_width_mm", "--require-hours", 1e9)
+    done = cli("life", drive(), "--json", *asked)
+    assert done.code == 4
+    line = strict(done.out)
+    conforms(line)
+    assert not line["solve_for"]["met"]
+    assert "no value of sprocket.face_width_mm from " in done.err
+    assert line["solve_for"]["value"] == pytest.approx(17.02, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("key", "said"),
+    [
+        ("load.tension_N", "it is not in the case"),
+        ("sprocket.profile", "it is 'evolute'"),
+        ("nothing.at_all", "it is not in the case"),
+        ("title", "it is not in the case"),
+        ("wear.speed_exponent", "needs a value above 0 to start from"),
+    ],
+)
+def test_solve_for_needs_a_number(cli, drive, key, said):
+    law = (
+        "wear={law='drozdov', coefficient=1e-8, pressure_exponent=1, hardness_MPa=2000, "
+        "reference_speed_mm_per_s=100, speed_exponent=0}"
+    )
+    done = cli("life", drive(), "--solve-for", key, "--require-hours", 10, "--set", law)
+    assert done.code == 2
+    assert key in done.err and said in done.err
+
+
+def test_solve_for_needs_hours_and_one_case(cli, drive):
+    assert cli("life", drive(), "--solve-for", "load.power_kW").code == 2
+    two = (drive(), drive("other"))
+    assert cli("life", *two, "--solve-for", "load.power_kW", "--require-hours", 9).code == 2
+
+
+def test_solve_for_saves_the_case_that_it_found(cli, drive, tmp_path):
+    out = tmp_path / "out"
+    asked = ("--solve-for", "load.power_kW", "--require-hours", 100)
+    line = strict(cli("life", drive(), "--json", *asked, "--out", out).out)
+    again = strict(cli("life", "--json", out / "case.lock.toml").out)
+    assert again["life_hours"] == pytest.approx(line["life_hours"], rel=1e-9)

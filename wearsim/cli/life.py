@@ -42,18 +42,24 @@ if TYPE_CHECKING:
     callback=finite,
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
 )  # fmt: skip
+@click.option(
+    "--solve-for", "key", metavar="TABLE.KEY",
+    help="Find the value of this number at which the CASE lives --require-hours.",
+)  # fmt: skip
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
 @standard
 def life(
     cases: tuple[Path, ...], out: Path | None, force: bool, as_json: bool,
-    require_hours: float | None, strict: bool, settings: tuple[str, ...],
+    require_hours: float | None, key: str | None, strict: bool, settings: tuple[str, ...],
 ) -> int:  # fmt: skip
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
     flank.csv; for several cases, DIR/<file stem> does.
     """
+    if key is not None:
+        return _solve(cases, key, require_hours, settings, out, force, as_json)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
         loaded = [_with_horizon(case, require_hours) for case in loaded]
@@ -76,6 +82,18 @@ def life(
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
+
+
+def _solve(
+    cases: tuple[Path, ...], key: str, hours: float | None, settings: tuple[str, ...],
+    out: Path | None, force: bool, as_json: bool,
+) -> int:  # fmt: skip
+    from wearsim.cli.solve import solve
+
+    if len(cases) != 1 or hours is None:
+        raise click.UsageError("--solve-for needs one CASE and --require-hours")
+    (folder,) = _folders(cases, out, force)
+    return solve(cases[0], key, hours, settings, folder, force, as_json)
 
 
 def _with_horizon(case: "Case", hours: float) -> "Case":

@@ -1,0 +1,228 @@
+"""The value of one input key at which a case lives as long as required."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from scipy.optimize import brentq
+
+from wearsim.case.model import Case
+from wearsim.errors import WearsimError
+from wearsim.result import Life, WearResult
+from wearsim.simulation import simulate
+
+_FACTOR = 2.0
+"""Between values tried on the way to a bracket."""
+
+_MOST_FACTORS = 24
+_EDGE_STEPS = 12
+"""Halvings of the logarithm on the way to the last value that is allowed."""
+
+_STEP = 0.02
+"""Relative step of the slope."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A value and what the case does with it.
+
+    Attributes
+    ----------
+    value : float
+        Of the key.
+    hours : float
+        Life, or twice the required hours where it is at least that [h].
+    result : WearResult
+        The run.
+    """
+
+    value: float
+    hours: float
+    result: WearResult
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The value that gives the required life, or the best that the allowed range has.
+
+    Attributes
+    ----------
+    trial : Trial
+        At the value.
+    met : bool
+        Whether it gives the life; otherwise it is the one that comes nearest.
+    elasticity : float
+        Relative change of the life over that of the value, there; nan where not known.
+    low, high : float
+        Values between which the case could be run.
+    runs : int
+        Lives that were calculated.
+    """
+
+    trial: Trial
+    met: bool
+    elasticity: float
+    low: float
+    high: float
+    runs: int
+
+
+class _Lives:
+    """Lives by value, each calculated once."""
+
+    def __init__(self, case_at: Callable[[float], Case], hours: float, whole: bool) -> None:
+        self.case_at, self.required, self.whole = case_at, hours, whole
+        self.found: dict[float, Trial | None] = {}
+        self.failure: WearsimError | None = None
+
+    def at(self, value: float) -> Trial | None:
+        """Return the trial at a value, None where the case cannot be run with it."""
+        value = float(round(value)) if self.whole else value
+        if value not in self.found:
+            self.found[value] = self._run(value)
+        return self.found[value]
+
+    def excess(self, value: float) -> float:
+        """Return the logarithm of life over required life at a value that can be run."""
+        trial = self.at(value)
+        assert trial is not None
+        return math.log(trial.hours / self.required)
+
+    def _run(self, value: float) -> Trial | None:
+        try:
+            case = self.case_at(value)
+            horizon = max(case.run.horizon_hours, 2.0 * self.required)
+            result = simulate(replace(case, run=replace(case.run, horizon_hours=horizon)))
+        except WearsimError as error:
+            self.failure = error
+            return None
+        life = result.life
+        return Trial(value, life.hours if isinstance(life, Life) else life.hours_run, result)
+
+
+def solve_for(
+    case_at: Callable[[float], Case], start: float, hours: float, whole: bool = False
+) -> Solved:
+    """Find the value of a key at which a case lives as long as required.
+
+    From the start the value is doubled or halved, to the side on which the life comes
+    nearer first, until the life is met or the case refuses; Brent's method on the
+    logarithms follows, for whole numbers bisection to the value that still lives as long.
+
+    Parameters
+    ----------
+    case_at : callable
+        The case with a value of the key; raises a `WearsimError` where it is not allowed.
+    start : float
+        Value to start from, above 0.
+    hours : float
+        Required life [h], above 0.
+    whole : bool
+        Whether only whole numbers are allowed.
+
+    Returns
+    -------
+    Solved
+        The value, or what comes nearest.
+
+    Raises
+    ------
+    WearsimError
+        The case cannot be run with the start.
+    """
+    lives = _Lives(case_at, hours, whole)
+    first = lives.at(start)
+    if first is None:
+        assert lives.failure is not None
+        raise lives.failure
+    bracket = None
+    for direction in _directions(lives, start):
+        bracket = _bracket(lives, start, direction)
+        if bracket is not None:
+            break
+    allowed = [value for value, trial in lives.found.items() if trial is not None]
+    trial = _nearest(lives) if bracket is None else _root(lives, *bracket)
+    return Solved(
+        trial, bracket is not None, _elasticity(lives, trial), min(allowed), max(allowed),
+        len(lives.found),
+    )  # fmt: skip
+
+
+def _directions(lives: _Lives, start: float) -> tuple[float, float]:
+    """Both directions, first the one in which the life comes nearer to what is required."""
+    step = 1.0 / start if lives.whole else _STEP
+    other = lives.at(start * (1.0 + step))
+    if other is None:
+        return 1.0 / _FACTOR, _FACTOR
+    nearer = abs(lives.excess(other.value)) < abs(lives.excess(start))
+    return (_FACTOR, 1.0 / _FACTOR) if nearer else (1.0 / _FACTOR, _FACTOR)
+
+
+def _bracket(lives: _Lives, start: float, factor: float) -> tuple[float, float] | None:
+    """Return two values between which the life is met, None where there are none on this side."""
+    inside, sign = start, lives.excess(start) > 0.0
+    for _ in range(_MOST_FACTORS):
+        outside = inside * factor
+        trial = lives.at(outside)
+        if trial is None:
+            return _at_edge(lives, inside, outside, sign)
+        if (lives.excess(trial.value) > 0.0) != sign:
+            return inside, trial.value
+        if trial.value == inside:
+            return None
+        inside = trial.value
+    return None
+
+
+def _at_edge(
+    lives: _Lives, inside: float, outside: float, sign: bool
+) -> tuple[float, float] | None:
+    """Go on towards a value that is refused, as near as bisection comes."""
+    start = inside
+    for _ in range(_EDGE_STEPS):
+        trial = lives.at(math.sqrt(inside * outside))
+        if trial is None:
+            outside = math.sqrt(inside * outside)
+        elif (lives.excess(trial.value) > 0.0) != sign:
+            return start, trial.value
+        else:
+            inside = trial.value
+    return None
+
+
+def _root(lives: _Lives, one: float, other: float) -> Trial:
+    low, high = sorted((one, other))
+    if lives.whole:
+        return _whole_root(lives, low, high)
+    tolerance = 0.1 * lives.found[one].result.life_tolerance  # type: ignore[union-attr]
+    root = brentq(
+        lambda x: lives.excess(math.exp(x)), math.log(low), math.log(high), xtol=tolerance
+    )
+    found = lives.at(math.exp(root))
+    assert found is not None
+    return found
+
+
+def _whole_root(lives: _Lives, low: float, high: float) -> Trial:
+    """The whole number next to the root that lives as long as required."""
+    rising = lives.excess(high) > 0.0
+    while high - low > 1.0:
+        middle = float(round(0.5 * (low + high)))
+        low, high = (low, middle) if (lives.excess(middle) > 0.0) == rising else (middle, high)
+    found = lives.at(high if rising else low)
+    assert found is not None
+    return found
+
+
+def _nearest(lives: _Lives) -> Trial:
+    trials = [trial for trial in lives.found.values() if trial is not None]
+    return min(trials, key=lambda trial: abs(math.log(trial.hours / lives.required)))
+
+
+def _elasticity(lives: _Lives, trial: Trial) -> float:
+    """Relative change of the life over that of the value, by a step to each side that can be run."""
+    step = 1.0 / trial.value if lives.whole else _STEP
+    around = [lives.at(trial.value * (1.0 + part)) for part in (-step, step)]
+    known = [other or trial for other in around]
+    ratio = math.log(known[1].value / known[0].value)
+    return math.log(known[1].hours / known[0].hours) / ratio if ratio else math.nan
