@@ -278,3 +278,34 @@ def test_solve_for_saves_the_case_that_it_found(cli, drive, tmp_path):
     line = strict(cli("life", drive(), "--json", *asked, "--out", out).out)
     again = strict(cli("life", "--json", out / "case.lock.toml").out)
     assert again["life_hours"] == pytest.approx(line["life_hours"], rel=1e-9)
+
+
+# -- three grids -----------------------------------------------------------------------------------
+
+
+def test_verify_grid(cli, drive, conforms):
+    path = drive()
+    text = cli("life", path, "--verify-grid").out
+    line = strict(cli("life", path, "--verify-grid", "--json").out)
+    conforms(line)
+    grid = line["grid"]
+    assert grid["nodes"] == [51, 26, 13]
+    assert grid["values"][0] == pytest.approx(line["cycles"], rel=1e-4)
+    shown = "Richardson error" if grid["richardson"] else "spread of the three"
+    assert f"{shown} {grid['error']:.1g}" in " ".join(text.split())
+    assert "grid" not in strict(cli("life", path, "--json").out)
+
+
+def test_verify_grid_at_the_horizon(cli, drive, conforms):
+    line = strict(
+        cli("life", drive(), "--verify-grid", "--json", "--set", "run.horizon_hours=1").out
+    )
+    conforms(line)
+    assert line["grid"]["quantity"] == "max_depth_mm"
+    assert line["grid"]["values"][0] == pytest.approx(line["max_depth_mm"], rel=1e-4)
+
+
+@pytest.mark.parametrize("option", ["--verify-grid", "--strict"])
+def test_solve_for_alone(cli, drive, option):
+    asked = ("--solve-for", "load.power_kW", "--require-hours", 100)
+    assert cli("life", drive(), *asked, option).code == 2

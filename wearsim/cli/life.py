@@ -26,6 +26,7 @@ from wearsim.errors import WearsimError
 if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.result import WearResult
+    from wearsim.wear.accuracy import GridStudy
 
 
 @click.command(short_help="The life of a drive in hours.")
@@ -46,12 +47,14 @@ if TYPE_CHECKING:
     "--solve-for", "key", metavar="TABLE.KEY",
     help="Find the value of this number at which the CASE lives --require-hours.",
 )  # fmt: skip
+@click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
 @standard
 def life(
     cases: tuple[Path, ...], out: Path | None, force: bool, as_json: bool,
-    require_hours: float | None, key: str | None, strict: bool, settings: tuple[str, ...],
+    require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
+    settings: tuple[str, ...],
 ) -> int:  # fmt: skip
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
@@ -59,6 +62,8 @@ def life(
     flank.csv; for several cases, DIR/<file stem> does.
     """
     if key is not None:
+        if verify_grid or strict:
+            raise click.UsageError("--solve-for takes neither --verify-grid nor --strict")
         return _solve(cases, key, require_hours, settings, out, force, as_json)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
@@ -69,6 +74,7 @@ def life(
     for path, case, folder in zip(cases, loaded, folders, strict=True):
         try:
             result = _run(case, folder, force)
+            grid = _verified(case) if verify_grid else None
         except WearsimError as error:
             if len(loaded) == 1 and not as_json:
                 raise
@@ -77,7 +83,7 @@ def life(
                 click.echo(error_json(path.stem, error))
             show_error(error, path)
             continue
-        _show(result, path, as_json)
+        _show(result, grid, path, as_json)
         missed = _missed(result, require_hours, strict) or missed
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
@@ -139,17 +145,33 @@ def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
     return result
 
 
-def _show(result: "WearResult", path: Path, as_json: bool) -> None:
+def _verified(case: "Case") -> "GridStudy":
+    from wearsim.simulation import verify_grid
+
+    with working(f"verifying the grid of {case.title}"):
+        return verify_grid(case)
+
+
+def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: bool) -> None:
     if as_json:
         from wearsim.report.service import life_json
 
-        click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
+        content = life_json(result)
+        if grid is not None:
+            from wearsim.report.grid import grid_json
+
+            content["grid"] = grid_json(grid)
+        click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
         for text in result.warnings:
             warn(f"{path}: warning: {text}")
     else:
         from wearsim.report.answer import answer
 
         click.echo(answer(result, str(path)))
+        if grid is not None:
+            from wearsim.report.grid import grid_text
+
+            click.echo(grid_text(grid))
 
 
 def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> bool:

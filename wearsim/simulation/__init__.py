@@ -1,11 +1,18 @@
 """The one place that wires case, mechanism, wear engine and result."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.result import WearResult
 
-__all__ = ["simulate"]
+if TYPE_CHECKING:
+    from wearsim.wear.accuracy import GridStudy
+
+__all__ = ["simulate", "verify_grid"]
+
+_TIGHTER, _TIGHTEST = 1e-2, 1e-7
+"""On the tolerance of a life whose grids are compared: steps must not hide them; its least."""
 
 
 def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
@@ -57,3 +64,33 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     from wearsim.simulation.pointwise import simulate_points
 
     return simulate_points(case)
+
+
+def verify_grid(case: Case) -> "GridStudy":
+    """Run a case on three grids, of all, half and a quarter of its points.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+
+    Returns
+    -------
+    GridStudy
+        Of the sprocket's life: the lives, the observed order of convergence and the error.
+
+    Raises
+    ------
+    ContactError
+        The contact leaves its theory on one of the grids.
+    ConvergenceError
+        A life would be wrong.
+    """
+    tolerance = case.run.life_tolerance
+    if isinstance(case.drive, WrapDrive):
+        from wearsim.simulation.wrap import wrap_grid_study
+
+        return wrap_grid_study(case, case.drive, tolerance)
+    from wearsim.simulation.pointwise import points_grid_study
+
+    return points_grid_study(case, max(_TIGHTER * tolerance, _TIGHTEST))

@@ -16,7 +16,7 @@ from wearsim.result import Life, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, tooth_criteria
-from wearsim.wear.accuracy import grid_error
+from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.duty import DutyPart, equivalent_factor
@@ -53,9 +53,7 @@ def simulate_points(case: Case) -> WearResult:
         The life would be wrong.
     """
     mechanism = _mechanism(case)
-    law, criteria = _law(case), tooth_criteria(case)
-    warp = running_in(case.wear, _sliding_per_cycle(case, mechanism.contact))
-    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    law, criteria, warp, horizon = _problem(case, mechanism)
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
     if not Profile(run.x[-1], run.y[-1]).is_simple:
@@ -109,6 +107,35 @@ def simulate_points(case: Case) -> WearResult:
         flank_columns=flank,
         environment=environment(),
     )
+
+
+def _problem(
+    case: Case, mechanism: Mechanism
+) -> tuple[Law, tuple[Criterion, ...], RunningIn, float]:
+    """Return law, limits, running-in and horizon in cycles of constant coefficient."""
+    warp = running_in(case.wear, _sliding_per_cycle(case, mechanism.contact))
+    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    return _law(case), tooth_criteria(case), warp, horizon
+
+
+def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
+    """Run a case on a strand or under a table of loads on three grids.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    life_tolerance : float
+        Relative tolerance of each life.
+
+    Returns
+    -------
+    GridStudy
+        Of the three runs.
+    """
+    mechanism = _mechanism(case)
+    law, criteria, _, horizon = _problem(case, mechanism)
+    return grid_study(mechanism.contact, law, criteria, horizon, life_tolerance)
 
 
 def _mechanism(case: Case) -> Mechanism:

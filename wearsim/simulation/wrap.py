@@ -20,6 +20,7 @@ from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
+from wearsim.wear.accuracy import GridStudy, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
@@ -65,10 +66,8 @@ def simulate_wrap(
         A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
-    warp = running_in(case.wear, contact.sliding_per_cycle)
-    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
-    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
-    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    law, criteria, horizon = _problem(case, contact)
+    warp = law.running_in
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
@@ -111,6 +110,36 @@ def simulate_wrap(
         flank_columns=flank,
         environment=environment(),
     )
+
+
+def _problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
+    """Return law, limits and horizon in cycles of constant coefficient."""
+    warp = running_in(case.wear, contact.sliding_per_cycle)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
+    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
+    return law, criteria, warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+
+
+def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> GridStudy:
+    """Run the sprocket of a wrapped case on three grids.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    drive : WrapDrive
+        Its drive.
+    life_tolerance : float
+        Relative tolerance of each life.
+
+    Returns
+    -------
+    GridStudy
+        Of the three runs.
+    """
+    contact = wrap_contact(case, drive)
+    law, criteria, horizon = _problem(case, contact)
+    return grid_study(contact.thinned(), law, criteria, horizon, life_tolerance)
 
 
 def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
