@@ -93,3 +93,23 @@ def test_pressure_of_the_file_is_hertz_of_its_load_and_curvature(saved: Saved) -
     )
     modulus = 2.1e5 / (2.0 * 0.91)
     np.testing.assert_allclose(pressure, np.sqrt(load * relative * modulus / np.pi), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "closes"),
+    [("16b-20t-oiled", 1e-4), ("520-15t-wrap", 1e-3), ("hertz-arc-prescribed", 3e-3)],
+)
+def test_budget_of_a_result_closes(name: str, closes: float) -> None:
+    """The two areas come from the points and from the wear: shoelace and sum."""
+    case = Path(__file__).parents[2] / "cases" / f"{name}.toml"
+    result = wearsim.simulate(wearsim.load_case(case, ["run.life_tolerance=0.05"]))
+    assert result.removed_area > 0.0
+    assert result.worn_area == pytest.approx(result.removed_area, rel=closes)
+    columns, points = result.flank_columns, int(result.flank_columns["node"].max())
+    x, y = (columns[key].reshape(-1, points) for key in ("x_mm", "y_mm"))
+    (first, last) = (np.column_stack([x[i], y[i]]) for i in (0, -1))
+    ring = np.vstack([first, last[::-1]])
+    shoelace = 0.5 * np.sum(
+        ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]
+    )
+    assert result.removed_area == pytest.approx(abs(shoelace), rel=1e-9)

@@ -47,6 +47,37 @@ def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> fl
     return 0.5 * float(np.dot(u, np.roll(v, -1)) - np.dot(v, np.roll(u, -1)))
 
 
+def area_swept(x: Vector, y: Vector, depth: Vector) -> float:
+    """Return the area that a flank loses as its points recede along their normals.
+
+    Parameters
+    ----------
+    x, y, depth : numpy.ndarray
+        Points and depth of the flank at successive times [mm], shape (times, points).
+
+    Returns
+    -------
+    float
+        Sum over the times of depth gained times the length that belongs to each point in the
+        mean of both times [mm2].
+
+    Examples
+    --------
+    A flank of 2 mm that recedes by 0.5 mm:
+
+    >>> import numpy as np
+    >>> y = np.array([[0.0, 1.0, 2.0]] * 2)
+    >>> depth = np.array([[0.0] * 3, [0.5] * 3])
+    >>> area_swept(-depth, y, depth)
+    1.0
+    """
+    half = 0.5 * np.hypot(np.diff(x, axis=1), np.diff(y, axis=1))
+    length = np.zeros_like(x)
+    length[:, 1:] += half
+    length[:, :-1] += half
+    return float(np.sum(np.diff(depth, axis=0) * 0.5 * (length[1:] + length[:-1])))
+
+
 @dataclass(frozen=True, eq=False)
 class Profile:
     """Points of a flank from root to tip, with what follows from them.

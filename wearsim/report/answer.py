@@ -82,11 +82,20 @@ def answer(result: WearResult, source: str) -> str:
         *_service(result),
         *_parts(result),
         ("Worn most", _worst(result)),
+        ("Removed", _removed(result)),
         ("Assumes", numbered(result.assumptions)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
     return "\n".join([result.title, *(row(label, text) for label, text in rows)])
+
+
+def _removed(result: WearResult) -> str:
+    closes = abs(result.worn_area / result.removed_area - 1.0)
+    return (
+        f"{result.removed_area:.4g} mm2 between new and worn outline, {result.worn_area:.4g} mm2 summed "
+        f"over the wear: closes to {max(closes, 1e-15):.1g}"
+    )
 
 
 def _parts(result: WearResult) -> list[tuple[str, str]]:

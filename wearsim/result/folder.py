@@ -152,6 +152,8 @@ def _stored(folder: Path) -> dict[str, Any]:
         "limits": tuple(LimitState(**state) for state in stored["limits"]),
         "max_depth": stored["max_depth_mm"],
         "max_depth_arc_length": stored["max_depth_arc_length_mm"],
+        "removed_area": stored["removed_area_mm2"],
+        "worn_area": stored["worn_area_mm2"],
         "initial_peak_pressure": stored["initial_peak_pressure_MPa"],
         "final_peak_pressure": stored["final_peak_pressure_MPa"],
         "assumptions": tuple(stored["assumptions"]),

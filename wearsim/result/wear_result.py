@@ -45,6 +45,9 @@ class WearResult:
     max_depth_arc_length : float
         Where it lies along the unworn flank from the root, on a wrap along the unworn gap
         from its right tip [mm].
+    removed_area, worn_area : float
+        Between the new and the worn outline by their points, and summed over the wear of the
+        run [mm2]: the same but for numerical errors. Of all gaps told apart on a wrap.
     initial_peak_pressure, final_peak_pressure : float
         Highest contact pressure on the unworn flank or gaps, and at the end of the run [MPa].
     speed_rpm : float
@@ -86,6 +89,8 @@ class WearResult:
     hours_run: float
     max_depth: float
     max_depth_arc_length: float
+    removed_area: float
+    worn_area: float
     initial_peak_pressure: float
     final_peak_pressure: float
     speed_rpm: float
@@ -149,6 +154,8 @@ class WearResult:
             "limits": [asdict(state) for state in self.limits],
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
+            "removed_area_mm2": self.removed_area,
+            "worn_area_mm2": self.worn_area,
             "initial_peak_pressure_MPa": self.initial_peak_pressure,
             "final_peak_pressure_MPa": self.final_peak_pressure,
             "speed_rpm": self.speed_rpm,

@@ -9,7 +9,7 @@ from wearsim.case.model import Case, PrescribedDrive, StrandDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.errors import ConvergenceError, WearsimError
-from wearsim.geometry.profile import Profile, Vector, area_between
+from wearsim.geometry.profile import Profile, Vector, area_between, area_swept
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
@@ -86,6 +86,8 @@ def simulate_points(case: Case) -> WearResult:
         hours_run=float(run.cycles[-1]) / case.cycles_per_hour,
         max_depth=float(run.depth[-1, deepest]),
         max_depth_arc_length=float(mechanism.contact.arc_length[deepest]),
+        removed_area=area_between(run.x[0], run.y[0], run.x[-1], run.y[-1]),
+        worn_area=area_swept(run.x, run.y, run.depth),
         initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
         final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
         speed_rpm=case.speed_rpm,

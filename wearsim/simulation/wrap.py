@@ -89,6 +89,11 @@ def simulate_wrap(
         hours_run=float(run.cycles[-1]) / case.cycles_per_hour,
         max_depth=float(run.depth[-1, deepest]),
         max_depth_arc_length=float(contact.arc_length[deepest]),
+        removed_area=math.fsum(
+            area_between(run.x[0], run.y[0], x, y)
+            for x, y in zip(*contact.profile.receded(run.all_depth[-1]), strict=True)
+        ),
+        worn_area=run.area,
         initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
         final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
         speed_rpm=case.speed_rpm,
