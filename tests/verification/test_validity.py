@@ -6,11 +6,18 @@ Expected: Hertz's limits 1/rho_H > 0 and half-width 0.1 r, the ratio of lives 1/
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import wearsim
+from wearsim.contact.engagement import Contact, Kind
+from wearsim.geometry.profile import Profile
+from wearsim.wear.advance import run_advance
+from wearsim.wear.criteria import depth_criterion
+from wearsim.wear.law import archard
+from wearsim.wear.trajectory import Trajectory, check_fold
 
 CaseMaker = Callable[..., wearsim.Case]
 
@@ -183,3 +190,64 @@ def test_only_what_a_table_does_not_give_is_nan(prescribed: CaseMaker) -> None:
         "max_sliding_speed_mm_per_s",
     }
     json.dumps(result.summary(), allow_nan=False)
+
+
+FLAT = Profile(np.zeros(9), np.linspace(0.0, 8.0, 9))
+
+
+def flat_contact(kernel: Callable[..., None]) -> Contact:
+    """A flat flank of 8 mm under a contact written in Python."""
+    return Contact(
+        kind=Kind.LOCAL,
+        kernel=kernel,
+        constants=np.zeros(1),
+        columns=np.zeros((1, 1)),
+        profile=FLAT,
+        arc_length=FLAT.arc_length,
+        roller_radius=5.0,
+        modulus=1e5,
+        slip_curvature_exponent=0.0,
+    )
+
+
+def test_stall_has_cycle_and_place() -> None:
+    """Sliding at 3 mm from the root stops being a number once 1 um is worn off."""
+
+    def stalling(x, y, nx, ny, curvature, depth, constants, columns, load, slip, speed, relative):
+        load[:], slip[:], speed[:], relative[:] = 100.0, 1.0, 1.0, 0.2
+        if depth.max() > 1e-3:
+            slip[3] = np.nan
+
+    with pytest.raises(
+        wearsim.ConvergenceError, match=r"cycle [\d.e+]+, 3 mm from the root.*go on"
+    ):
+        run_advance(flat_contact(stalling), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
+
+
+def test_vanished_contact_has_cycle_and_place() -> None:
+    """The load is gone once 1 um is worn off, deepest 5 mm from the root."""
+
+    def vanishing(x, y, nx, ny, curvature, depth, constants, columns, load, slip, speed, relative):
+        load[:], slip[:], speed[:], relative[:] = 100.0, 1.0, 1.0, 0.2
+        slip[:] = 2.0 - 0.01 * (np.arange(9) - 5.0) ** 2
+        if depth.max() > 1e-3:
+            load[:] = 0.0
+
+    with pytest.raises(
+        wearsim.ContactError, match=r"cycle [\d.e+]+, deepest 5 mm from.*touches no"
+    ):
+        run_advance(flat_contact(vanishing), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
+
+
+def test_fold_has_cycle_and_place() -> None:
+    """The line through the points crosses itself between 2 and 3 mm in the second snapshot."""
+    x, y = np.tile(FLAT.x, (3, 1)), np.tile(FLAT.y, (3, 1))
+    for i in (1, 2):
+        x[i, 2:4], y[i, 2:4] = (1.0, 1.0), (4.6, 1.5)
+    run = Trajectory(np.array([0.0, 7.0, 9.0]), x, y, 0.0 * x, None, 3)
+    contact = flat_contact(lambda *given: None)
+    with pytest.raises(
+        wearsim.ConvergenceError, match=r"cycle 7, [\d.]+ mm from the root.*cross itself"
+    ):
+        check_fold(contact, run)
+    check_fold(contact, replace(run, x=x[:1], y=y[:1], cycles=run.cycles[:1]))

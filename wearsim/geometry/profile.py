@@ -245,3 +245,19 @@ class Profile:
     def is_simple(self) -> bool:
         """Whether the line through the points neither crosses nor touches itself."""
         return bool(shapely.LineString(np.column_stack([self.x, self.y])).is_simple)
+
+    @property
+    def crossing(self) -> int:
+        """Number of the point nearest to where a line that is not simple first meets itself.
+
+        Examples
+        --------
+        A loop that closes at (1, 0), between the first point and the second and nearest to neither
+        but to the last but one:
+
+        >>> Profile([0.0, 3.0, 3.0, 1.0, 1.0], [0.0, 0.0, 2.0, 0.5, -2.0]).crossing
+        3
+        """
+        parts = shapely.node(shapely.LineString(np.column_stack([self.x, self.y])))
+        where = parts.geoms[0].coords[-1]
+        return int(np.hypot(self.x - where[0], self.y - where[1]).argmin())

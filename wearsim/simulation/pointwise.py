@@ -8,8 +8,8 @@ import numpy as np
 from wearsim.case.model import Case, PrescribedDrive, StrandDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
-from wearsim.errors import ConvergenceError, WearsimError
-from wearsim.geometry.profile import Profile, Vector, area_between, area_swept
+from wearsim.errors import WearsimError
+from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment
@@ -23,7 +23,7 @@ from wearsim.wear.duty import DutyPart, equivalent_factor
 from wearsim.wear.law import Law
 from wearsim.wear.per_cycle import run_per_cycle
 from wearsim.wear.running_in import RunningIn
-from wearsim.wear.trajectory import Trajectory, difference
+from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 _FEW_CYCLES = 1000
 """Life below which a coefficient is doubtful."""
@@ -56,11 +56,7 @@ def simulate_points(case: Case) -> WearResult:
     law, criteria, warp, horizon = _problem(case, mechanism)
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
-    if not Profile(run.x[-1], run.y[-1]).is_simple:
-        raise ConvergenceError(
-            f"wear at cycle {run.cycles[-1]:.6g}: the worn flank must not cross itself, but does: stop "
-            "at a smaller critical_depth_mm"
-        )
+    check_fold(mechanism.contact, run)
     error = step_error + _grid_error(
         case, mechanism.contact, law, criteria, horizon, run, step_error, warnings
     )

@@ -135,8 +135,10 @@ def _solve(
             or len(pieces) > _MOST_STEPS
             or not np.isfinite(solver.y).all()
         ):
+            place = contact.arc_length[_fastest(rate, solver.y)]
             raise ConvergenceError(
-                f"wear at cycle {cycles:.6g}: the solver must be able to go on, but stopped"
+                f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
+                "on, but stopped"
                 f'{f" ({message})" if message else ""}: use method = "per_cycle" or more nodes'
             )
         met = _met(rate, criteria, solver.y)
@@ -145,6 +147,14 @@ def _solve(
         pieces.append(solver.dense_output())
         starts.append(float(solver.t_old or 0.0))
     return _ended(rate, criteria, horizon, pieces, np.array(starts), float(solver.t), met)
+
+
+def _fastest(rate: _Rate, state: Vector) -> int:
+    """Return the point whose depth is not a number, else the one that wears fastest."""
+    depth = state[2::3]
+    if not np.isfinite(depth).all():
+        return int(np.argmin(np.isfinite(depth)))
+    return int(np.nan_to_num(rate(0.0, state)[2::3]).argmax())
 
 
 def _check(rate: _Rate, state: Vector, cycles: float, depth_limit: float) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile import Profile, Vector
 from wearsim.wear.criteria import Criterion
 
 SNAPSHOTS = 180
@@ -84,9 +84,11 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
         )
     loaded = touch.load_per_width > 0.0
     if not loaded.any():
+        deepest = contact.arc_length[int(depth.argmax())]
         raise ContactError(
-            f"contact at cycle {cycles:.6g}: the roller must touch the loaded stretch of the flank, "
-            "but touches no point of it: check the contact range, or stop at a smaller depth"
+            f"contact at cycle {cycles:.6g}, deepest {deepest:.4g} mm from the root: the roller must "
+            "touch the loaded stretch of the flank, but touches no point of it: check the contact range, or "
+            "stop at a smaller depth"
         )
     conforming = loaded & ~(touch.relative_curvature > 0.0)
     if conforming.any():
@@ -97,6 +99,32 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
             f"{touch.relative_curvature[point]:.3g} 1/mm there: the flank conforms to the roller; "
             "use a larger flank radius or a smaller critical depth"
         )
+
+
+def check_fold(contact: Contact, run: Trajectory) -> None:
+    """Raise where the worn flank crosses itself.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    run : Trajectory
+        Its wear.
+
+    Raises
+    ------
+    ConvergenceError
+        With the first snapshot that does and the place.
+    """
+    if Profile(run.x[-1], run.y[-1]).is_simple:
+        return
+    for cycles, x, y in zip(run.cycles, run.x, run.y, strict=True):
+        flank = Profile(x, y)
+        if not flank.is_simple:
+            raise ConvergenceError(
+                f"wear at cycle {cycles:.6g}, {contact.arc_length[flank.crossing]:.4g} mm from the root: "
+                "the worn flank must not cross itself, but does: stop at a smaller critical_depth_mm"
+            )
 
 
 def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: float) -> None:
