@@ -87,8 +87,8 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
         deepest = contact.arc_length[int(depth.argmax())]
         raise ContactError(
             f"contact at cycle {cycles:.6g}, deepest {deepest:.4g} mm from the root: the roller must "
-            "touch the loaded stretch of the flank, but touches no point of it: check the contact range, or "
-            "stop at a smaller depth"
+            "touch the loaded stretch of the flank, but touches no point of it: check the contact range, "
+            "or stop at a smaller depth"
         )
     conforming = loaded & ~(touch.relative_curvature > 0.0)
     if conforming.any():
