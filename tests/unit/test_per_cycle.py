@@ -108,7 +108,9 @@ def test_bound_is_sharp_and_the_sawtooth_watch_stands_behind_it(times: float) ->
         run = run_per_cycle(blind, law, limit, 1e6, update)
         assert run.cycles[-1] == pytest.approx(8.1389e4, rel=5e-4)
     else:
-        with pytest.raises(ConvergenceError, match="alternates from point to point"):
+        # Rounding decides which comes first: the teeth, or a tooth deep enough to end the contact.
+        noticed = "alternates from point to point|conforms to the roller|would pull there"
+        with pytest.raises((ConvergenceError, ContactError), match=noticed):
             run_per_cycle(blind, law, limit, 1e6, update)
 
 
