@@ -26,12 +26,15 @@ def objects(schema):
             yield from objects(part)
 
 
-OPTIONAL = ("chain_life_hours", "sprocket_life_hours", "service", "km", "tonnes", "days", "date")
+OPTIONAL = (
+    "chain_life_hours", "sprocket_life_hours", "service", "km", "tonnes", "days", "date", "grid",
+    "solve_for",
+)  # fmt: skip
 
 
 def test_result_schema_is_closed_and_described(cli):
     found = list(objects(json.loads(cli("schema", "--result").out)))
-    assert len(found) == 5
+    assert len(found) == 7
     for part in found:
         assert part["additionalProperties"] is False
         always = [name for name in part["properties"] if name not in OPTIONAL]
