@@ -337,7 +337,7 @@ def test_life_in_other_measures(life, key, value, shown):
     hours = life.life.hours
     found = life_json(result)["service"][shown]
     if key == "start_date":
-        assert found == str(np.datetime64("2026-01-01") + int(hours / 8.0))
+        assert found == str(np.datetime64("2026-01-01") + np.timedelta64(int(hours / 8.0), "D"))
     else:
         assert found == pytest.approx(hours / 8.0 if shown == "days" else hours * value)
     assert "In service" in answer(result, "drive.toml")
