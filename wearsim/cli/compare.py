@@ -15,12 +15,11 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
-    working,
+    worn,
 )
 from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:
-    from wearsim.case.model import Case
     from wearsim.result import WearResult
 
 
@@ -62,13 +61,6 @@ def compare(
     return SOME_FAILED if len(found) < len(set(sources)) else 0
 
 
-def _run(case: "Case") -> "WearResult":
-    from wearsim.simulation import simulate
-
-    with working(f"wearing {case.title}") as told:
-        return simulate(case, told)
-
-
 def _results(
     sources: tuple[Path, ...], settings: tuple[str, ...], as_json: bool
 ) -> "dict[Path, WearResult]":
@@ -87,7 +79,7 @@ def _results(
     failures: list[WearsimError] = []
     for path in dict.fromkeys(sources):
         try:
-            found[path] = runs[path] if path in runs else _run(cases[path])
+            found[path] = runs[path] if path in runs else worn(cases[path])
         except WearsimError as error:
             failures.append(error)
             if as_json:

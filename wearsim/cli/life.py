@@ -1,6 +1,5 @@
 """``wearsim life``: the life of one or several cases."""
 
-import json
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -16,10 +15,12 @@ from wearsim.cli.standard import (
     finite,
     load_cases,
     overrides,
+    print_json,
     show_error,
     standard,
     warn,
     working,
+    worn,
 )
 from wearsim.errors import WearsimError
 
@@ -136,10 +137,7 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
 
 
 def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
-    from wearsim.simulation import simulate
-
-    with working(f"wearing {case.title}") as told:
-        result = simulate(case, told)
+    result = worn(case)
     if folder is not None:
         result.save(folder, force)
     return result
@@ -161,9 +159,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
             from wearsim.report.grid import grid_json
 
             content["grid"] = grid_json(grid)
-        click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
-        for text in result.warnings:
-            warn(f"{path}: warning: {text}")
+        print_json(content, path, result.warnings)
     else:
         from wearsim.report.answer import answer
 

@@ -1,6 +1,5 @@
 """``wearsim maintain``: when to replace the chain, and what that costs."""
 
-import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.standard import error_json, load_cases, overrides, standard, warn
+from wearsim.cli.standard import error_json, load_cases, overrides, print_json, standard, warn
 from wearsim.errors import WearsimError
 
 
@@ -46,9 +45,7 @@ def maintain(
     if out is not None:
         save_maintenance(plan, out, force)
     if as_json:
-        click.echo(json.dumps(maintenance_json(plan), ensure_ascii=False, allow_nan=False))
-        for text in plan.warnings:
-            warn(f"{case}: warning: {text}")
+        print_json(maintenance_json(plan), case, plan.warnings)
     else:
         click.echo(maintenance_text(plan))
     if out is not None:

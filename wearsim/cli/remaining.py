@@ -1,6 +1,5 @@
 """``wearsim remaining``: what is left of a life after a reading in service."""
 
-import json
 from pathlib import Path
 
 import click
@@ -10,8 +9,8 @@ from wearsim.cli.standard import (
     finite,
     load_cases,
     overrides,
+    print_json,
     standard,
-    warn,
     working,
 )
 from wearsim.errors import WearsimError
@@ -78,8 +77,6 @@ def remaining(
         raise
     if as_json:
         content = remaining_json(found, loaded.inputs)
-        click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
-        for text in found.warnings:
-            warn(f"{case}: warning: {text}")
+        print_json(content, case, found.warnings)
     else:
         click.echo(remaining_text(found, loaded.inputs))

@@ -1,6 +1,5 @@
 """``wearsim life --solve-for``: the value of a key at which a case lives as long as required."""
 
-import json
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.standard import NOT_MET, error_json, load_cases, warn, working
+from wearsim.cli.standard import NOT_MET, error_json, load_cases, print_json, warn, working
 from wearsim.errors import CaseError, Fault, WearsimError
 
 if TYPE_CHECKING:
@@ -85,7 +84,7 @@ def _show(
     result = solved.trial.result
     if as_json:
         content = {**life_json(result), "solve_for": _json(solved, key, hours)}
-        click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
+        print_json(content, path, result.warnings)
     else:
         click.echo(f"  Solved     {_sentence(solved, key, hours)}")
         click.echo(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))

@@ -4,7 +4,7 @@ import json
 import math
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,6 +15,7 @@ from wearsim.errors import CaseError, Fault, GeometryError, OutputError, Wearsim
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.result import WearResult
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -116,6 +117,42 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
             bar.update(task, completed=part, total=1.0)
 
         yield told
+
+
+def worn(case: "Case") -> "WearResult":
+    """Run a case and show on a terminal how far it is.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    WearResult
+        Its run.
+    """
+    from wearsim.simulation import simulate
+
+    with working(f"wearing {case.title}") as told:
+        return simulate(case, told)
+
+
+def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:
+    """Print an object on one line of stdout, and warnings on stderr.
+
+    Parameters
+    ----------
+    content : mapping
+        Plain values, never nan.
+    source : pathlib.Path
+        What the warnings are about.
+    warnings : iterable of str
+        What the user should look at.
+    """
+    click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
+    for text in warnings:
+        warn(f"{source}: warning: {text}")
 
 
 def show_error(error: WearsimError, path: Path | None = None) -> None:

@@ -130,9 +130,11 @@ def wear_event(
     worn *= events[EVENT_SLIP, event]
     if numbers[SPEED_EXPONENT] != 0.0:
         worn *= speed ** numbers[SPEED_EXPONENT] if speed > 0.0 else 0.0
+    far = int(numbers[REACH])
+    low, high = max(0, touched - far), min(n, touched + far + 1)
     first, last, status = 0, n, NOT_CONVERGED
     for attempt in range(2):
-        reach = int(numbers[REACH]) if attempt == 1 else int(numbers[REACH] * _NEAR)
+        reach = far if attempt == 1 else int(numbers[REACH] * _NEAR)
         first, last = max(0, touched - reach), min(n, touched + reach + 1)
         worn_width(depth[body], unworn, first, last, width)
         for j in range(first, last):
@@ -142,15 +144,15 @@ def wear_event(
             x[body][first:last], y[body][first:last], width[first:last], factor[first:last], exponent,
             coefficients, constants, pressures[event][first:last], work[3:], result,
         )  # fmt: skip
-        low, high = max(0, touched - int(numbers[REACH])), min(n, touched + int(numbers[REACH]) + 1)
-        elsewhere = touches_beyond(
-            x[body][low:high], y[body][low:high], first - low, last - low, constants, result
-        )
-        if attempt == 1 or (status == CONVERGED and elsewhere == 0):
+        if attempt == 1:
             break
         if status != CONVERGED:
             for j in range(first, last):
                 pressures[event, j] = 0.0
+        elif touches_beyond(
+            x[body][low:high], y[body][low:high], first - low, last - low, constants, result
+        ) == 0:  # fmt: skip
+            break
     findings[UNBALANCED] += 0.0 if status == CONVERGED else 1.0
     if status != CONVERGED and status != NOT_CONVERGED:
         return

@@ -136,8 +136,7 @@ def service_text(inputs: Mapping[str, Any], running: float, before: float = 0.0)
 def _service(result: WearResult) -> list[tuple[str, str]]:
     """Give the life, or what the run covers of it, in other measures."""
     reached = isinstance(result.life, Life)
-    running = result.life.hours if isinstance(result.life, Life) else result.hours_run
-    text = service_text(result.inputs, running)
+    text = service_text(result.inputs, result.life.hours_run)
     return [("In service", text if reached else f"more than {text}")] if text else []
 
 

@@ -33,7 +33,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
     reading = found.reading
     band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
     what = _WORDS[reading.quantity].format(f"{reading.value:g}")
-    service = service_text(inputs, _known(found.remaining), reading.hours)
+    service = service_text(inputs, found.remaining.hours_run, reading.hours)
     rows = [
         (
             "Remaining",
@@ -86,7 +86,7 @@ def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str,
         "remaining_hours": _hours(found.remaining),
         "remaining_hours_low": _hours(found.remaining_low),
         "remaining_hours_high": _hours(found.remaining_high),
-        "hours_run": _known(found.life),
+        "hours_run": found.life.hours_run,
     }
     if inputs.get("service") and isinstance(found.remaining, Life):
         content["service"] = service_measures(inputs, found.remaining.hours, reading.hours)
@@ -99,7 +99,3 @@ def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str,
 
 def _hours(life: Life | LowerBound) -> float | None:
     return life.hours if isinstance(life, Life) else None
-
-
-def _known(life: Life | LowerBound) -> float:
-    return life.hours if isinstance(life, Life) else life.hours_run

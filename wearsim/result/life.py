@@ -20,6 +20,16 @@ class Life:
     cycles: float
     hours: float
 
+    @property
+    def cycles_run(self) -> float:
+        """Loading cycles that the run covers: those of the life."""
+        return self.cycles
+
+    @property
+    def hours_run(self) -> float:
+        """Running time that the run covers [h]: the life."""
+        return self.hours
+
 
 @dataclass(frozen=True)
 class LowerBound:
@@ -64,6 +74,32 @@ class LowerBound:
             f"life: no limit was met within {self.hours_run:g} h ({self.cycles_run:g} cycles), the "
             "life is longer: raise run.horizon_hours"
         )
+
+
+def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | LowerBound:
+    """Return the life that a run of so many cycles has shown.
+
+    Parameters
+    ----------
+    cycles : float
+        Loading cycles of one gap.
+    cycles_per_hour : float
+        How many there are in an hour.
+    reached : bool
+        Whether the run ended at a limit.
+
+    Returns
+    -------
+    Life or LowerBound
+        The life, or that it is longer.
+
+    Examples
+    --------
+    >>> life_of(12000.0, 6000.0, True)
+    Life(cycles=12000.0, hours=2.0)
+    """
+    hours = cycles / cycles_per_hour
+    return Life(cycles, hours) if reached else LowerBound(cycles, hours)
 
 
 @dataclass(frozen=True)

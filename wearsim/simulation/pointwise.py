@@ -12,7 +12,7 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
-from wearsim.result import Life, LowerBound, WearResult, environment
+from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, tooth_criteria
@@ -361,6 +361,4 @@ def _band(
 
 
 def _life(case: Case, run: Trajectory) -> Life | LowerBound:
-    cycles = float(run.cycles[-1])
-    hours = cycles / case.cycles_per_hour
-    return Life(cycles, hours) if run.met else LowerBound(cycles, hours)
+    return life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)

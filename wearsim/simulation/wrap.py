@@ -15,7 +15,7 @@ from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.joint import elongation_per_loop
 from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
 from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
-from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
+from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
@@ -72,7 +72,7 @@ def simulate_wrap(
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
     chain = _chain_life(case, contact, horizon, warp)
-    sprocket = _life(case, float(run.cycles[-1]), run.met is not None)
+    sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run, law)
     deepest = int(run.depth[-1].argmax())
@@ -308,12 +308,7 @@ def _chain_life(
     """Life of a chain: apart from running-in its joints wear at a constant rate."""
     cycles = contact.cycles_per_chain
     run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
-    return _life(case, run, cycles <= horizon)
-
-
-def _life(case: Case, cycles: float, reached: bool) -> Life | LowerBound:
-    hours = cycles / case.cycles_per_hour
-    return Life(cycles, hours) if reached else LowerBound(cycles, hours)
+    return life_of(run, case.cycles_per_hour, cycles <= horizon)
 
 
 def _first(
@@ -337,9 +332,9 @@ def _scaled(
     life: Life | LowerBound, factor: float, case: Case, warp: RunningIn
 ) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
-    cycles = life.cycles if isinstance(life, Life) else life.cycles_run
-    scaled = warp.running_cycles(np.array([warp.constant_cycles(cycles) / factor]))
-    return _life(case, float(scaled[0]), isinstance(life, Life))
+    constant = warp.constant_cycles(life.cycles_run)
+    scaled = warp.running_cycles(np.array([constant / factor]))
+    return life_of(float(scaled[0]), case.cycles_per_hour, isinstance(life, Life))
 
 
 def _limits(
@@ -350,8 +345,7 @@ def _limits(
     life: Life | LowerBound,
 ) -> tuple[LimitState, ...]:
     """Return what every limit has come to when the life ends."""
-    cycles = life.cycles if isinstance(life, Life) else life.cycles_run
-    at = int(np.searchsorted(run.cycles, cycles * (1.0 - 1e-9)))
+    at = int(np.searchsorted(run.cycles, life.cycles_run * (1.0 - 1e-9)))
     at = min(at, run.cycles.size - 1)
     worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])

@@ -84,16 +84,25 @@ def rating(case: Case) -> tuple[Finding, ...]:
     if not isinstance(drive, WrapDrive):
         return ()
     worst: dict[str, Finding] = {}
+    for findings in _by_load(case, drive):
+        for finding in findings:
+            before = worst.get(finding.name)
+            if before is None or finding.used > before.used:
+                worst[finding.name] = finding
+    return (*worst.values(), _elongation(drive))
+
+
+def _by_load(case: Case, drive: WrapDrive) -> list[list[Finding]]:
+    """Findings of every rated load that pulls, each named where there are several."""
+    found = []
     for load in drive.rated:
         if load.tension <= drive.slack:
             continue
         of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(drive.rated) > 1 else ""
         rated = rated_drive(case, drive, load)
-        for finding in assess(rated, drive.service_factor, drive.exploitation_factor):
-            before = worst.get(finding.name)
-            if before is None or finding.used > before.used:
-                worst[finding.name] = replace(finding, load=of)
-    return (*worst.values(), _elongation(drive))
+        findings = assess(rated, drive.service_factor, drive.exploitation_factor)
+        found.append([replace(finding, load=of) for finding in findings])
+    return found
 
 
 def rules_without_limit(case: Case) -> tuple[str, ...]:
@@ -112,11 +121,7 @@ def rules_without_limit(case: Case) -> tuple[str, ...]:
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return ()
-    found = [
-        {finding.name for finding in assess(rated_drive(case, drive, load))}
-        for load in drive.rated
-        if load.tension > drive.slack
-    ]
+    found = [{finding.name for finding in findings} for findings in _by_load(case, drive)]
     return tuple(name for name in RULES if not all(name in names for names in found))
 
 

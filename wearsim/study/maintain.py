@@ -61,7 +61,7 @@ class Policy:
     @property
     def hours(self) -> float:
         """Life of the sprocket, or what its run covers [h]."""
-        return self.sprocket.hours if isinstance(self.sprocket, Life) else self.sprocket.hours_run
+        return self.sprocket.hours_run
 
     @property
     def chains(self) -> int:
@@ -285,9 +285,7 @@ def _policies(
 
 
 def _sum(first: Life, second: Life | LowerBound) -> Life | LowerBound:
-    if isinstance(second, Life):
-        return Life(first.cycles + second.cycles, first.hours + second.hours)
-    return LowerBound(first.cycles + second.cycles_run, first.hours + second.hours_run)
+    return type(second)(first.cycles + second.cycles_run, first.hours + second.hours_run)
 
 
 def _with_lives(

@@ -178,12 +178,9 @@ def remaining_life(
 
 def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | LowerBound:
     """Return a life on another scale of time without the hours that have gone."""
-    cycles, hours = (
-        (life.cycles, life.hours) if isinstance(life, Life) else (life.cycles_run, life.hours_run)
-    )
-    left = stretch * hours - gone
+    left = stretch * life.hours_run - gone
     left = left if left > 1e-9 * gone else 0.0
-    return type(life)(cycles / hours * left, left)
+    return type(life)(life.cycles_run / life.hours_run * left, left)
 
 
 def _fault(case: Case, reading: Reading, message: str) -> CaseError:

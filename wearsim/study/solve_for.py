@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
-from wearsim.result import Life, WearResult
+from wearsim.result import WearResult
 from wearsim.simulation import simulate
 
 _FACTOR = 2.0
@@ -96,8 +96,7 @@ class _Lives:
         except WearsimError as error:
             self.failure = error
             return None
-        life = result.life
-        return Trial(value, life.hours if isinstance(life, Life) else life.hours_run, result)
+        return Trial(value, result.life.hours_run, result)
 
 
 def solve_for(

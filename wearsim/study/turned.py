@@ -7,7 +7,7 @@ from wearsim.case.model import Case, WrapDrive
 from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap_cycle import WrapContact
-from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result import Life, LowerBound, WearResult, life_of
 from wearsim.simulation.law import wear_law
 from wearsim.simulation.limits import pin_criteria, tooth_criteria
 from wearsim.simulation.wrap import wrap_contact
@@ -68,9 +68,7 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
         case.run.life_tolerance,
         start,
     )
-    cycles = float(run.cycles[-1])
-    hours = cycles / case.cycles_per_hour
-    return (Life(cycles, hours) if run.met else LowerBound(cycles, hours)), error
+    return life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None), error
 
 
 def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
