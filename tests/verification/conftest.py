@@ -118,3 +118,29 @@ def prescribed(tmp_path: Path) -> Callable[..., wearsim.Case]:
         )
 
     return case
+
+
+@pytest.fixture
+def b9(prescribed: Callable[..., wearsim.Case]) -> Callable[..., wearsim.Case]:
+    """Return benchmark B9 on so many points, with overrides.
+
+    Flank radius 39.1 mm, length 6 mm, roller 6.035 mm, q = 100 (0.2 + 0.8 cos(pi u/2)),
+    s = 0.05 + 0.4 u mm, k = 1e-10 mm2/N, depth 0.5 mm.
+    """
+
+    def case(points: int, *overrides: str) -> wearsim.Case:
+        u = np.linspace(0.0, 1.0, points)
+        return prescribed(
+            {
+                "arc_length_mm": 6.0 * u,
+                "load_per_width_N_per_mm": 100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
+                "flank_curvature_per_mm": 1.0 / 39.1,
+                "sliding_distance_mm": 0.05 + 0.4 * u,
+            },
+            {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-10},
+            0.5,
+            6.035,
+            overrides,
+        )
+
+    return case

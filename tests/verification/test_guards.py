@@ -27,22 +27,6 @@ STRAND: dict[str, Any] = {
 }
 
 
-def b9(prescribed: CaseMaker, points: int, *settings: str) -> wearsim.Case:
-    u = np.linspace(0.0, 1.0, points)
-    return prescribed(
-        {
-            "arc_length_mm": 6.0 * u,
-            "load_per_width_N_per_mm": 100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
-            "flank_curvature_per_mm": 1.0 / 39.1,
-            "sliding_distance_mm": 0.05 + 0.4 * u,
-        },
-        {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-10},
-        0.5,
-        6.035,
-        settings,
-    )
-
-
 def strand(exponent: float, *settings: str) -> wearsim.Case:
     coefficient = 5e-11 / 800.0 ** (exponent - 1.0)
     law = (f"wear.pressure_exponent={exponent}", f"wear.coefficient={coefficient}")
@@ -65,9 +49,7 @@ FACTORS = [0.05, 0.2, 0.8, 0.95, 1.05, 1.3, 2.0, 5.0, 30.0, 1000.0]
 
 
 @pytest.mark.parametrize("factor", FACTORS)
-def test_any_step_on_the_benchmark_is_right_or_refused(
-    prescribed: CaseMaker, factor: float
-) -> None:
+def test_any_step_on_the_benchmark_is_right_or_refused(b9: CaseMaker, factor: float) -> None:
     """At 100 points ds = 6/99 mm, e = 1/2; the fastest point at first fixes the stable cycles."""
     u = np.linspace(0.0, 1.0, 100)
     load = 100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u))
@@ -75,7 +57,7 @@ def test_any_step_on_the_benchmark_is_right_or_refused(
     modulus = 2.1e5 / (2.0 * (1.0 - 0.3**2))
     rate = 1e-10 * np.sqrt(load * modulus * relative / np.pi) * (0.05 + 0.4 * u)
     most = float((6.0 / 99.0) ** 2 * relative / rate.max())
-    right_or_refused(lambda *settings: b9(prescribed, 100, *settings), most, factor)
+    right_or_refused(lambda *settings: b9(100, *settings), most, factor)
 
 
 @pytest.mark.parametrize("factor", FACTORS)
@@ -88,12 +70,12 @@ def test_any_step_on_the_strand_is_right_or_refused(exponent: float, factor: flo
     right_or_refused(lambda *settings: strand(exponent, *settings), float(most), factor)
 
 
-def test_order_on_the_benchmark(prescribed: CaseMaker) -> None:
+def test_order_on_the_benchmark(b9: CaseMaker) -> None:
     """Depth in the middle of the flank after 2e7 cycles; the deepest point hops from node to node."""
     depths = []
     for points in (33, 65, 129):
         cycles = ("load.speed_rpm=166666.666666666667", "stop.critical_depth_mm=2")
-        case = b9(prescribed, points, "run.life_tolerance=1e-6", "run.horizon_hours=2", *cycles)
+        case = b9(points, "run.life_tolerance=1e-6", "run.horizon_hours=2", *cycles)
         result = wearsim.simulate(case)
         assert result.cycles_run == pytest.approx(2e7, rel=1e-12)
         depths.append(result.flank_columns["depth_mm"][-points + points // 2])

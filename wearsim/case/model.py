@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -435,3 +435,27 @@ class Case:
     def cycles_per_hour(self) -> float:
         """Loadings of a gap that carries rollers in an hour: 60 n over turns per cycle."""
         return 60.0 * self.speed_rpm / self.turns_per_cycle
+
+    def with_horizon(self, hours: float) -> "Case":
+        """Return the case with a horizon of at least so many hours, for a life that is required.
+
+        Parameters
+        ----------
+        hours : float
+            Running time [h].
+
+        Returns
+        -------
+        Case
+            Its inputs and assumptions tell of a horizon that was raised.
+        """
+        if hours <= self.run.horizon_hours:
+            return self
+        key = "run.horizon_hours"
+        assumptions = [text for text in self.assumptions if not text.startswith(key)]
+        return replace(
+            self,
+            run=replace(self.run, horizon_hours=hours),
+            inputs={**self.inputs, "run": {**self.inputs["run"], "horizon_hours": hours}},
+            assumptions=(*assumptions, f"{key} = {hours:g} (raised by --require-hours)"),
+        )

@@ -1,7 +1,6 @@
 """``wearsim life``: the life of one or several cases."""
 
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,7 +67,7 @@ def life(
         return _solve(cases, key, require_hours, settings, out, force, as_json)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
-        loaded = [_with_horizon(case, require_hours) for case in loaded]
+        loaded = [case.with_horizon(require_hours) for case in loaded]
     folders = _folders(cases, out, force)
     failures: list[WearsimError] = []
     missed = False
@@ -101,19 +100,6 @@ def _solve(
         raise click.UsageError("--solve-for needs one CASE and --require-hours")
     (folder,) = _folders(cases, out, force)
     return solve(cases[0], key, hours, settings, folder, force, as_json)
-
-
-def _with_horizon(case: "Case", hours: float) -> "Case":
-    if hours <= case.run.horizon_hours:
-        return case
-    key = "run.horizon_hours"
-    assumptions = [text for text in case.assumptions if not text.startswith(key)]
-    return replace(
-        case,
-        run=replace(case.run, horizon_hours=hours),
-        inputs={**case.inputs, "run": {**case.inputs["run"], "horizon_hours": hours}},
-        assumptions=(*assumptions, f"{key} = {hours:g} (raised by --require-hours)"),
-    )
 
 
 def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Path | None]:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
@@ -90,9 +90,7 @@ class _Lives:
 
     def _run(self, value: float) -> Trial | None:
         try:
-            case = self.case_at(value)
-            horizon = max(case.run.horizon_hours, 2.0 * self.required)
-            result = simulate(replace(case, run=replace(case.run, horizon_hours=horizon)))
+            result = simulate(self.case_at(value).with_horizon(2.0 * self.required))
         except WearsimError as error:
             self.failure = error
             return None
