@@ -5,7 +5,8 @@ import pytest
 
 from wearsim.contact.engagement import Kind
 from wearsim.contact.hertz import contact_modulus
-from wearsim.kernels.wear import RUNNING, run_cycles
+from wearsim.kernels.cycles import run_cycles
+from wearsim.kernels.wear import RUNNING
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion

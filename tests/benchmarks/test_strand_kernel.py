@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from wearsim.kernels.wear import run_cycles
+from wearsim.kernels.cycles import run_cycles
 
 CYCLES = 2000
 CHECKED = ("x", "y", "depth")

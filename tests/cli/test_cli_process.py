@@ -13,15 +13,15 @@ WEARSIM = Path(sys.executable).with_name("wearsim")
 STARTED = """\
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
-import wearsim.simulation.pointwise
-run = wearsim.simulation.pointwise.run_per_cycle
+import wearsim.wear.per_cycle
+run = wearsim.wear.per_cycle.run_per_cycle
 
 def started(contact, law, criteria, horizon, cycles_per_update):
     run(contact, law, criteria, 100.0, 1)
     print("started", flush=True)
     return run(contact, law, criteria, horizon, cycles_per_update)
 
-wearsim.simulation.pointwise.run_per_cycle = started
+wearsim.wear.per_cycle.run_per_cycle = started
 import wearsim.cli
 wearsim.cli.main()
 """

@@ -19,9 +19,9 @@ import wearsim
 from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.geometry.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
+from wearsim.kernels.cycles import run_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
-from wearsim.kernels.wear import run_cycles
 from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
 
 STRAND = {

@@ -100,7 +100,7 @@ def test_edited_helper_changes_the_answer_and_cold_starts_share_the_cache(packag
     run = partial(life, package, NUMBA_CACHE_DIR=cache)
     (before, folder), again = at_once(run, run)
     assert (before, folder) == again
-    assert list(Path(cache).rglob("wear.run_cycles*.nbc"))
+    assert list(Path(cache).rglob("cycles.run_cycles*.nbc"))
     edit(kernels / "scaled.py", "1.0 * value", "2.0 * value")
     after, other = run()
     assert after == pytest.approx(before / 2.0, rel=0.005)

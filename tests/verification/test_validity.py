@@ -14,6 +14,9 @@ import pytest
 import wearsim
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.geometry.profile import Profile
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.prescribed import prescribed_contact
+from wearsim.kernels.signatures import CONTACT
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
@@ -196,7 +199,7 @@ FLAT = Profile(np.zeros(9), np.linspace(0.0, 8.0, 9))
 
 
 def flat_contact(kernel: Callable[..., None]) -> Contact:
-    """A flat flank of 8 mm under a contact written in Python."""
+    """A flat flank of 8 mm under a contact of the test's own."""
     return Contact(
         kind=Kind.LOCAL,
         kernel=kernel,
@@ -207,12 +210,14 @@ def flat_contact(kernel: Callable[..., None]) -> Contact:
         roller_radius=5.0,
         modulus=1e5,
         slip_curvature_exponent=0.0,
+        ends_bend=True,
     )
 
 
 def test_stall_has_cycle_and_place() -> None:
     """Sliding at 3 mm from the root stops being a number once 1 um is worn off."""
 
+    @kernel(CONTACT)
     def stalling(x, y, nx, ny, curvature, depth, constants, columns, load, slip, speed, relative):
         load[:], slip[:], speed[:], relative[:] = 100.0, 1.0, 1.0, 0.2
         if depth.max() > 1e-3:
@@ -227,6 +232,7 @@ def test_stall_has_cycle_and_place() -> None:
 def test_vanished_contact_has_cycle_and_place() -> None:
     """The load is gone once 1 um is worn off, deepest 5 mm from the root."""
 
+    @kernel(CONTACT)
     def vanishing(x, y, nx, ny, curvature, depth, constants, columns, load, slip, speed, relative):
         load[:], slip[:], speed[:], relative[:] = 100.0, 1.0, 1.0, 0.2
         slip[:] = 2.0 - 0.01 * (np.arange(9) - 5.0) ** 2
@@ -245,7 +251,7 @@ def test_fold_has_cycle_and_place() -> None:
     for i in (1, 2):
         x[i, 2:4], y[i, 2:4] = (1.0, 1.0), (4.6, 1.5)
     run = Trajectory(np.array([0.0, 7.0, 9.0]), x, y, 0.0 * x, None, 3)
-    contact = flat_contact(lambda *given: None)
+    contact = flat_contact(prescribed_contact)
     with pytest.raises(
         wearsim.ConvergenceError, match=r"cycle 7, [\d.]+ mm from the root.*cross itself"
     ):

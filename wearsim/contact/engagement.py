@@ -79,6 +79,9 @@ class Contact:
         Contact modulus E* [MPa].
     slip_curvature_exponent : float
         d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0.
+    ends_bend : bool
+        Whether the curvature of the two end points follows from the worn points instead of
+        staying what it was.
     """
 
     kind: Kind
@@ -90,6 +93,7 @@ class Contact:
     roller_radius: float
     modulus: float
     slip_curvature_exponent: float
+    ends_bend: bool
 
     def coarsened(self) -> "Contact":
         """Return the same contact on about every second point.

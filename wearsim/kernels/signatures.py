@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 VECTOR = float64[::1]
 TABLE = float64[:, ::1]
+CUBE = float64[:, :, ::1]
 
 # x, y, normal_x, normal_y, curvature, depth, constants, columns
 #   -> load_per_width, slip, sliding_speed, relative_curvature
@@ -21,4 +22,33 @@ CONTACT = void(
 )
 CONTACT_FUNCTION = types.FunctionType(CONTACT)
 
-__all__ = ["CONTACT", "CONTACT_FUNCTION", "TABLE", "VECTOR", "float64", "int64", "void"]
+# contact, state of the path, constants, columns, modulus, law, diffusion, whether the ends bend,
+# length of the step, work -> state after it, with the greatest error of a depth; work
+STEP = float64(
+    CONTACT_FUNCTION,
+    TABLE,
+    VECTOR,
+    TABLE,
+    float64,
+    VECTOR,
+    float64,
+    int64,
+    float64,
+    TABLE,
+    TABLE,
+    TABLE,
+)
+STEP_FUNCTION = types.FunctionType(STEP)
+
+__all__ = [
+    "CONTACT",
+    "CONTACT_FUNCTION",
+    "CUBE",
+    "STEP",
+    "STEP_FUNCTION",
+    "TABLE",
+    "VECTOR",
+    "float64",
+    "int64",
+    "void",
+]

@@ -1,4 +1,4 @@
-"""Hertz pressure, depth per cycle and the loop over loading cycles."""
+"""Hertz pressure, depth per cycle and what forbids an update."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from wearsim.kernels.signatures import Vector
 
-RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED = 0, 1, 2, 3, 4
+RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN = 0, 1, 2, 3, 4, 5
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
@@ -74,79 +74,61 @@ def update_status(
     """Tell whether an update may be made: RUNNING, or what forbids it.
 
     CONFORMING where Hertz fails at a loaded point (or its curvature is not a number) or
-    the load is not a pressing one,
+    the load is not a pressing one, BROKEN where a depth is not a number or infinite,
     VANISHED where nothing is worn off, UNSTABLE where a point recedes by more than
     spacing^2 relative / (2 diffusion) at once.
     """
-    conforming, worn, unstable = 0, 0, 0
+    conforming, broken, worn, unstable = 0, 0, 0, 0
     for j in range(load.size):
         conforming += 1 if not load[j] >= 0.0 or (load[j] > 0.0 and not relative[j] > 0.0) else 0
+        broken += 0 if step[j] < math.inf else 1
         worn += 1 if step[j] > 0.0 else 0
         limit = spacing_squared[j] * relative[j]
         unstable += 1 if diffusion > 0.0 and 2.0 * diffusion * step[j] > limit else 0
     if conforming > 0:
         return CONFORMING
+    if broken > 0:
+        return BROKEN
     if worn == 0:
         return VANISHED
     return UNSTABLE if unstable > 0 else RUNNING
 
 
-@kernel(
-    int64(
-        CONTACT_FUNCTION, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE,
-        float64, VECTOR, float64, float64, float64, int64, VECTOR,
-    )
-)  # fmt: skip
-def run_cycles(
+@kernel(int64(CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, TABLE))
+def flank_rate(
     contact: Callable[..., None],
-    x: Vector,
-    y: Vector,
-    depth: Vector,
+    state: Vector,
     constants: Vector,
     columns: Vector,
-    work: Vector,
     modulus: float,
     law: Vector,
-    diffusion: float,
-    cycles_per_update: float,
-    critical_depth: float,
-    updates: int,
-    done: Vector,
+    work: Vector,
 ) -> int:
-    """Wear the flank update by update, equations (10) to (12), in place.
+    """Write the depth that each point of a state (x, y, depth) loses in a cycle; tell its status.
 
-    Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
-    worn points and moves each along its normal. It stops before an update that the
-    stability limit forbids or that Hertz cannot describe, and after the update that
-    reaches the critical depth. ``done[0]`` counts the updates made; ``work`` holds
-    normals, curvature, squared spacing, load, slip, speed, relative curvature,
-    pressure and the depth of the last update.
+    ``work``, 10 rows: normals, curvature, squared spacing, load, slip, speed, relative
+    curvature, pressure, depth per cycle.
     """
-    normal_x, normal_y, curvature, spacing_squared = work[0], work[1], work[2], work[3]
-    load, slip, speed, relative = work[4], work[5], work[6], work[7]
-    pressure, step = work[8], work[9]
-    n = x.size
-    done[0] = 0.0
-    for update in range(updates):
-        flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared)
-        contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
-                load, slip, speed, relative)  # fmt: skip
-        wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
-        soften(depth, law, step)
-        if cycles_per_update != 1.0:
-            for j in range(n):
-                step[j] *= cycles_per_update
-        status = update_status(load, relative, step, spacing_squared, diffusion)
-        if status != RUNNING:
-            return status
-        for j in range(n):
-            x[j] -= step[j] * normal_x[j]
-            y[j] -= step[j] * normal_y[j]
-        reached = 0
-        for j in range(n):
-            depth[j] += step[j]
-            reached += 1 if depth[j] >= critical_depth else 0
-        done[0] = update + 1
-        if reached > 0:
-            return DEPTH_REACHED
-    return RUNNING
+    flank_frame(state[0], state[1], work[0], work[1], work[2], work[3])
+    contact(state[0], state[1], work[0], work[1], work[2], state[2], constants, columns,
+            work[4], work[5], work[6], work[7])  # fmt: skip
+    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
+    soften(state[2], law, work[9])
+    return update_status(work[4], work[7], work[9], work[3], 0.0)
+
+
+@kernel(int64(VECTOR, float64))
+def sawtooth(depth: Vector, depth_limit: float) -> int:
+    """Return the point where the depth alternates from one to the next; -1 where nowhere.
+
+    There the short second differences of five neighbours come to four times the long ones
+    and 1e-3 of the depth that is allowed.
+    """
+    for j in range(4, depth.size - 4):
+        short, long = 0.0, 0.0
+        for k in range(j - 2, j + 3):
+            short += abs(depth[k - 1] - 2.0 * depth[k] + depth[k + 1])
+            long += abs(depth[k - 2] - 2.0 * depth[k] + depth[k + 2])
+        if short > long + 1e-3 * depth_limit:
+            return j
+    return -1

@@ -94,6 +94,7 @@ class StrandMechanism:
             roller_radius=self.strand.roller_radius,
             modulus=self.modulus,
             slip_curvature_exponent=1.0,
+            ends_bend=True,
         )
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:

@@ -1,9 +1,10 @@
 """The limits of a case as criteria of the wear engine."""
 
+from typing import TYPE_CHECKING
+
 from wearsim.case.model import Case, StrandDrive, WrapDrive
 from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.roller_path import RollerPath
 from wearsim.result import LimitState
 from wearsim.wear.criteria import (
     Criterion,
@@ -12,6 +13,9 @@ from wearsim.wear.criteria import (
     rising,
     tip_land_criterion,
 )
+
+if TYPE_CHECKING:
+    from wearsim.geometry.roller_path import RollerPath
 
 
 def tooth_criteria(case: Case) -> tuple[Criterion, ...]:
@@ -47,7 +51,7 @@ def tooth_criteria(case: Case) -> tuple[Criterion, ...]:
     return tuple(found)
 
 
-def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
+def over_pins(path: "RollerPath", x: Vector, y: Vector, gaps: int) -> float:
     """Return the measurement over pins of the roller's diameter in two gaps worn alike.
 
     Parameters
@@ -69,7 +73,7 @@ def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
     return measurement_over_pins(lowest, 2.0 * path.roller_radius, gaps)
 
 
-def pin_criteria(case: Case, path: RollerPath) -> tuple[Criterion, ...]:
+def pin_criteria(case: Case, path: "RollerPath") -> tuple[Criterion, ...]:
     """Return the limit on what a measurement over pins has changed by.
 
     Parameters

@@ -10,8 +10,6 @@ from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
-from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
@@ -21,7 +19,6 @@ from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.duty import DutyPart, equivalent_factor
 from wearsim.wear.law import Law
-from wearsim.wear.per_cycle import run_per_cycle
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
@@ -137,8 +134,11 @@ def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
 
 
 def _mechanism(case: Case) -> Mechanism:
+    # Kernels compile where they are imported for the first time: each case imports its own.
     drive = case.drive
     if isinstance(drive, StrandDrive):
+        from wearsim.mechanisms.strand import StrandMechanism
+
         return StrandMechanism(
             strand=drive.tooth.strand,
             profile=drive.profile,
@@ -154,7 +154,9 @@ def _mechanism(case: Case) -> Mechanism:
     return _prescribed(case, drive)
 
 
-def _prescribed(case: Case, drive: PrescribedDrive) -> PrescribedMechanism:
+def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
+    from wearsim.mechanisms.prescribed import PrescribedMechanism
+
     table = drive.table
     path = table.sliding_distance
     slip = table.slip_ratio if table.slip_ratio is not None else path
@@ -220,6 +222,8 @@ def _run(
 ) -> tuple[Trajectory, float]:
     if case.run.method == "advance":
         return run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+    from wearsim.wear.per_cycle import run_per_cycle
+
     run = run_per_cycle(contact, law, criteria, horizon, case.run.cycles_per_update)
     try:
         check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)

@@ -192,10 +192,14 @@ def _root(lives: _Lives, one: float, other: float) -> Trial:
     if lives.whole:
         return _whole_root(lives, low, high)
     tolerance = 0.1 * lives.found[one].result.life_tolerance  # type: ignore[union-attr]
+
+    def value(part: float) -> float:
+        return high if part == 1.0 else low * (high / low) ** part
+
     root = brentq(
-        lambda x: lives.excess(math.exp(x)), math.log(low), math.log(high), xtol=tolerance
+        lambda part: lives.excess(value(part)), 0.0, 1.0, xtol=tolerance / math.log(high / low)
     )
-    found = lives.at(math.exp(root))
+    found = lives.at(value(root))
     assert found is not None
     return found
 

@@ -1,194 +1,196 @@
-"""The production run: equation (10) as d(state)/dN = f(state), by an implicit solver.
+"""The production run: equation (10) as d(state)/dN = f(state), in long steps.
 
 The state is the cycle loop's: the way of every point along its current normal, and the
 depth summed on that way. It obeys a parabolic equation, so explicit jumps over many
-cycles are either wrong or slow. LSODA with the banded Jacobian of the three-point
-curvature is stable on any grid and takes steps as long as the tolerance allows. The
-wear coefficient is a factor of the cycle count, so the run is made with coefficient 1
-and scaled: life times coefficient is constant to rounding.
+cycles are either wrong or slow; the steps of ``kernels.rosenbrock`` are linearly implicit,
+stable on any grid and as long as the tolerance allows. The wear coefficient is a factor of
+the cycle count, so the run is made with coefficient 1 and scaled: life times coefficient is
+constant to rounding.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import NoReturn
 
 import numpy as np
-from scipy.integrate import LSODA, DenseOutput
+from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
-from wearsim.errors import ContactError, ConvergenceError
+from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.flank import flank_frame
-from wearsim.kernels.wear import soften, wear_depth
-from wearsim.wear.criteria import Criterion, first_met
+from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
+from wearsim.kernels.steps import (
+    CLOCK,
+    HORIZON,
+    RATES,
+    STATE_ROWS,
+    TIME_OF_DEPTH,
+    TOOTHED,
+    WRITTEN,
+    states_between,
+    wear_in_steps,
+)
+from wearsim.kernels.wear import BROKEN, DEPTH_REACHED, RUNNING, VANISHED
+from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
-_BAND = 8
-"""Way in x, way in y and depth of a point reach those of two points on (at the ends)."""
+_LOOSEST, _FINEST, _TIGHTEST = 1e-3, 1e-9, 0.9e-11
+"""Errors of the depth per step, as parts of the depth allowed, tried on the way to the asked
+tolerance of the life: the first is between the first two, the last not below the third."""
 
-_LOOSEST, _TIGHTEST = 1e-6, 0.9e-10
-"""Relative tolerances of the solver per step tried on the way to the asked tolerance of the life."""
+_CHUNK, _MOST_STEPS = 64, 5_000
+"""States of a compiled call, and steps of one solve; a life takes some dozens."""
 
-
-_MOST_STEPS = 20_000
-"""Steps of one solve; a life takes some hundreds."""
+Table = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class _Flank:
-    """Points and depth of a worn flank [mm]."""
+class _Problem:
+    """A flank with its law of coefficient 1, its limits and the end in cycles times coefficient."""
 
-    x: Vector
-    y: Vector
-    depth: Vector
+    contact: Contact
+    law: Law
+    criteria: tuple[Criterion, ...]
+    horizon: float
 
+    @property
+    def numbers(self) -> Vector:
+        return replace(self.law, coefficient=1.0).numbers(self.contact.kind)
 
-class _Rate:
-    """Rate of the state per cycle and unit coefficient."""
+    @property
+    def diffusion(self) -> float:
+        return self.law.diffusion(self.contact.kind, self.contact.slip_curvature_exponent)
 
-    def __init__(self, contact: Contact, law: Law) -> None:
-        self.contact = contact
-        self.law = replace(law, coefficient=1.0).numbers(contact.kind)
-        points = contact.profile.x.size
-        self.frame, self.touch = np.empty((4, points)), np.empty((4, points))
-        self.pressure, self.step = np.empty(points), np.empty(points)
-        self.calls = 0
+    def start(self) -> Table:
+        profile = self.contact.profile
+        return np.array([profile.x, profile.y, np.zeros(profile.x.size)])
 
-    def flank(self, state: Vector) -> _Flank:
-        way_x, way_y, depth = np.ascontiguousarray(state.reshape(-1, 3).T)
-        return _Flank(self.contact.profile.x + way_x, self.contact.profile.y + way_y, depth)
-
-    def __call__(self, time: float, state: Vector) -> Vector:
-        self.calls += 1
-        contact, flank = self.contact, self.flank(state)
-        flank_frame(flank.x, flank.y, *self.frame)
-        normal_x, normal_y, curvature = self.frame[:3]
-        contact.kernel(
-            flank.x, flank.y, normal_x, normal_y, curvature, flank.depth, contact.constants,
-            contact.columns, *self.touch,
-        )  # fmt: skip
-        load, slip, speed, relative = self.touch
-        # A trial of the solver may conform where the solution does not; accepted steps are checked.
-        np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
-        wear_depth(load, slip, speed, relative, contact.modulus, self.law, self.pressure, self.step)
-        soften(flank.depth, self.law, self.step)
-        rate = np.empty((self.step.size, 3))
-        rate[:, 0] = -self.step * normal_x
-        rate[:, 1] = -self.step * normal_y
-        rate[:, 2] = self.step
-        return rate.ravel()
+    def cycles(self, time: float) -> float:
+        return time / self.law.coefficient
 
 
 @dataclass(frozen=True, eq=False)
 class _Solution:
-    """Dense output of one solve, in cycles times coefficient."""
+    """States of one solve at their times, and where between the last two it ends."""
 
+    times: Vector
+    path: Table
     end: float
-    pieces: list[DenseOutput]
-    starts: Vector
     met: Criterion | None
+    rates: int
 
-    def __call__(self, time: float) -> Vector:
-        piece = int(np.searchsorted(self.starts, time, side="right")) - 1
-        state: Vector = self.pieces[max(piece, 0)](time)
-        return state
+    def states(self, times: Vector) -> Table:
+        """Return x, y and depth at increasing times, shape (times, 3, points)."""
+        found = np.empty((times.size, 3, self.path.shape[2]))
+        states_between(self.times, self.path, times, found)
+        return found
+
+    def state(self, time: float) -> Table:
+        """Return x, y and depth at a time, shape (3, points)."""
+        found: Table = self.states(np.array([time]))[0]
+        return found
+
+    @property
+    def progress(self) -> float:
+        """What two solves are compared by: the life, or the depth at the horizon."""
+        return self.end if self.met else float(self.state(self.end)[2].max())
 
 
-def _first_below(margin: Callable[[float], float], low: float, high: float) -> float:
-    """Time at which a margin positive at low and not at high has vanished, to rounding."""
-    while True:
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            return high
-        low, high = (middle, high) if margin(middle) > 0.0 else (low, middle)
+class _Solve:
+    """One solve on its way: the compiled steps and the states that they have written."""
 
+    def __init__(self, problem: _Problem, tolerance: float) -> None:
+        self.problem = problem
+        self.tolerance, points = tolerance, problem.contact.profile.x.size
+        self.state, self.clock = problem.start(), np.zeros(CLOCK)
+        self.work = np.zeros((WORK_ROWS, points))
+        self.increments = np.zeros((STAGES, 3 * points))
+        self.times, self.path = np.zeros(0), np.zeros((0, STATE_ROWS, points))
 
-def _solve(
-    rate: _Rate,
-    coefficient: float,
-    criteria: tuple[Criterion, ...],
-    horizon: float,
-    tolerance: float,
-) -> _Solution:
-    contact, depth_limit = rate.contact, criteria[0].limit
-    state = np.zeros(3 * contact.profile.x.size)
-    fastest = float(rate(0.0, state).max())
-    if not fastest > 0.0:
-        raise ContactError(
-            "contact at cycle 0: the loaded points must slide, but none does: without sliding there "
-            "is no wear and no life"
-        )
-    solver = LSODA(
-        rate, 0.0, state, np.inf, first_step=1e-4 * depth_limit / fastest, rtol=tolerance,
-        atol=tolerance * depth_limit, lband=_BAND, uband=_BAND,
-    )  # fmt: skip
-    pieces: list[DenseOutput] = []
-    starts: list[float] = []
-    met = None
-    while met is None and solver.t < horizon:
-        message = solver.step()
-        cycles = solver.t / coefficient
-        if (
-            solver.status != "running"
-            or len(pieces) > _MOST_STEPS
-            or not np.isfinite(solver.y).all()
-        ):
-            place = contact.arc_length[_fastest(rate, solver.y)]
-            raise ConvergenceError(
-                f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
-                "on, but stopped"
-                f'{f" ({message})" if message else ""}: use method = "per_cycle" or more nodes'
+    def run(self) -> _Solution:
+        """Go on until a limit or the horizon ends it; raise what else does."""
+        status, failing = RUNNING, None
+        while status == RUNNING and failing is None:
+            status = self._go_on()
+            failing = self._first_failing()
+        if failing is None and status not in (DEPTH_REACHED, HORIZON):
+            self._refuse(status)
+        last = self.times.size if failing is None else failing + 1
+        solution = _Solution(
+            self.times[:last], self.path[:last], float(self.times[last - 1]), None,
+            int(self.clock[RATES]),
+        )  # fmt: skip
+        if status == DEPTH_REACHED and last == self.times.size:
+            solution = replace(
+                solution, end=float(self.clock[TIME_OF_DEPTH]), met=self.problem.criteria[0]
             )
-        met = _met(rate, criteria, solver.y)
-        if met is None:
-            _check(rate, solver.y, cycles, depth_limit)
-        pieces.append(solver.dense_output())
-        starts.append(float(solver.t_old or 0.0))
-    return _ended(rate, criteria, horizon, pieces, np.array(starts), float(solver.t), met)
+        return solution if failing is None else self._cut(solution)
+
+    def _go_on(self) -> int:
+        problem, contact = self.problem, self.problem.contact
+        times, path = np.empty(_CHUNK), np.empty((_CHUNK, *self.path.shape[1:]))
+        self.clock[WRITTEN] = 0.0
+        status = wear_in_steps(
+            rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
+            contact.modulus, problem.numbers, problem.diffusion, int(contact.ends_bend),
+            problem.criteria[0].limit, self.tolerance, problem.horizon, _CHUNK, self.work,
+            self.increments, self.clock, times, path,
+        )  # fmt: skip
+        written = int(self.clock[WRITTEN])
+        # The last state of a call is the first of the next.
+        self.times = np.concatenate([self.times[:-1], times[:written]])
+        self.path = np.concatenate([self.path[:-1], path[:written]])
+        self.written = written
+        return BROKEN if status == RUNNING and self.times.size > _MOST_STEPS else int(status)
+
+    def _first_failing(self) -> int | None:
+        """Return the first of the new states at which a limit other than the depth fails."""
+        others = self.problem.criteria[1:]
+        for place in range(self.times.size - self.written, self.times.size):
+            x, y, depth = self.path[place, :3]
+            if any(criterion.margin(x, y, depth) <= 0.0 for criterion in others):
+                return place
+        return None
+
+    def _cut(self, solution: _Solution) -> _Solution:
+        """End a solution where the first of the limits that fail at its last state is met."""
+        from scipy.optimize import brentq  # takes 0.1 s, and most runs end on the depth
+
+        low, high = solution.times[-2:] if solution.times.size > 1 else (0.0, 0.0)
+        for criterion in self.problem.criteria[1:]:
+            if criterion.margin(*solution.path[-1, :3]) > 0.0:
+                continue
+            margin = partial(_margin, solution, criterion)
+            time = brentq(margin, low, high, rtol=1e-14, xtol=1e-300) if margin(low) > 0.0 else low
+            if solution.met is None or time < solution.end:
+                solution = replace(solution, end=float(time), met=criterion)
+        return solution
+
+    def _refuse(self, status: int) -> NoReturn:
+        contact, cycles = self.problem.contact, self.problem.cycles(float(self.times[-1]))
+        x, y, depth = self.state
+        if np.isfinite(self.state).all():
+            check_touch(contact, x, y, depth, cycles)
+        if status == VANISHED:
+            raise ContactError(
+                f"contact at cycle {cycles:.6g}: the loaded points must slide, but none does: "
+                "without sliding there is no wear and no life"
+            )
+        if status == TOOTHED:
+            check_sawtooth(contact, depth, cycles, self.problem.criteria[0].limit)
+        broken = ~np.isfinite(self.work[9])
+        place = contact.arc_length[int((broken if broken.any() else self.path[-1, 3]).argmax())]
+        raise ConvergenceError(
+            f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
+            'on, but stopped: use method = "per_cycle" or more nodes'
+        )
 
 
-def _fastest(rate: _Rate, state: Vector) -> int:
-    """Return the point whose depth is not a number, else the one that wears fastest."""
-    depth = state[2::3]
-    if not np.isfinite(depth).all():
-        return int(np.argmin(np.isfinite(depth)))
-    return int(np.nan_to_num(rate(0.0, state)[2::3]).argmax())
-
-
-def _check(rate: _Rate, state: Vector, cycles: float, depth_limit: float) -> None:
-    flank = rate.flank(state)
-    check_touch(rate.contact, flank.x, flank.y, flank.depth, cycles)
-    check_sawtooth(rate.contact, flank.depth, cycles, depth_limit)
-
-
-def _met(rate: _Rate, criteria: tuple[Criterion, ...], state: Vector) -> Criterion | None:
-    flank = rate.flank(state)
-    return first_met(criteria, flank.x, flank.y, flank.depth)
-
-
-def _ended(
-    rate: _Rate, criteria: tuple[Criterion, ...], horizon: float,
-    pieces: list[DenseOutput], starts: Vector, reached: float, met: Criterion | None,
-) -> _Solution:  # fmt: skip
-    """Cut the last step at the first limit met in it, or at the horizon."""
-    if met is None:
-        return _Solution(min(horizon, reached), pieces, starts, None)
-
-    def least(time: float) -> float:
-        flank = rate.flank(pieces[-1](time))
-        return min(criterion.margin(flank.x, flank.y, flank.depth) for criterion in criteria)
-
-    end = _first_below(least, float(starts[-1]), reached)
-    if end > horizon:
-        return _Solution(horizon, pieces, starts, None)
-    return _Solution(end, pieces, starts, _met(rate, criteria, pieces[-1](end)))
-
-
-def _progress(solution: _Solution) -> float:
-    """What two solves are compared by: the life, or the depth at the horizon."""
-    return solution.end if solution.met else float(solution(solution.end)[2::3].max())
+def _margin(solution: _Solution, criterion: Criterion, time: float) -> float:
+    return criterion.margin(*solution.state(time))
 
 
 def run_advance(
@@ -200,9 +202,9 @@ def run_advance(
 ) -> tuple[Trajectory, float]:
     """Wear a flank with step control until a criterion is met or the horizon is reached.
 
-    The solve is repeated with a tenth of the solver's tolerance until two successive
-    lives differ by less than a tenth of the asked tolerance. A contact error counts only
-    where the tightest solve meets it too.
+    The solve is repeated with a tenth of the error per step until two successive lives
+    differ by less than a tenth of the asked tolerance. A contact error counts only where
+    the tightest solve meets it too.
 
     Parameters
     ----------
@@ -234,22 +236,23 @@ def run_advance(
         from wearsim.wear.halving import advance_dwelling
 
         return advance_dwelling(contact, law, criteria, horizon, life_tolerance)
-    rate = _Rate(contact, law)
-    profile = contact.profile
-    check_touch(contact, profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size), 0.0)
-    tolerance, change = min(_LOOSEST, 1e-2 * life_tolerance), math.inf
-    before, failure = None, None
+    problem = _Problem(contact, law, criteria, horizon * law.coefficient)
+    x, y, depth = problem.start()
+    check_touch(contact, x, y, depth, 0.0)
+    tolerance, change = float(np.clip(0.1 * life_tolerance, _FINEST, _LOOSEST)), math.inf
+    before: _Solution | None = None
+    failure: WearsimError | None = None
     while tolerance >= _TIGHTEST:
         try:
-            after = _solve(rate, law.coefficient, criteria, horizon * law.coefficient, tolerance)
-        except ContactError as error:
+            after = _Solve(problem, tolerance).run()
+        except (ContactError, ConvergenceError) as error:
             # Loose steps may run past what the flank itself never does; tighter ones decide.
             before, failure = None, error
         else:
             if before is not None and before.met == after.met:
-                change = abs(_progress(after) / _progress(before) - 1.0)
+                change = abs(after.progress / before.progress - 1.0)
                 if change <= 0.1 * life_tolerance:
-                    return _trajectory(rate, after, law.coefficient), change
+                    return _trajectory(problem, after), change
             before = after
         tolerance *= 0.1
     if before is None and failure is not None:
@@ -260,18 +263,15 @@ def run_advance(
     )
 
 
-def _trajectory(rate: _Rate, solution: _Solution, coefficient: float) -> Trajectory:
+def _trajectory(problem: _Problem, solution: _Solution) -> Trajectory:
     times = np.linspace(0.0, solution.end, SNAPSHOTS + 1)
-    flanks = [rate.flank(solution(time)) for time in times]
-    for time, flank in zip(times, flanks, strict=True):
-        check_touch(rate.contact, flank.x, flank.y, flank.depth, time / coefficient)
-    profile = rate.contact.profile
-    flanks[0] = _Flank(profile.x, profile.y, np.zeros(profile.x.size))
+    x, y, depth = np.ascontiguousarray(solution.states(times).transpose(1, 0, 2))
+    check_touch(problem.contact, x[-1], y[-1], depth[-1], problem.cycles(solution.end))
     return Trajectory(
-        cycles=times / coefficient,
-        x=np.array([flank.x for flank in flanks]),
-        y=np.array([flank.y for flank in flanks]),
-        depth=np.array([flank.depth for flank in flanks]),
+        cycles=times / problem.law.coefficient,
+        x=x,
+        y=y,
+        depth=depth,
         met=solution.met,
-        updates=rate.calls,
+        updates=solution.rates,
     )

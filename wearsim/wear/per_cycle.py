@@ -12,7 +12,8 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.wear import CONFORMING, RUNNING, UNSTABLE, VANISHED, run_cycles
+from wearsim.kernels.cycles import run_cycles
+from wearsim.kernels.wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
@@ -75,6 +76,12 @@ class _Run:
             )
         if status == UNSTABLE:
             self._refuse()
+        if status == BROKEN:
+            place = self.contact.arc_length[int(np.isfinite(self.last_step).argmin())]
+            raise ConvergenceError(
+                f"wear at cycle {self.cycles:.6g}, {place:.4g} mm from the root: the depth per cycle must "
+                "be a number, but is not: check load and sliding there"
+            )
         check_sawtooth(self.contact, self.depth, self.cycles, self.depth_limit)
 
     def _block(self, depth: float, updates: int) -> int:

@@ -1,0 +1,172 @@
+"""The wear of a flank in long steps: a linearly implicit method with step control.
+
+ROS34PW2 of Rang and Angermann, BIT 45 (2005) 761: four stages, order 3, embedded order 2,
+stiffly accurate, and of full order with any matrix in place of the Jacobian (a W-method).
+That matrix is here what makes the problem stiff, the diffusion of depth by the curvature:
+d(rate)/d(1/rho_H) = e rate rho_H times the second difference of the depth, tridiagonal.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import STEP, TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.tridiagonal import factorise, solve
+from wearsim.kernels.wear import BROKEN, CONFORMING, flank_rate
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wearsim.kernels.signatures import Vector
+
+WORK_ROWS = 19
+"""Of the table to work in; its first ten are those of ``flank_rate``."""
+
+GAMMA = 4.3586652150845900e-01
+"""Diagonal of the method, the root of x^3 - 3 x^2 + 3 x/2 - 1/6 that makes it L-stable."""
+
+STAGES = 4
+# fmt: off
+STATE = (
+    0.0, 0.0, 0.0,
+    2.0, 0.0, 0.0,
+    1.4192173174557645, -0.2592322116729697, 0.0,
+    4.18476048231916, -0.28519201735549593, 2.294280360279042,
+)
+RIGHT = (
+    0.0, 0.0, 0.0,
+    -4.588560720558084, 0.0, 0.0,
+    -4.18476048231916, 0.28519201735549593, 0.0,
+    -6.368179200128357, -6.795620944466836, 2.870098604331056,
+)
+ERROR = (0.27774994764796823, -1.403239895175999, 1.772630127667551, 0.5)
+# fmt: on
+"""Rows of the stages in the increments u = Gamma k, which spares products with the matrix.
+
+A stage stands at y + STATE u and solves (I - gamma h A) u = gamma (h f + RIGHT u); the result is
+the last stage plus its increment, the error of it ERROR u."""
+
+
+@kernel(void(TABLE, float64, int64, TABLE))
+def diffusion_rows(start: Vector, diffusion: float, ends: int, rows: Vector) -> None:
+    """Write d(depth per cycle)/d(depth): ``diffusion`` rate rho_H times the second difference.
+
+    ``ends`` tells whether the curvature of the end points follows from the worn points;
+    it is that of their parabola. An end row is left to the explicit part of the method
+    where the row beside it diffuses less than half as fast. ``rows``: as ``factorise``
+    takes them, and the spacing.
+    """
+    x, y, rate, relative = start[0], start[1], start[3], start[6]
+    before, centre, after, spacing = rows[0], rows[1], rows[2], rows[3]
+    n = x.size
+    for j in range(n - 1):
+        ax, ay = x[j + 1] - x[j], y[j + 1] - y[j]
+        spacing[j] = math.sqrt(ax * ax + ay * ay)
+    for j in range(n):
+        centre[j] = 2.0 * diffusion * rate[j] / relative[j] if rate[j] > 0.0 else 0.0
+    first = centre[0] if ends == 1 and centre[0] <= 2.0 * centre[1] else 0.0
+    last = centre[n - 1] if ends == 1 and centre[n - 1] <= 2.0 * centre[n - 2] else 0.0
+    for j in range(1, n - 1):
+        strength = centre[j] / (spacing[j - 1] + spacing[j])
+        before[j] = strength / spacing[j - 1]
+        after[j] = strength / spacing[j]
+    for j in range(1, n - 1):
+        centre[j] = -(before[j] + after[j])
+    near, far = spacing[0], spacing[1]
+    first /= near + far
+    centre[0], after[0], before[0] = first / near, -first / near - first / far, first / far
+    near, far = spacing[n - 2], spacing[n - 3]
+    last /= near + far
+    centre[n - 1], before[n - 1], after[n - 1] = last / near, -last / near - last / far, last / far
+
+
+@kernel(void(VECTOR, TABLE, int64, VECTOR))
+def stage_state(state: Vector, increments: Vector, stage: int, trial: Vector) -> None:
+    """Write where a stage stands."""
+    for j in range(state.size):
+        trial[j] = state[j]
+    for s in range(stage):
+        weight, increment = STATE[3 * stage + s], increments[s]
+        for j in range(state.size):
+            trial[j] += weight * increment[j]
+
+
+@kernel(void(TABLE, int64, float64, TABLE, TABLE, TABLE))
+def stage_increment(
+    start: Vector, stage: int, step: float, work: Vector, factors: Vector, increments: Vector
+) -> None:
+    """Write the increment of a stage from the rate there.
+
+    The matrix acts along the normals at the start of the step (``start``: a state of the
+    path), on the depth along them; ``work[10]`` takes that part of the increment.
+    """
+    normal_x, normal_y, part = start[4], start[5], work[10]
+    n, own = normal_x.size, increments[stage]
+    x, y, depth = own[:n], own[n : 2 * n], own[2 * n :]
+    for j in range(n):
+        depth[j] = GAMMA * step * work[9, j]
+        x[j] = -depth[j] * work[0, j]
+        y[j] = -depth[j] * work[1, j]
+    for s in range(stage):
+        weight, other = GAMMA * RIGHT[3 * stage + s], increments[s]
+        for j in range(own.size):
+            own[j] += weight * other[j]
+    for j in range(n):
+        part[j] = -(x[j] * normal_x[j] + y[j] * normal_y[j])
+        depth[j] -= part[j]
+        x[j] += part[j] * normal_x[j]
+        y[j] += part[j] * normal_y[j]
+    solve(factors, part)
+    for j in range(n):
+        depth[j] += part[j]
+        x[j] -= part[j] * normal_x[j]
+        y[j] -= part[j] * normal_y[j]
+
+
+@kernel(float64(TABLE))
+def greatest_error(increments: Vector) -> float:
+    """Return the greatest error of the depth; not a number where a depth is not."""
+    greatest, broken, size = 0.0, 0, increments.shape[1]
+    for j in range(2 * size // 3, size):
+        error = 0.0
+        for s in range(STAGES):
+            error += ERROR[s] * increments[s, j]
+        greatest = max(greatest, abs(error))
+        broken += 0 if abs(error) < math.inf else 1
+    return math.nan if broken > 0 else greatest
+
+
+@kernel(STEP)
+def rosenbrock_step(
+    contact: Callable[..., None],
+    start: Vector,
+    constants: Vector,
+    columns: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    ends: int,
+    step: float,
+    work: Vector,
+    trial: Vector,
+    increments: Vector,
+) -> float:
+    """Make one step from a state of the path, to ``trial``; return its error, nan where it fails."""
+    rows, factors = work[11:15], work[15:19]
+    begin, to = start[:3].ravel(), trial.ravel()
+    diffusion_rows(start, diffusion, ends, rows)
+    factorise(rows, GAMMA * step, factors)
+    for j in range(start.shape[1]):
+        work[9, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]
+    for stage in range(STAGES):
+        if stage > 0:
+            stage_state(begin, increments, stage, to)
+            status = flank_rate(contact, trial, constants, columns, modulus, law, work)
+            if status in (CONFORMING, BROKEN):
+                return math.nan
+        stage_increment(start, stage, step, work, factors, increments)
+    for j in range(to.size):
+        to[j] += increments[STAGES - 1, j]
+    return greatest_error(increments)

@@ -1,0 +1,203 @@
+"""Wear in long steps of controlled error, and what lies between two of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import (
+    CONTACT_FUNCTION,
+    CUBE,
+    STEP_FUNCTION,
+    TABLE,
+    VECTOR,
+    float64,
+    int64,
+    void,
+)
+from wearsim.kernels.wear import BROKEN, CONFORMING, DEPTH_REACHED, RUNNING, flank_rate, sawtooth
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wearsim.kernels.signatures import Vector
+
+HORIZON, TOOTHED = 6, 7
+
+STATE_ROWS = 7
+"""Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
+
+TIME, STEP, DEPTH, WRITTEN, RATES, TIME_OF_DEPTH = range(6)
+"""Of the clock: time, next step, depth that errors are measured by, states on the path, rates
+evaluated, time of the depth limit. A clock of zeros starts a run."""
+CLOCK = 6
+
+FIRST_STEP = 0.1
+"""Depth of the first step tried, in parts of the depth that errors are measured by and of the
+cube root of the tolerance: runs of other tolerances shall not make the same steps."""
+
+SAFETY, LEAST, MOST = 0.9, 0.2, 4.0
+"""A step grows or shrinks by SAFETY error^(-1/3) within these."""
+
+LEAST_STEP = 1e-11
+"""A step shorter than this part of the time so far is none."""
+
+
+@kernel(float64(TABLE, TABLE, float64, int64, float64, int64))
+def between(start: Vector, end: Vector, step: float, row: int, part: float, point: int) -> float:
+    """Return x, y or depth (row 0, 1, 2) of a point at a part of a step.
+
+    It is the cubic through both ends; that of the depth rises all the way, its slopes are
+    at most three times the mean (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238).
+    """
+    if row == 2:
+        most = 3.0 * (end[2, point] - start[2, point]) / step
+        slope, slope_end = min(start[3, point], most), min(end[3, point], most)
+    else:
+        slope = -start[3, point] * start[4 + row, point]
+        slope_end = -end[3, point] * end[4 + row, point]
+    rest = 1.0 - part
+    value: float = rest * rest * (
+        (1.0 + 2.0 * part) * start[row, point] + part * step * slope
+    ) + part * part * ((1.0 + 2.0 * rest) * end[row, point] - rest * step * slope_end)
+    return value
+
+
+@kernel(void(VECTOR, CUBE, VECTOR, CUBE))
+def states_between(times: Vector, path: Vector, wanted: Vector, states: Vector) -> None:
+    """Write x, y and depth at the wanted increasing times within those of the path."""
+    place = 0
+    for k in range(wanted.size):
+        while place < times.size - 2 and wanted[k] > times[place + 1]:
+            place += 1
+        step = times[place + 1] - times[place]
+        part = (wanted[k] - times[place]) / step
+        for row in range(3):
+            for j in range(path.shape[2]):
+                states[k, row, j] = between(path[place], path[place + 1], step, row, part, j)
+
+
+@kernel(float64(TABLE, TABLE, float64, float64))
+def part_to_depth(start: Vector, end: Vector, step: float, limit: float) -> float:
+    """Return the part of a step at which the first point reaches a depth, by bisection."""
+    first = 1.0
+    for j in range(start.shape[1]):
+        if end[2, j] < limit or between(start, end, step, 2, first, j) < limit:
+            continue
+        low, high = 0.0, first
+        middle = 0.5 * (low + high)
+        while low < middle < high:
+            if between(start, end, step, 2, middle, j) < limit:
+                low = middle
+            else:
+                high = middle
+            middle = 0.5 * (low + high)
+        first = high
+    return first
+
+
+@kernel(int64(TABLE, TABLE, VECTOR, VECTOR, CUBE))
+def write_state(state: Vector, work: Vector, clock: Vector, times: Vector, path: Vector) -> int:
+    """Write a state with its rate as the next of the path, round and round; return its place."""
+    place = int(clock[WRITTEN]) % times.size
+    here = path[place]
+    for j in range(state.shape[1]):
+        here[0, j], here[1, j], here[2, j] = state[0, j], state[1, j], state[2, j]
+        here[3, j], here[4, j], here[5, j] = work[9, j], work[0, j], work[1, j]
+        here[6, j] = work[7, j]
+    times[place] = clock[TIME]
+    clock[WRITTEN] += 1.0
+    return place
+
+
+@kernel(void(TABLE, TABLE))
+def keep_removed(start: Vector, state: Vector) -> None:
+    """Leave a point where it was at the start of a step if it came out with more material."""
+    for j in range(state.shape[1]):
+        if state[2, j] < start[2, j]:
+            state[0, j], state[1, j], state[2, j] = start[0, j], start[1, j], start[2, j]
+
+
+@kernel(
+    int64(
+        STEP_FUNCTION, CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64,
+        float64, float64, float64, int64, TABLE, TABLE, VECTOR, VECTOR, CUBE,
+    )
+)  # fmt: skip
+def wear_in_steps(
+    make_step: Callable[..., float],
+    contact: Callable[..., None],
+    state: Vector,
+    constants: Vector,
+    columns: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    ends: int,
+    depth_limit: float,
+    tolerance: float,
+    end: float,
+    most: int,
+    work: Vector,
+    increments: Vector,
+    clock: Vector,
+    times: Vector,
+    path: Vector,
+) -> int:
+    """Wear the flank, equations (10) to (12), step by step in place until something ends it.
+
+    A step is repeated shorter until its error at every point is at most the tolerance, a part
+    of the depth that can come about; one in which the flank would conform is too long. Every
+    state is written to the path
+    until ``most`` of them are. The time is in cycles times the coefficient that ``law``
+    leaves out. Ends with DEPTH_REACHED, HORIZON at the time ``end``, RUNNING where the path
+    is full, VANISHED, CONFORMING at once, TOOTHED where the depth alternates from point to
+    point, or BROKEN where no step is short enough: ``state`` and ``work`` are then those that
+    failed. The step is handed in like the contact: linked in,
+    it would be compiled twice.
+    """
+    status = flank_rate(contact, state, constants, columns, modulus, law, work)
+    clock[RATES] += 1.0
+    if clock[TIME] == 0.0:
+        fastest = 0.0
+        for j in range(state.shape[1]):
+            fastest = max(fastest, work[9, j])
+        clock[DEPTH] = min(depth_limit, fastest * end)
+        clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * clock[DEPTH] / fastest
+    while True:
+        place = write_state(state, work, clock, times, path)
+        here, deepest = path[place], 0.0
+        for j in range(state.shape[1]):
+            deepest = max(deepest, state[2, j])
+        if deepest >= depth_limit:
+            before = (place - 1) % times.size
+            step = times[place] - times[before]
+            part = part_to_depth(path[before], here, step, depth_limit)
+            clock[TIME_OF_DEPTH] = times[before] + part * step
+            return DEPTH_REACHED
+        if status != RUNNING:
+            return status
+        if sawtooth(state[2], depth_limit) >= 0:
+            return TOOTHED
+        if clock[TIME] >= end:
+            return HORIZON
+        if clock[WRITTEN] >= most:
+            return RUNNING
+        grown = MOST
+        while True:
+            step = min(clock[STEP], end - clock[TIME])
+            error = make_step(contact, here, constants, columns, modulus, law, diffusion, ends,
+                              step, work, state, increments) / (tolerance * clock[DEPTH])  # fmt: skip
+            if error <= 1.0:
+                status = flank_rate(contact, state, constants, columns, modulus, law, work)
+            clock[RATES] += 4.0
+            if error <= 1.0 and status not in (CONFORMING, BROKEN):
+                break
+            if step < LEAST_STEP * clock[TIME]:
+                return BROKEN
+            grown = 1.0
+            shorter = SAFETY / error ** (1.0 / 3.0) if error > 1.0 else LEAST
+            clock[STEP] = step * max(LEAST, shorter)
+        keep_removed(here, state)
+        clock[TIME] = end if step == end - clock[TIME] else clock[TIME] + step
+        clock[STEP] = step * min(grown, SAFETY / max(error, 1e-9) ** (1.0 / 3.0))
