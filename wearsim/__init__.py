@@ -16,6 +16,7 @@ _PUBLIC = {
     "WearsimError": "wearsim.errors",
     "load_case": "wearsim.case.load",
     "simulate": "wearsim.simulation",
+    "simulate_many": "wearsim.simulation.many",
 }
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     )
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.simulation import simulate
+    from wearsim.simulation.many import simulate_many
 
 __all__ = [
     "Case",
@@ -43,6 +45,7 @@ __all__ = [
     "WearsimError",
     "load_case",
     "simulate",
+    "simulate_many",
 ]
 
 

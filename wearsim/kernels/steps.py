@@ -15,26 +15,38 @@ from wearsim.kernels.signatures import (
     int64,
     void,
 )
-from wearsim.kernels.wear import BROKEN, CONFORMING, DEPTH_REACHED, RUNNING, flank_rate, sawtooth
+from wearsim.kernels.wear import (
+    BROKEN,
+    CONFORMING,
+    DEPTH_REACHED,
+    HORIZON,
+    RUNNING,
+    TOOTHED,
+    flank_rate,
+    sawtooth,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from wearsim.kernels.signatures import Vector
 
-HORIZON, TOOTHED = 6, 7
-
 STATE_ROWS = 7
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
 
-TIME, STEP, DEPTH, WRITTEN, RATES, TIME_OF_DEPTH = range(6)
-"""Of the clock: time, next step, depth that errors are measured by, states on the path, rates
-evaluated, time of the depth limit. A clock of zeros starts a run."""
-CLOCK = 6
+TIME, STEP, WRITTEN, RATES, END = range(5)
+"""Of the clock: time, next step, states on the path, rates evaluated, time at which the run has
+ended within its last step. A clock of zeros starts a run."""
+CLOCK = 5
+
+LOOSEST, FINEST, TIGHTEST = 1e-3, 1e-9, 0.9e-11
+PART_OF_TOLERANCE = 0.1
+"""A run starts with this part of the tolerance of the life between the first two, and with a tenth of
+it again and again, not below the third, until two lives agree."""
 
 FIRST_STEP = 0.1
-"""Depth of the first step tried, in parts of the depth that errors are measured by and of the
-cube root of the tolerance: runs of other tolerances shall not make the same steps."""
+"""Depth of the first step tried, in parts of the depth allowed and of the cube root of the
+tolerance: runs of other tolerances shall not make the same steps."""
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 4.0
 """A step grows or shrinks by SAFETY error^(-1/3) within these."""
@@ -147,14 +159,13 @@ def wear_in_steps(
     """Wear the flank, equations (10) to (12), step by step in place until something ends it.
 
     A step is repeated shorter until its error at every point is at most the tolerance, a part
-    of the depth that can come about; one in which the flank would conform is too long. Every
-    state is written to the path
-    until ``most`` of them are. The time is in cycles times the coefficient that ``law``
-    leaves out. Ends with DEPTH_REACHED, HORIZON at the time ``end``, RUNNING where the path
-    is full, VANISHED, CONFORMING at once, TOOTHED where the depth alternates from point to
-    point, or BROKEN where no step is short enough: ``state`` and ``work`` are then those that
-    failed. The step is handed in like the contact: linked in,
-    it would be compiled twice.
+    of the depth allowed; one in which the flank would conform is too long. Every
+    state is written to the path until ``most`` of them are. The time is in cycles times the
+    coefficient that ``law`` leaves out. Ends with DEPTH_REACHED or HORIZON within the last
+    step, RUNNING where the path is full, VANISHED, CONFORMING at once, TOOTHED where the
+    depth alternates from point to point, or BROKEN where no step is short enough: ``state``
+    and ``work`` are then those that failed. The step is handed in like the contact: linked
+    in, it would be compiled twice.
     """
     status = flank_rate(contact, state, constants, columns, modulus, law, work)
     clock[RATES] += 1.0
@@ -162,8 +173,7 @@ def wear_in_steps(
         fastest = 0.0
         for j in range(state.shape[1]):
             fastest = max(fastest, work[9, j])
-        clock[DEPTH] = min(depth_limit, fastest * end)
-        clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * clock[DEPTH] / fastest
+        clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * depth_limit / fastest
     while True:
         place = write_state(state, work, clock, times, path)
         here, deepest = path[place], 0.0
@@ -172,22 +182,24 @@ def wear_in_steps(
         if deepest >= depth_limit:
             before = (place - 1) % times.size
             step = times[place] - times[before]
-            part = part_to_depth(path[before], here, step, depth_limit)
-            clock[TIME_OF_DEPTH] = times[before] + part * step
-            return DEPTH_REACHED
+            reached = times[before] + step * part_to_depth(path[before], here, step, depth_limit)
+            clock[END] = min(reached, end)
+            return DEPTH_REACHED if reached <= end else HORIZON
+        if clock[TIME] >= end:
+            clock[END] = end
+            return HORIZON
+        clock[END] = clock[TIME]
         if status != RUNNING:
             return status
         if sawtooth(state[2], depth_limit) >= 0:
             return TOOTHED
-        if clock[TIME] >= end:
-            return HORIZON
         if clock[WRITTEN] >= most:
             return RUNNING
         grown = MOST
         while True:
-            step = min(clock[STEP], end - clock[TIME])
+            step = clock[STEP]
             error = make_step(contact, here, constants, columns, modulus, law, diffusion, ends,
-                              step, work, state, increments) / (tolerance * clock[DEPTH])  # fmt: skip
+                              step, work, state, increments) / (tolerance * depth_limit)  # fmt: skip
             if error <= 1.0:
                 status = flank_rate(contact, state, constants, columns, modulus, law, work)
             clock[RATES] += 4.0
@@ -199,5 +211,5 @@ def wear_in_steps(
             shorter = SAFETY / error ** (1.0 / 3.0) if error > 1.0 else LEAST
             clock[STEP] = step * max(LEAST, shorter)
         keep_removed(here, state)
-        clock[TIME] = end if step == end - clock[TIME] else clock[TIME] + step
+        clock[TIME] += step
         clock[STEP] = step * min(grown, SAFETY / max(error, 1e-9) ** (1.0 / 3.0))

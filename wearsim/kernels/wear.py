@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from wearsim.kernels.signatures import Vector
 
-RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN = 0, 1, 2, 3, 4, 5
+RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN, HORIZON, TOOTHED = range(8)
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
@@ -124,11 +124,17 @@ def sawtooth(depth: Vector, depth_limit: float) -> int:
     There the short second differences of five neighbours come to four times the long ones
     and 1e-3 of the depth that is allowed.
     """
+    least, most = 1e-3 * depth_limit, 0.0
+    for j in range(2, depth.size - 2):
+        short = abs(depth[j - 1] - 2.0 * depth[j] + depth[j + 1])
+        most = max(most, short - abs(depth[j - 2] - 2.0 * depth[j] + depth[j + 2]))
+    if 5.0 * most <= least:
+        return -1
     for j in range(4, depth.size - 4):
-        short, long = 0.0, 0.0
+        excess = 0.0
         for k in range(j - 2, j + 3):
-            short += abs(depth[k - 1] - 2.0 * depth[k] + depth[k + 1])
-            long += abs(depth[k - 2] - 2.0 * depth[k] + depth[k + 2])
-        if short > long + 1e-3 * depth_limit:
+            excess += abs(depth[k - 1] - 2.0 * depth[k] + depth[k + 1])
+            excess -= abs(depth[k - 2] - 2.0 * depth[k] + depth[k + 2])
+        if excess > least:
             return j
     return -1

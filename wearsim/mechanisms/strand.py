@@ -9,6 +9,7 @@ import numpy as np
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.geometry.evolute import Strand
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.flank import flank_frame
 from wearsim.kernels.strand import strand_contact
 
 
@@ -88,7 +89,7 @@ class StrandMechanism:
             kind=Kind.TRAVELLING,
             kernel=strand_contact,
             constants=np.array(constants),
-            columns=np.empty((1, 1)),
+            columns=np.zeros((1, 1)),
             profile=self.profile,
             arc_length=self.profile.arc_length,
             roller_radius=self.strand.roller_radius,
@@ -111,8 +112,9 @@ class StrandMechanism:
             (psi_max - psi_min) R / p; below 1 the next roller comes before this one
             has left only on the edge of the tip, which is not modelled.
         """
-        flank, radius = Profile(x, y), self.strand.roller_radius
-        centre_x, centre_y = x + radius * flank.normal_x, y + radius * flank.normal_y
+        frame, radius = np.empty((4, x.size)), self.strand.roller_radius
+        flank_frame(x, y, *frame)
+        centre_x, centre_y = x + radius * frame[0], y + radius * frame[1]
         inside = centre_x**2 + centre_y**2 - self.strand.height**2
         touching = inside > 0.0
         distance = -np.sqrt(inside[touching])

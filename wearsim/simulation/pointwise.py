@@ -14,6 +14,7 @@ from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, tooth_criteria
+from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
@@ -21,12 +22,6 @@ from wearsim.wear.duty import DutyPart, equivalent_factor
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
-
-_FEW_CYCLES = 1000
-"""Life below which a coefficient is doubtful."""
-
-_WIDE = 0.1
-"""Half-width over roller radius above which Hertz's half-spaces are doubtful."""
 
 
 def simulate_points(case: Case) -> WearResult:
@@ -49,8 +44,8 @@ def simulate_points(case: Case) -> WearResult:
     ConvergenceError
         The life would be wrong.
     """
-    mechanism = _mechanism(case)
-    law, criteria, warp, horizon = _problem(case, mechanism)
+    mechanism = pointwise_mechanism(case)
+    law, criteria, warp, horizon = problem(case, mechanism)
     warnings = list(case.warnings)
     run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
     check_fold(mechanism.contact, run)
@@ -59,12 +54,10 @@ def simulate_points(case: Case) -> WearResult:
     )
     run = replace(run, cycles=warp.running_cycles(run.cycles))
     history, flank = _tables(case, mechanism, run)
-    warnings += _validity(mechanism.contact, history, flank)
+    warnings += validity(mechanism.contact, history, flank)
     low, high = _band(case, mechanism.contact, criteria, run, horizon, warp, warnings)
-    if run.met is not None and run.cycles[-1] < _FEW_CYCLES:
-        warnings.append(
-            f"the life is only {run.cycles[-1]:.3g} cycles: check the wear coefficient and its unit"
-        )
+    if run.met is not None:
+        warnings += few_cycles(float(run.cycles[-1]))
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -104,11 +97,26 @@ def simulate_points(case: Case) -> WearResult:
     )
 
 
-def _problem(
+def problem(
     case: Case, mechanism: Mechanism
 ) -> tuple[Law, tuple[Criterion, ...], RunningIn, float]:
-    """Return law, limits, running-in and horizon in cycles of constant coefficient."""
-    warp = running_in(case.wear, _sliding_per_cycle(case, mechanism.contact))
+    """Return what a case asks of the wear engine.
+
+    Parameters
+    ----------
+    case : Case
+        On a strand or under a table of loads.
+    mechanism : Mechanism
+        Of the case.
+
+    Returns
+    -------
+    tuple of Law, tuple of Criterion, RunningIn and float
+        Law, limits, running-in and horizon in cycles of constant coefficient.
+    """
+    runs_in = case.wear.running_in_factor != 1.0
+    sliding = _sliding_per_cycle(case, mechanism.contact) if runs_in else 0.0
+    warp = running_in(case.wear, sliding)
     horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
     return _law(case), tooth_criteria(case), warp, horizon
 
@@ -128,12 +136,24 @@ def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     GridStudy
         Of the three runs.
     """
-    mechanism = _mechanism(case)
-    law, criteria, _, horizon = _problem(case, mechanism)
+    mechanism = pointwise_mechanism(case)
+    law, criteria, _, horizon = problem(case, mechanism)
     return grid_study(mechanism.contact, law, criteria, horizon, life_tolerance)
 
 
-def _mechanism(case: Case) -> Mechanism:
+def pointwise_mechanism(case: Case) -> Mechanism:
+    """Return the mechanism of a case that loads every point of a flank once a cycle.
+
+    Parameters
+    ----------
+    case : Case
+        On a strand or under a table of loads.
+
+    Returns
+    -------
+    Mechanism
+        With the flank as it is new.
+    """
     # Kernels compile where they are imported for the first time: each case imports its own.
     drive = case.drive
     if isinstance(drive, StrandDrive):
@@ -305,36 +325,6 @@ def _tables(
         "relative_curvature_per_mm": relative.ravel(),
     }
     return history, flank
-
-
-def _validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
-    """Return a warning for every limit of the theory that the run passes."""
-    found = []
-    loaded = flank["load_per_width_N_per_mm"] > 0.0
-    widths = half_width(
-        flank["load_per_width_N_per_mm"][loaded],
-        flank["relative_curvature_per_mm"][loaded],
-        contact.modulus,
-    )
-    if widths.max() > _WIDE * contact.roller_radius:
-        found.append(
-            f"contact half-width up to {widths.max():.3g} mm is more than 0.1 of the roller radius: "
-            "Hertz's pressure is too high there"
-        )
-    spacing = float(np.diff(contact.arc_length).max())
-    if spacing > np.median(widths):
-        found.append(
-            f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
-            f"{np.median(widths):.3g} mm: use more nodes (rows of a table)"
-        )
-    ratio = history["worn_contact_ratio"]
-    if (ratio < 1.0).any():
-        hours = history["time_hours"][int((ratio < 1.0).argmax())]
-        found.append(
-            f"the worn contact ratio is below 1 from about {hours:.3g} h on, lowest {ratio.min():.3f}: "
-            "for that part of a pitch the roller touches the edge of the tip, which is not modelled"
-        )
-    return found
 
 
 def _band(

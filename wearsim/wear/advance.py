@@ -23,25 +23,23 @@ from wearsim.geometry.profile import Vector
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import (
     CLOCK,
-    HORIZON,
+    END,
+    FINEST,
+    LOOSEST,
+    PART_OF_TOLERANCE,
     RATES,
     STATE_ROWS,
-    TIME_OF_DEPTH,
-    TOOTHED,
+    TIGHTEST,
     WRITTEN,
     states_between,
     wear_in_steps,
 )
-from wearsim.kernels.wear import BROKEN, DEPTH_REACHED, RUNNING, VANISHED
+from wearsim.kernels.wear import BROKEN, DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
-_LOOSEST, _FINEST, _TIGHTEST = 1e-3, 1e-9, 0.9e-11
-"""Errors of the depth per step, as parts of the depth allowed, tried on the way to the asked
-tolerance of the life: the first is between the first two, the last not below the third."""
-
-_CHUNK, _MOST_STEPS = 64, 5_000
+_CHUNK, MOST_STEPS = 64, 5_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
 
 Table = NDArray[np.float64]
@@ -55,10 +53,6 @@ class _Problem:
     law: Law
     criteria: tuple[Criterion, ...]
     horizon: float
-
-    @property
-    def numbers(self) -> Vector:
-        return replace(self.law, coefficient=1.0).numbers(self.contact.kind)
 
     @property
     def diffusion(self) -> float:
@@ -118,16 +112,14 @@ class _Solve:
             failing = self._first_failing()
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
             self._refuse(status)
-        last = self.times.size if failing is None else failing + 1
-        solution = _Solution(
-            self.times[:last], self.path[:last], float(self.times[last - 1]), None,
-            int(self.clock[RATES]),
-        )  # fmt: skip
-        if status == DEPTH_REACHED and last == self.times.size:
-            solution = replace(
-                solution, end=float(self.clock[TIME_OF_DEPTH]), met=self.problem.criteria[0]
-            )
-        return solution if failing is None else self._cut(solution)
+        met = self.problem.criteria[0] if status == DEPTH_REACHED else None
+        end, rates = float(self.clock[END]), int(self.clock[RATES])
+        if failing is None:
+            return _Solution(self.times, self.path, end, met, rates)
+        times, path = self.times[: failing + 1], self.path[: failing + 1]
+        if failing + 1 < self.times.size:
+            end, met = float(times[-1]), None
+        return self._cut(_Solution(times, path, end, met, rates))
 
     def _go_on(self) -> int:
         problem, contact = self.problem, self.problem.contact
@@ -135,16 +127,16 @@ class _Solve:
         self.clock[WRITTEN] = 0.0
         status = wear_in_steps(
             rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
-            contact.modulus, problem.numbers, problem.diffusion, int(contact.ends_bend),
-            problem.criteria[0].limit, self.tolerance, problem.horizon, _CHUNK, self.work,
-            self.increments, self.clock, times, path,
+            contact.modulus, problem.law.unit_numbers(contact.kind), problem.diffusion,
+            int(contact.ends_bend), problem.criteria[0].limit, self.tolerance, problem.horizon,
+            _CHUNK, self.work, self.increments, self.clock, times, path,
         )  # fmt: skip
         written = int(self.clock[WRITTEN])
         # The last state of a call is the first of the next.
         self.times = np.concatenate([self.times[:-1], times[:written]])
         self.path = np.concatenate([self.path[:-1], path[:written]])
         self.written = written
-        return BROKEN if status == RUNNING and self.times.size > _MOST_STEPS else int(status)
+        return BROKEN if status == RUNNING and self.times.size > MOST_STEPS else int(status)
 
     def _first_failing(self) -> int | None:
         """Return the first of the new states at which a limit other than the depth fails."""
@@ -165,7 +157,7 @@ class _Solve:
                 continue
             margin = partial(_margin, solution, criterion)
             time = brentq(margin, low, high, rtol=1e-14, xtol=1e-300) if margin(low) > 0.0 else low
-            if solution.met is None or time < solution.end:
+            if time < solution.end or (time == solution.end and solution.met is None):
                 solution = replace(solution, end=float(time), met=criterion)
         return solution
 
@@ -239,10 +231,13 @@ def run_advance(
     problem = _Problem(contact, law, criteria, horizon * law.coefficient)
     x, y, depth = problem.start()
     check_touch(contact, x, y, depth, 0.0)
-    tolerance, change = float(np.clip(0.1 * life_tolerance, _FINEST, _LOOSEST)), math.inf
+    tolerance, change = (
+        float(np.clip(PART_OF_TOLERANCE * life_tolerance, FINEST, LOOSEST)),
+        math.inf,
+    )
     before: _Solution | None = None
     failure: WearsimError | None = None
-    while tolerance >= _TIGHTEST:
+    while tolerance >= TIGHTEST:
         try:
             after = _Solve(problem, tolerance).run()
         except (ContactError, ConvergenceError) as error:

@@ -5,7 +5,7 @@ width c_m 2a times the slip ratio in a travelling contact, the given path in a l
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -87,6 +87,21 @@ class Law:
             return np.array([self.coefficient, m, 0.0, n, self.case_depth, self.core_factor])
         factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
         return np.array([factor, m - 1.0, 1.0, n, self.case_depth, self.core_factor])
+
+    def unit_numbers(self, kind: Kind) -> Vector:
+        """Return the law as the kernel takes it, with the coefficient 1.
+
+        Parameters
+        ----------
+        kind : Kind
+            How the contact meets the points.
+
+        Returns
+        -------
+        numpy.ndarray
+            As ``numbers``.
+        """
+        return replace(self, coefficient=1.0).numbers(kind)
 
     def diffusion(self, kind: Kind, slip_curvature_exponent: float) -> float:
         """Return e = d(ln depth)/d(ln relative curvature), which decides stability.

@@ -7,6 +7,7 @@ import numpy as np
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.wear import sawtooth
 from wearsim.wear.criteria import Criterion
 
 SNAPSHOTS = 180
@@ -149,16 +150,8 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: 
     ConvergenceError
         Over a stretch of the flank the short difference is far larger than the long one.
     """
-    if depth.size < 9:
-        return
-    short = np.abs(depth[1:-3] - 2.0 * depth[2:-2] + depth[3:-1])
-    long = np.abs(depth[:-4] - 2.0 * depth[2:-2] + depth[4:]) / 4.0
-    window = np.ones(5)
-    noise = np.convolve(short, window, "valid")
-    smooth = np.convolve(long, window, "valid")
-    teeth = noise > 4.0 * smooth + 1e-3 * depth_limit
-    if teeth.any():
-        point = int(teeth.argmax()) + 4
+    point = sawtooth(np.ascontiguousarray(depth), depth_limit)
+    if point >= 0:
         raise ConvergenceError(
             f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the depth "
             "must vary smoothly along the flank, but alternates from point to point, so the run is "

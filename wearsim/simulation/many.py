@@ -1,0 +1,210 @@
+"""Lives of many cases: those of one mechanism together in compiled batches, on all cores."""
+
+import os
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.contact.engagement import Mechanism
+from wearsim.errors import WearsimError
+from wearsim.result import Life, LowerBound, life_of
+from wearsim.simulation.pointwise import pointwise_mechanism, problem
+from wearsim.simulation.validity import few_cycles, low_contact_ratio, wide_contact
+from wearsim.wear.many import Flank, Worn, advance_many
+from wearsim.wear.running_in import RunningIn
+
+_BATCH = 32
+"""Flanks of one compiled call."""
+
+_AHEAD = 2
+"""Chunks that are under way while the one before is handed out."""
+
+
+@dataclass(frozen=True)
+class CaseLife:
+    """The life of one case, without the tables of a `WearResult`.
+
+    Attributes
+    ----------
+    case : str
+        Name of the case.
+    life : Life or LowerBound
+        As `simulate` gives it, to the bit.
+    stop : str
+        Key of the limit that was met, ``horizon_hours`` where none was.
+    numerical_error : float
+        Relative error of the life by its steps; that of the grid is not estimated.
+    warnings : tuple of str
+        What is doubtful about the case and the worn flank.
+    """
+
+    case: str
+    life: Life | LowerBound
+    stop: str
+    numerical_error: float
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Job:
+    """A case that goes into a batch."""
+
+    case: Case
+    mechanism: Mechanism
+    flank: Flank
+    limit: str
+    running_in: RunningIn
+    coefficient: float
+
+    @property
+    def kind(self) -> tuple[object, ...]:
+        """What the flanks of one compiled call have in common."""
+        contact = self.flank.contact
+        return contact.kernel, contact.profile.x.size, contact.columns.shape
+
+    @property
+    def wear(self) -> tuple[object, ...]:
+        """What the wear depends on but for the coefficient, which only scales the cycles."""
+        flank, contact = self.flank, self.flank.contact
+        arrays = (
+            contact.profile.x,
+            contact.profile.y,
+            contact.constants,
+            contact.columns,
+            flank.law.unit_numbers(contact.kind),
+        )
+        numbers = contact.modulus, flank.critical_depth, flank.life_tolerance
+        return (*self.kind, *numbers, *(array.tobytes() for array in arrays))
+
+
+def simulate_many(
+    cases: Iterable[Case], threads: int | None = None
+) -> Iterator[CaseLife | WearsimError]:
+    """Find the lives of many cases.
+
+    Cases on a strand or under a table of loads whose only limit is the critical depth run
+    in compiled batches on all threads; of those that differ only in the wear coefficient
+    one runs, as their lives times coefficient are the same. All others run one by one.
+    Neither cases nor results are kept: memory does not grow with their number.
+
+    Parameters
+    ----------
+    cases : iterable of Case
+        Complete cases, taken as they are needed.
+    threads : int, optional
+        As many as the machine has cores where it is left out.
+
+    Yields
+    ------
+    CaseLife or WearsimError
+        For each case, in their order; the error that `simulate` would raise.
+
+    Examples
+    --------
+    >>> import wearsim
+    >>> case = wearsim.load_case({
+    ...     "format_version": 1,
+    ...     "chain": {"designation": "16B-1"},
+    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+    ...     "load": {"power_kW": 3, "speed_rpm": 100},
+    ...     "wear": {"condition": "hardened, oiled"},
+    ... })
+    >>> [found] = wearsim.simulate_many([case])
+    >>> found.life == wearsim.simulate(case).life
+    True
+    """
+    threads = threads or os.cpu_count() or 1
+    remaining = iter(cases)
+    under_way: deque[tuple[list[Case], list[_Job | None], list[_Batch]]] = deque()
+    with ThreadPoolExecutor(threads) as pool:
+        while True:
+            chunk = list(islice(remaining, 2 * _BATCH * threads))
+            if chunk:
+                jobs = [_job(case) for case in chunk]
+                under_way.append((chunk, jobs, _submit(pool, jobs)))
+            if len(under_way) > _AHEAD or not chunk:
+                if not under_way:
+                    return
+                yield from _lives(*under_way.popleft())
+
+
+_Batch = tuple[list[list[_Job]], "Future[list[Worn | None]]"]
+"""Jobs of equal wear, one list a flank, and what comes of the flanks."""
+
+
+def _job(case: Case) -> _Job | None:
+    """Return the job of a case; None where it runs alone."""
+    if isinstance(case.drive, WrapDrive) or case.run.method != "advance":
+        return None
+    mechanism = pointwise_mechanism(case)
+    law, criteria, warp, horizon = problem(case, mechanism)
+    if len(criteria) > 1:
+        return None
+    flank = Flank(
+        mechanism.contact, law, criteria[0].limit, horizon * law.coefficient,
+        case.run.life_tolerance,
+    )  # fmt: skip
+    return _Job(case, mechanism, flank, criteria[0].name, warp, law.coefficient)
+
+
+def _submit(pool: ThreadPoolExecutor, jobs: list[_Job | None]) -> list[_Batch]:
+    """Hand jobs to the pool: those of equal wear as one, until the longest of their horizons."""
+    equal: dict[tuple[object, ...], list[_Job]] = {}
+    for job in jobs:
+        if job is not None:
+            equal.setdefault(job.wear, []).append(job)
+    kinds: dict[tuple[object, ...], list[list[_Job]]] = {}
+    for group in equal.values():
+        kinds.setdefault(group[0].kind, []).append(group)
+    batches = []
+    for groups in kinds.values():
+        for first in range(0, len(groups), _BATCH):
+            part = groups[first : first + _BATCH]
+            flanks = [
+                replace(group[0].flank, horizon=max(job.flank.horizon for job in group))
+                for group in part
+            ]
+            batches.append((part, pool.submit(advance_many, flanks)))
+    return batches
+
+
+def _lives(
+    cases: list[Case], jobs: list[_Job | None], batches: list[_Batch]
+) -> Iterator[CaseLife | WearsimError]:
+    found: dict[int, Worn] = {}
+    for groups, future in batches:
+        for group, worn in zip(groups, future.result(), strict=True):
+            if worn is not None:
+                found.update((id(job), worn) for job in group)
+    for case, job in zip(cases, jobs, strict=True):
+        worn = found.get(id(job))
+        yield _alone(case) if job is None or worn is None else _life(job, worn)
+
+
+def _life(job: _Job, worn: Worn) -> CaseLife:
+    reached = worn.reached and worn.time <= job.flank.horizon
+    constant = np.array([worn.time if reached else job.flank.horizon]) / job.coefficient
+    cycles = float(job.running_in.running_cycles(constant)[0])
+    life = life_of(cycles, job.case.cycles_per_hour, reached)
+    warnings = [*job.case.warnings, *wide_contact(job.flank.contact, worn.half_width)]
+    if reached:
+        warnings += few_cycles(cycles)
+    ratio = np.array([job.mechanism.worn_contact_ratio(worn.x, worn.y)])
+    warnings += low_contact_ratio(np.array([life.hours_run]), ratio)
+    stop = job.limit if reached else "horizon_hours"
+    return CaseLife(job.case.name, life, stop, worn.change, tuple(warnings))
+
+
+def _alone(case: Case) -> CaseLife | WearsimError:
+    from wearsim.simulation import simulate
+
+    try:
+        result = simulate(case)
+    except WearsimError as error:
+        return error
+    return CaseLife(case.name, result.life, result.stop, result.numerical_error, result.warnings)

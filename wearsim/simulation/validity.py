@@ -1,0 +1,109 @@
+"""Where a run leaves the limits of its theory: warnings of its result."""
+
+import numpy as np
+
+from wearsim.contact.engagement import Contact
+from wearsim.contact.hertz import half_width
+from wearsim.geometry.profile import Vector
+
+_FEW_CYCLES = 1000
+"""Life below which a coefficient is doubtful."""
+
+_WIDE = 0.1
+"""Half-width over roller radius above which Hertz's half-spaces are doubtful."""
+
+
+def few_cycles(cycles: float) -> list[str]:
+    """Return a warning of a life that is hardly one.
+
+    Parameters
+    ----------
+    cycles : float
+        Loading cycles of the life.
+
+    Returns
+    -------
+    list of str
+        One or none.
+    """
+    if cycles >= _FEW_CYCLES:
+        return []
+    return [f"the life is only {cycles:.3g} cycles: check the wear coefficient and its unit"]
+
+
+def wide_contact(contact: Contact, half_width: float) -> list[str]:
+    """Return a warning of a contact too wide for half-spaces.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    half_width : float
+        The greatest of the run [mm].
+
+    Returns
+    -------
+    list of str
+        One or none.
+    """
+    if half_width <= _WIDE * contact.roller_radius:
+        return []
+    return [
+        f"contact half-width up to {half_width:.3g} mm is more than 0.1 of the roller radius: "
+        "Hertz's pressure is too high there"
+    ]
+
+
+def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
+    """Return a warning of a worn tooth that lets its roller go too early.
+
+    Parameters
+    ----------
+    hours : numpy.ndarray
+        Running times [h].
+    ratio : numpy.ndarray
+        Worn contact ratio at them; nan where it has no meaning.
+
+    Returns
+    -------
+    list of str
+        One or none.
+    """
+    if not (ratio < 1.0).any():
+        return []
+    return [
+        f"the worn contact ratio is below 1 from about {hours[int((ratio < 1.0).argmax())]:.3g} h on, "
+        f"lowest {ratio.min():.3f}: for that part of a pitch the roller touches the edge of the tip, "
+        "which is not modelled"
+    ]
+
+
+def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
+    """Return a warning for every limit of the theory that a run passes.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+    history, flank : dict of str to numpy.ndarray
+        Columns of the result.
+
+    Returns
+    -------
+    list of str
+        Sentences for the result.
+    """
+    loaded = flank["load_per_width_N_per_mm"] > 0.0
+    widths = half_width(
+        flank["load_per_width_N_per_mm"][loaded],
+        flank["relative_curvature_per_mm"][loaded],
+        contact.modulus,
+    )
+    found = wide_contact(contact, float(widths.max()))
+    spacing = float(np.diff(contact.arc_length).max())
+    if spacing > np.median(widths):
+        found.append(
+            f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
+            f"{np.median(widths):.3g} mm: use more nodes (rows of a table)"
+        )
+    return found + low_contact_ratio(history["time_hours"], history["worn_contact_ratio"])
