@@ -61,24 +61,39 @@ def start():
     return build
 
 
+TYPES = {
+    "v": np.ctypeslib.ndpointer(dtype=np.float64, flags="C_CONTIGUOUS"),
+    "d": ctypes.c_double,
+    "l": ctypes.c_long,
+}
+
+
 @pytest.fixture(scope="session")
-def c_run_cycles(tmp_path_factory):
-    """The C cycle loop compiled with one of the sets of flags."""
+def c_function(tmp_path_factory):
+    """A C function compiled with one of the sets of flags: source, flags, name, types of arguments."""
     folder = tmp_path_factory.mktemp("c")
 
-    def build(kind):
-        name = "fissioned" if kind == "fissioned" else "plain"
-        source, library = Path(__file__).with_name(f"strand_{name}.c"), folder / f"{kind}.so"
+    def build(source, kind, name, arguments):
+        file = Path(__file__).with_name(f"{source}.c")
+        library = folder / f"{source}-{kind}.so"
         compiler = shlex.split(os.environ.get("CC", "gcc"))
         subprocess.run(
-            [*compiler, *FLAGS[kind], "-shared", "-fPIC", str(source), "-o", str(library), "-lm"],
+            [*compiler, *FLAGS[kind], "-shared", "-fPIC", str(file), "-o", str(library), "-lm"],
             check=True,
         )
-        function = ctypes.CDLL(str(library)).run_cycles
-        vector = np.ctypeslib.ndpointer(dtype=np.float64, flags="C_CONTIGUOUS")
-        number, count = ctypes.c_double, ctypes.c_long
-        function.argtypes = [vector, vector, vector, count, vector, vector,
-                             number, number, number, number, count, vector]  # fmt: skip
+        function = getattr(ctypes.CDLL(str(library)), name)
+        function.argtypes = [TYPES[letter] for letter in arguments]
         return function
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def c_run_cycles(c_function):
+    """The C cycle loop of the strand compiled with one of the sets of flags."""
+
+    def build(kind):
+        source = "strand_fissioned" if kind == "fissioned" else "strand_plain"
+        return c_function(source, kind, "run_cycles", "vvvlvvddddlv")
 
     return build

@@ -20,6 +20,7 @@ from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.geometry.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.cycles import run_cycles
+from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
 from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
@@ -135,6 +136,13 @@ def numbers():
             contact, x, y, depth, constants, columns, work, 1e5, law, 0.75, 1.0, 1.0, 20, done
         )
         found[name] = [status, done[0], *x.tolist(), *y.tolist(), *work.ravel().tolist()]
+        if contact is prescribed_contact:
+            x, y, depth = flank.x.copy(), flank.y.copy(), np.zeros(11)
+            work = np.zeros((OFFSET_ROWS, 11))
+            status = run_offset_cycles(
+                x, y, depth, constants, columns, work, 1e5, law, 0.75, 1.0, 1.0, 20, done
+            )
+            found["offset form"] = [status, done[0], *depth.tolist(), *work.ravel().tolist()]
     return found
 
 
@@ -154,7 +162,8 @@ def both():
 
 NAMES = (
     "archard", "power, advance", "drozdov", "slip_ratio", "sliding_distance_mm",
-    "prescribed argument", "strand argument", "wrap", "wrap, roller aloft", "wrap, friction",
+    "prescribed argument", "strand argument", "offset form", "wrap", "wrap, roller aloft",
+    "wrap, friction",
 )  # fmt: skip
 
 

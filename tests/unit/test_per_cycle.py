@@ -17,7 +17,7 @@ from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.wear.criteria import Criterion, depth_criterion
-from wearsim.wear.law import archard, power
+from wearsim.wear.law import Law, archard, drozdov, power
 from wearsim.wear.per_cycle import run_per_cycle
 
 NODES, SPACING, ROLLER, MODULUS, LOAD = 41, 0.1, 5.0, 1e5, 200.0
@@ -112,6 +112,39 @@ def test_bound_is_sharp_and_the_sawtooth_watch_stands_behind_it(times: float) ->
         noticed = "alternates from point to point|conforms to the roller|would pull there"
         with pytest.raises((ConvergenceError, ContactError), match=noticed):
             run_per_cycle(blind, law, limit, 1e6, update)
+
+
+@pytest.mark.parametrize("kind", [Kind.LOCAL, Kind.TRAVELLING])
+@pytest.mark.parametrize(
+    "law",
+    [
+        power(1e-9, 1.0),
+        power(1e-9, 1.5),
+        power(1e-11, 2.0),
+        drozdov(1e-3, 1.7, 2000.0, 30.0, 0.3),
+        replace(power(1e-9, 1.0), case_depth=0.002, core_factor=3.0),
+    ],
+)
+def test_offset_form_is_the_general_loop(law: Law, kind: Kind) -> None:
+    """The loop that keeps points and frames in between must give the same flank, one end unloaded."""
+    arc = SPACING * np.arange(41)
+    given = PrescribedMechanism(
+        kind=kind,
+        arc_length=arc,
+        load_per_width=LOAD * np.maximum(np.sin(3.5 * arc / arc[-1]), 0.0),
+        slip=0.2 + 0.1 * np.cos(arc),
+        sliding_speed=30.0 + arc,
+        flank_curvature=0.01 * np.sin(arc),
+        roller_radius=ROLLER,
+        modulus=MODULUS,
+    ).contact
+    limit = (depth_criterion(0.004),)
+    fast = run_per_cycle(given, law, limit, 1e6, 1)
+    # The general loop under the same contact; its spacing is that of the worn points.
+    slow = run_per_cycle(replace(given, offset_form=False), law, limit, 1e6, 1)
+    assert fast.cycles[-1] == pytest.approx(slow.cycles[-1], rel=1e-11)
+    for one, other in ((fast.depth, slow.depth), (fast.x, slow.x), (fast.y, slow.y)):
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("cycles_per_update", [1, 7, 40])

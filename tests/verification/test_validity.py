@@ -210,7 +210,7 @@ def flat_contact(kernel: Callable[..., None]) -> Contact:
         roller_radius=5.0,
         modulus=1e5,
         slip_curvature_exponent=0.0,
-        ends_bend=True,
+        offset_form=False,
     )
 
 

@@ -79,9 +79,10 @@ class Contact:
         Contact modulus E* [MPa].
     slip_curvature_exponent : float
         d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0.
-    ends_bend : bool
-        Whether the curvature of the two end points follows from the worn points instead of
-        staying what it was.
+    offset_form : bool
+        Whether load and sliding are those of the columns (rows as in ``kernels.offset``) and the
+        curvature follows from the depth over their arc length, at the ends not at all; of the
+        worn points otherwise.
     """
 
     kind: Kind
@@ -93,7 +94,7 @@ class Contact:
     roller_radius: float
     modulus: float
     slip_curvature_exponent: float
-    ends_bend: bool
+    offset_form: bool
 
     def coarsened(self) -> "Contact":
         """Return the same contact on about every second point.

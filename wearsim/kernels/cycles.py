@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
 
 
+CYCLES_ROWS = 10
+"""Of the table to work in."""
+
+
 @kernel(
     int64(
         CONTACT_FUNCTION, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE,

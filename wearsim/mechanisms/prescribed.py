@@ -94,7 +94,7 @@ class PrescribedMechanism:
             roller_radius=self.roller_radius,
             modulus=self.modulus,
             slip_curvature_exponent=0.0,
-            ends_bend=False,
+            offset_form=True,
         )
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:

@@ -95,7 +95,7 @@ class StrandMechanism:
             roller_radius=self.strand.roller_radius,
             modulus=self.modulus,
             slip_curvature_exponent=1.0,
-            ends_bend=True,
+            offset_form=False,
         )
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:

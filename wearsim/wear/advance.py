@@ -128,7 +128,7 @@ class _Solve:
         status = wear_in_steps(
             rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
             contact.modulus, problem.law.unit_numbers(contact.kind), problem.diffusion,
-            int(contact.ends_bend), problem.criteria[0].limit, self.tolerance, problem.horizon,
+            int(not contact.offset_form), problem.criteria[0].limit, self.tolerance, problem.horizon,
             _CHUNK, self.work, self.increments, self.clock, times, path,
         )  # fmt: skip
         written = int(self.clock[WRITTEN])

@@ -103,7 +103,7 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
         rosenbrock_step, one.kernel, starts, np.array([contact.constants for contact in contacts]),
         np.array([contact.columns for contact in contacts]), np.array(numbers),
         np.array([flank.law.unit_numbers(flank.contact.kind) for flank in flanks]),
-        int(one.ends_bend), MOST_STEPS, np.zeros((WORK_ROWS, points)),
+        int(not one.offset_form), MOST_STEPS, np.zeros((WORK_ROWS, points)),
         np.zeros((STAGES, 3 * points)), np.zeros(CLOCK), np.empty(2),
         np.empty((2, STATE_ROWS, points)), worn, found,
     )  # fmt: skip

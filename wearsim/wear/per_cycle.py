@@ -3,7 +3,8 @@
 import contextlib
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from types import FrameType
 
 import numpy as np
@@ -12,7 +13,6 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.cycles import run_cycles
 from wearsim.kernels.wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
@@ -39,6 +39,17 @@ def _interrupts_held() -> Iterator[None]:
         before(*held[0])
 
 
+def _compiled_loop(contact: Contact) -> tuple[int, Callable[..., int]]:
+    """Return the rows to work in and the loop, which compiles where it is imported first."""
+    if contact.offset_form:
+        from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
+
+        return OFFSET_ROWS, run_offset_cycles
+    from wearsim.kernels.cycles import CYCLES_ROWS, run_cycles
+
+    return CYCLES_ROWS, partial(run_cycles, contact.kernel)
+
+
 class _Run:
     """State of the flank between blocks of compiled updates."""
 
@@ -52,7 +63,8 @@ class _Run:
         self.diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
         self.x, self.y = contact.profile.x.copy(), contact.profile.y.copy()
         self.depth = np.zeros(self.x.size)
-        self.work = np.zeros((10, self.x.size))
+        rows, self.run = _compiled_loop(contact)
+        self.work = np.zeros((rows, self.x.size))
         self.updates = 0
 
     @property
@@ -87,8 +99,8 @@ class _Run:
     def _block(self, depth: float, updates: int) -> int:
         done = np.zeros(1)
         with _interrupts_held():
-            status = run_cycles(
-                self.contact.kernel, self.x, self.y, self.depth, self.contact.constants,
+            status = self.run(
+                self.x, self.y, self.depth, self.contact.constants,
                 self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
                 self.cycles_per_update, depth, updates, done,
             )  # fmt: skip

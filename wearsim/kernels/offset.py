@@ -1,0 +1,138 @@
+"""The loop over loading cycles of a flank in offset form: one depth per point is all that changes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.wear import DEPTH_REACHED, RUNNING, soften, update_status
+
+if TYPE_CHECKING:
+    from wearsim.kernels.signatures import Vector
+
+ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
+"""Rows of the columns of a flank in offset form."""
+
+OFFSET_ROWS = 17
+"""Of the table to work in; those of ``run_cycles`` and the weights of the second difference and
+what does not change of a step."""
+
+BEFORE, AFTER, BASE, STRESS, AMOUNT, ALLOWED, START = range(10, 17)
+
+
+@kernel(void(VECTOR, VECTOR, TABLE, float64, VECTOR, float64, float64, TABLE))
+def prepare_offset(
+    depth: Vector,
+    constants: Vector,
+    columns: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    cycles_per_update: float,
+    work: Vector,
+) -> None:
+    """Write what no update changes: rows 0, 1, 3 of ``work`` and those named here."""
+    arc, n = columns[ARC], columns.shape[1]
+    for j in range(n):
+        work[START, j] = depth[j]
+        work[0, j], work[1, j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
+        work[BASE, j] = constants[0] + columns[CURVATURE, j]
+        work[STRESS, j] = columns[LOAD, j] * (modulus / math.pi)
+        before = arc[max(j, 1)] - arc[max(j, 1) - 1]
+        after = arc[min(j, n - 2) + 1] - arc[min(j, n - 2)]
+        inner = 2.0 / (before + after) if 0 < j < n - 1 else 0.0
+        work[BEFORE, j], work[AFTER, j] = inner / before, inner / after
+        work[3, j] = min(before, after) ** 2
+        limit = work[3, j] / (2.0 * diffusion) if diffusion > 0.0 else math.inf
+        work[ALLOWED, j] = limit if columns[LOAD, j] > 0.0 else 0.0
+        amount = law[0] * cycles_per_update * columns[SLIP, j]
+        if law[3] != 0.0:
+            amount *= columns[SPEED, j] ** law[3] if columns[SPEED, j] > 0.0 else 0.0
+        if law[2] != 0.0:
+            amount *= columns[LOAD, j]
+        work[AMOUNT, j] = amount if columns[LOAD, j] > 0.0 else 0.0
+
+
+@kernel(void(VECTOR, float64, TABLE))
+def offset_step(depth: Vector, exponent: float, work: Vector) -> None:
+    """Write relative curvature (row 7) and depth of an update (row 9); the pressure is not kept."""
+    before, after, base = work[BEFORE], work[AFTER], work[BASE]
+    stress, amount, relative, step = work[STRESS], work[AMOUNT], work[7], work[9]
+    n = depth.size
+    relative[0], relative[n - 1] = base[0], base[n - 1]
+    for j in range(1, n - 1):
+        rise, fall = depth[j + 1] - depth[j], depth[j] - depth[j - 1]
+        relative[j] = base[j] + (after[j] * rise - before[j] * fall)
+    if exponent == 0.0:
+        for j in range(n):
+            step[j] = amount[j]
+    elif exponent == 1.0:
+        for j in range(n):
+            step[j] = math.sqrt(stress[j] * relative[j]) * amount[j]
+    else:
+        for j in range(n):
+            step[j] = (stress[j] * relative[j]) ** (0.5 * exponent) * amount[j]
+
+
+@kernel(int64(TABLE))
+def offset_failures(work: Vector) -> int:
+    """Count the points at which an update may not be made, or is none at all."""
+    relative, step, allowed = work[7], work[9], work[ALLOWED]
+    failures = 0
+    for j in range(work.shape[1]):
+        failures += 0 if step[j] <= allowed[j] * relative[j] else 1
+    return failures
+
+
+@kernel(
+    int64(
+        VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE, float64, VECTOR, float64, float64, float64,
+        int64, VECTOR,
+    )
+)  # fmt: skip
+def run_offset_cycles(
+    x: Vector,
+    y: Vector,
+    depth: Vector,
+    constants: Vector,
+    columns: Vector,
+    work: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    cycles_per_update: float,
+    critical_depth: float,
+    updates: int,
+    done: Vector,
+) -> int:
+    """Wear the flank update by update, equations (10) to (12), in place.
+
+    As ``run_cycles`` under ``prescribed_contact``, but that neither frame nor points are
+    formed in between, and that the spacing of the stability limit is that of the arc.
+    ``work``: `OFFSET_ROWS` rows.
+    """
+    prepare_offset(depth, constants, columns, modulus, law, diffusion, cycles_per_update, work)
+    step, n, made = work[9], depth.size, 0
+    offset_step(depth, law[1], work)
+    soften(depth, law, step)
+    status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
+    while status == RUNNING and made < updates:
+        made += 1
+        reached = 0
+        for j in range(n):
+            depth[j] += step[j]
+            reached += 1 if depth[j] >= critical_depth else 0
+        if reached > 0:
+            status = DEPTH_REACHED
+        elif made < updates:
+            offset_step(depth, law[1], work)
+            soften(depth, law, step)
+            if offset_failures(work) > 0:
+                status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
+    for j in range(n):
+        x[j] -= (depth[j] - work[START, j]) * work[0, j]
+        y[j] -= (depth[j] - work[START, j]) * work[1, j]
+    done[0] = made
+    return status
