@@ -64,20 +64,53 @@ def strand_lines(results):
     for nodes in (201, 401):
         ratios = results[f"test_strand_reaches_its_goals[{nodes}]"]["extra_info"]
         to_c, to_numpy = ratios["to_c"], ratios["to_numpy"]
+        split, floor = ratios["to_c fissioned"], ratios["to_floor"]
         yield (
             f"- {nodes} nodes, fastest of nine runs taken in turn: {to_c:.3f} of plain C -O3 "
-            f"(goal 0.3: {reached(to_c, 0.3)}), {to_numpy:.0f} times as fast as NumPy"
+            f"(goal 0.3: {reached(to_c, 0.3)}), {split:.2f} of the split loops in C (goal 1.25: "
+            f"{reached(split, 1.25)}), {floor:.2f} of its 3 square roots and 5 divisions alone (goal 1.5: "
+            f"{reached(floor, 1.5)}), {to_numpy:.0f} times as fast as NumPy"
             + (f" (goal 20: {reached(20.0, to_numpy)})" if nodes == 201 else "")
         )
+
+
+def offset_lines(results):
+    """The cycle loop in offset form."""
+    names = ("kernel", "c fissioned", "c fast-math", "numpy", "floor")
+    head = ("points", "kernel, ns", "C in split loops", "C -ffast-math", "NumPy", "its root alone")
+    yield f"| {' | '.join(head)} | kernel to C |"
+    yield "|---|---|---|---|---|---|---|"
+    for nodes in (200, 500, 2000):
+        times = results[f"test_offset[{nodes}]"]["extra_info"]["nanoseconds"]
+        cells = " | ".join(f"{times[name]:.3f}" for name in names)
+        ratio = times["kernel"] / times["c fissioned"]
+        yield f"| {nodes} | {cells} | {ratio:.2f} (goal 1.25: {reached(ratio, 1.25)}) |"
+
+
+def many_lines(results):
+    """Many strand lives by `simulate_many`."""
+    yield "| 1000 lives | one thread, s | two, s | ratio | error of a life |"
+    yield "|---|---|---|---|---|"
+    for nodes, tolerance in ((200, "0.01"), (401, "0.0001")):
+        found = results[f"test_threads[{nodes}-{tolerance}]"]["extra_info"]
+        one, two = (found["seconds"][key] for key in ("1", "2"))
+        goal = f" (goal 0.25: {reached(two, 0.25)})" if nodes == 200 else ""
+        yield (
+            f"| {nodes} nodes, life_tolerance {tolerance} | {one:.3f} | {two:.3f}{goal} | "
+            f"{one / two:.2f} (goal 1.9: {reached(1.9, one / two)}) | {found['error']:.1g} |"
+        )
+    peaks = results["test_memory"]["extra_info"]["peak_MiB"]
+    yield ""
+    yield (
+        f"- peak of what Python and NumPy allocate: {peaks['500']:.1f} MiB at 500 lives, "
+        f"{peaks['2000']:.1f} MiB at 2000"
+    )
 
 
 def life_lines(results):
     """Other runs inside one process."""
     yield "| run | median |"
     yield "|---|---|"
-    for nodes in (200, 500):
-        time = per_point(results[f"test_prescribed_cycles[{nodes}]"])
-        yield f"| prescribed flank of benchmark B9, {nodes} rows | {time:.2f} ns per point-cycle |"
     for tolerance in ("0.001", "0.0001"):
         time = 1e3 * median(results[f"test_advance_reference_run[{tolerance}]"])
         yield f"| reference run by `advance`, 201 nodes, life_tolerance {tolerance} | {time:.1f} ms |"
@@ -100,6 +133,20 @@ def wrap_lines(results):
         f"{reached(time, 50.0)}), {ratio:.0f} times as fast as BFGS of SciPy on the same energy "
         f"(goal 50: {reached(50.0, ratio)})"
     )
+
+
+def wrap_life_lines(results):
+    """A whole life on a wrap and the shares of its compiled parts."""
+    found = results["test_wrap_life"]["extra_info"]
+    seconds = found["seconds"]
+    yield (
+        f"- {seconds:.2f} s of one core (goal 2: {reached(seconds, 2.0)}), {found['updates']} steps in "
+        f"the finest run, numerical error {100 * found['error']:.2g} %"
+    )
+    for name, share in found["shares"].items():
+        yield f"- {name}: {100 * share:.0f} %"
+    rest = 1.0 - sum(found["shares"].values())
+    yield f"- the rest, Python and NumPy between these and tables of the result: {100 * rest:.0f} %"
 
 
 def process_lines(results):
@@ -137,7 +184,20 @@ def lines(cpu, results):
     yield ""
     yield from strand_lines(results)
     yield ""
-    yield "## Other runs"
+    yield "## One loading cycle in offset form (benchmark B9, sliding distance given)"
+    yield ""
+    yield "Fastest of fifteen runs taken in turn, per point and cycle; C and NumPy give the kernel's"
+    yield "depth before they are timed."
+    yield ""
+    yield from offset_lines(results)
+    yield ""
+    yield "## Many lives"
+    yield ""
+    yield from many_lines(results)
+    yield ""
+    yield "## Lives"
+    yield ""
+    yield "How time and error of a life go together: work_precision.md."
     yield ""
     yield from life_lines(results)
     yield ""
@@ -146,6 +206,10 @@ def lines(cpu, results):
     yield "Warm starts from the answer at 0.001 % less elongation, cold from one place on the flank."
     yield ""
     yield from wrap_lines(results)
+    yield ""
+    yield "## A life on a wrap: chain no. 40, 19 teeth, 12 rollers, 16 phases, 15 000 h"
+    yield ""
+    yield from wrap_life_lines(results)
     yield ""
     yield "## Processes"
     yield ""

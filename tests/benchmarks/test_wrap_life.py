@@ -1,0 +1,70 @@
+"""A full life on a wrap, sprocket and chain coupled, on one core, and where its time goes.
+
+Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 16 phases, 15 000 h. Goal: 2 s.
+"""
+
+import os
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import wearsim
+from wearsim.geometry import roller_path
+from wearsim.mechanisms import wrap_cycle
+from wearsim.wear import bodies
+
+CASE = Path(__file__).parents[2] / "cases" / "a40-19t-rating.toml"
+PARTS = {
+    "rollers in equilibrium": (wrap_cycle, "wrap_events"),
+    "line of roller centres on the worn gap": (roller_path, "roller_locus"),
+    "pressure and wear of every roller": (bodies, "wear_events"),
+}
+
+
+@contextmanager
+def one_core():
+    """Keep this process on one core."""
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+@pytest.fixture
+def spent(monkeypatch):
+    """Seconds of a thread's own time spent in each of the compiled parts."""
+    seconds = dict.fromkeys(PARTS, 0.0)
+
+    def timed(name, function):
+        def run(*given):
+            begin = time.thread_time()
+            found = function(*given)
+            seconds[name] += time.thread_time() - begin
+            return found
+
+        return run
+
+    for name, (module, attribute) in PARTS.items():
+        monkeypatch.setattr(module, attribute, timed(name, getattr(module, attribute)))
+    return seconds
+
+
+def test_wrap_life(benchmark, spent):
+    case = wearsim.load_case(CASE, ["run.horizon_hours=15000"])
+    assert case.drive.phases == 16
+    wearsim.simulate(wearsim.load_case(CASE, ["run.horizon_hours=10"]))
+    spent.update(dict.fromkeys(spent, 0.0))
+    with one_core():
+        begin = time.process_time()
+        result = wearsim.simulate(case)
+        seconds = time.process_time() - begin
+    shares = {name: part / seconds for name, part in spent.items()}
+    benchmark.extra_info.update(
+        seconds=seconds, shares=shares, updates=result.updates, error=result.numerical_error
+    )
+    benchmark.pedantic(lambda: wearsim.simulate(case), rounds=1)
+    assert 0.2 < sum(shares.values()) < 1.0
