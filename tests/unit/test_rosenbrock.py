@@ -8,13 +8,25 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Kind
-from wearsim.kernels.rosenbrock import ERROR, GAMMA, RIGHT, STAGES, STATE, diffusion_rows
+from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.kernels.rosenbrock import (
+    ERROR,
+    GAMMA,
+    RIGHT,
+    STAGES,
+    STATE,
+    WORK_ROWS,
+    slope_rate,
+    wear_rows,
+)
 from wearsim.kernels.steps import STATE_ROWS, between
 from wearsim.kernels.tridiagonal import factorise, solve
+from wearsim.kernels.wear import flank_rate
 from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.law import archard
+from wearsim.wear.law import archard, power
 
 
 def dense(rows: np.ndarray) -> np.ndarray:
@@ -41,18 +53,61 @@ def test_solve_agrees_with_a_dense_one(n: int) -> None:
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-13)
 
 
-def test_rows_are_those_of_the_second_difference() -> None:
-    """Depth a s^2 on uneven points has the second derivative 2 a, ends included."""
+@pytest.mark.parametrize("slope", [0.0, -2e-6])
+def test_rows_are_those_of_the_differences(slope: float) -> None:
+    """Depth a s^2 on uneven points: second derivative 2 a, first 2 a s, ends included."""
     arc = np.array([0.0, 0.1, 0.25, 0.3, 0.5, 0.6, 0.75])
     start = np.zeros((STATE_ROWS, arc.size))
     start[0], start[3], start[6] = arc, 3e-6, 0.2
-    rows = np.zeros((4, arc.size))
-    diffusion_rows(start, 0.5, 1, rows)
-    expected = np.full(arc.size, 0.5 * 3e-6 / 0.2 * 2.0 * 0.7)
-    np.testing.assert_allclose(dense(rows[:3]) @ (0.7 * arc**2), expected, rtol=1e-12)
-    diffusion_rows(start, 0.5, 0, rows)
+    rows, slopes = np.zeros((4, arc.size)), np.full(arc.size, slope)
+    wear_rows(start, slopes, 0.5, 1, rows)
+    expected = 2.0 * 0.7 * (0.5 * 3e-6 / 0.2 + slope * arc)
+    np.testing.assert_allclose(dense(rows[:3]) @ (0.7 * arc**2), expected, rtol=1e-12, atol=1e-18)
+    slopes[[0, -1]] = 0.0
+    wear_rows(start, slopes, 0.5, 0, rows)
     expected[[0, -1]] = 0.0
-    np.testing.assert_allclose(dense(rows[:3]) @ (0.7 * arc**2), expected, rtol=1e-12)
+    np.testing.assert_allclose(dense(rows[:3]) @ (0.7 * arc**2), expected, rtol=1e-12, atol=1e-18)
+
+
+def test_matrix_is_the_derivative_of_the_rate() -> None:
+    """Against central differences of the rate of a strand's flank, moved point by point."""
+    strand = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
+    flank = evolute_flank(strand, 4.0, 30.67, 41).profile
+    contact = StrandMechanism(
+        strand=strand,
+        profile=flank,
+        contact_end=4.0,
+        contact_start=30.67,
+        pitch=25.4,
+        pull_per_width=300.0,
+        angular_speed=10.0,
+        slip_fraction=1.0,
+        modulus=1e5,
+    ).contact
+    law, points = power(1.0, 2.0), flank.x.size
+    numbers, work = law.unit_numbers(contact.kind), np.zeros((WORK_ROWS, points))
+    given = contact.constants, contact.columns, contact.modulus, numbers
+    state = np.array([flank.x, flank.y, np.zeros(points)])
+    flank_rate(contact.kernel, state, *given, work)
+    start = np.array([*state, work[9], work[0], work[1], work[7], work[2]])
+    slope_rate(contact.kernel, start, *given, work)
+    rows = np.zeros((4, points))
+    diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
+    wear_rows(start, work[10], diffusion, 1, rows)
+
+    def rate(way: np.ndarray) -> np.ndarray:
+        moved = np.array([flank.x - way * start[4], flank.y - way * start[5], way])
+        flank_rate(contact.kernel, moved, *given, work)
+        found: np.ndarray = work[9] * (work[0] * start[4] + work[1] * start[5])
+        return found
+
+    moves = 1e-7 * np.eye(points)
+    true = np.array([(rate(move) - rate(-move)) / 2e-7 for move in moves]).T
+    # The place itself, which is left out, changes the load on the steep ramp at the root.
+    most = np.abs(true).max()
+    np.testing.assert_allclose(dense(rows[:3]), true, rtol=0.0, atol=5e-3 * most)
+    wear_rows(start, 0.0 * work[10], diffusion, 1, rows)
+    assert np.abs(dense(rows[:3]) - true).max() > 0.05 * most
 
 
 def test_order_conditions() -> None:

@@ -67,7 +67,7 @@ def test_contact_ratio_falls_below_one_and_is_warned_of(reference: CaseMaker) ->
 def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float) -> None:
     """The same life within the tolerance and the same worn flank within 1e-5 of the depth."""
     stop = f"stop.critical_depth_mm={depth}"
-    advance = wearsim.simulate(reference(exponent, stop))
+    advance = wearsim.simulate(reference(exponent, stop, "run.life_tolerance=1e-6"))
     per_cycle = wearsim.simulate(reference(exponent, stop, PER_CYCLE))
     assert advance.cycles == pytest.approx(per_cycle.cycles, rel=1e-4)
     assert last_flank(advance).hausdorff_distance(last_flank(per_cycle)) < 1e-5 * depth

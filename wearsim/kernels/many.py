@@ -143,7 +143,8 @@ def wear_many(
                 if change <= 0.1 * numbers[i, LIFE_TOLERANCE]:
                     found[i, STATUS] = status
             ended, before = status, progress
-            tolerance *= 0.1
+            # Where the steps do not suffice a tighter run takes even more.
+            tolerance = 0.0 if status == RUNNING else 0.1 * tolerance
         status = flank_rate(
             contact, worn[i], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
         )

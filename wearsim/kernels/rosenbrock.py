@@ -2,8 +2,9 @@
 
 ROS34PW2 of Rang and Angermann, BIT 45 (2005) 761: four stages, order 3, embedded order 2,
 stiffly accurate, and of full order with any matrix in place of the Jacobian (a W-method).
-That matrix is here what makes the problem stiff, the diffusion of depth by the curvature:
-d(rate)/d(1/rho_H) = e rate rho_H times the second difference of the depth, tridiagonal.
+That matrix is here what makes the problem stiff, tridiagonal: the diffusion of depth by the
+curvature, d(rate)/d(1/rho_H) = e rate rho_H times the second difference of the depth, and what the
+rate follows of the slope, as the load does where it is shared or leans, times the first.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import STEP, TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.tridiagonal import factorise, solve
-from wearsim.kernels.wear import BROKEN, CONFORMING, flank_rate
+from wearsim.kernels.wear import BROKEN, CONFORMING, flank_rate, soften, wear_depth
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,6 +27,12 @@ WORK_ROWS = 19
 
 GAMMA = 4.3586652150845900e-01
 """Diagonal of the method, the root of x^3 - 3 x^2 + 3 x/2 - 1/6 that makes it L-stable."""
+
+TURN = 1e-6
+"""Angle by which the normals are turned for d(rate)/d(slope) [rad]."""
+
+MOST_RATIO = 1e3
+"""Of the third entry of an end row to that of the row beside it, which eliminates it."""
 
 STAGES = 4
 # fmt: off
@@ -49,13 +56,42 @@ A stage stands at y + STATE u and solves (I - gamma h A) u = gamma (h f + RIGHT 
 the last stage plus its increment, the error of it ERROR u."""
 
 
-@kernel(void(TABLE, float64, int64, TABLE))
-def diffusion_rows(start: Vector, diffusion: float, ends: int, rows: Vector) -> None:
-    """Write d(depth per cycle)/d(depth): ``diffusion`` rate rho_H times the second difference.
+@kernel(void(CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, TABLE))
+def slope_rate(
+    contact: Callable[..., None],
+    start: Vector,
+    constants: Vector,
+    columns: Vector,
+    modulus: float,
+    law: Vector,
+    work: Vector,
+) -> None:
+    """Write d(rate)/d(slope of the depth) of every point to ``work[10]``: the normals turn by the slope.
 
-    ``ends`` tells whether the curvature of the end points follows from the worn points;
-    it is that of their parabola. An end row is left to the explicit part of the method
-    where the row beside it diffuses less than half as fast. ``rows``: as ``factorise``
+    The contact is asked with all normals of a state of the path turned towards the tip.
+    """
+    n = start.shape[1]
+    for j in range(n):
+        work[0, j] = start[4, j] - TURN * start[5, j]
+        work[1, j] = start[5, j] + TURN * start[4, j]
+        work[2, j] = start[7, j]
+    contact(start[0], start[1], work[0], work[1], work[2], start[2], constants, columns,
+            work[4], work[5], work[6], work[7])  # fmt: skip
+    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
+    soften(start[2], law, work[9])
+    for j in range(n):
+        moved = (work[9, j] - start[3, j]) / TURN
+        work[10, j] = moved if start[3, j] > 0.0 and abs(moved) < math.inf else 0.0
+
+
+@kernel(void(TABLE, VECTOR, float64, int64, TABLE))
+def wear_rows(start: Vector, slope: Vector, diffusion: float, ends: int, rows: Vector) -> None:
+    """Write d(depth per cycle)/d(depth).
+
+    It is ``diffusion`` rate rho_H times the second difference and ``slope`` times the first,
+    both of the parabola through three points. ``ends`` tells whether curvature and slope of
+    the end points follow from the worn points; an end row whose third entry the row beside it
+    cannot eliminate is left to the explicit part of the method. ``rows``: as ``factorise``
     takes them, and the spacing.
     """
     x, y, rate, relative = start[0], start[1], start[3], start[6]
@@ -66,12 +102,12 @@ def diffusion_rows(start: Vector, diffusion: float, ends: int, rows: Vector) -> 
         spacing[j] = math.sqrt(ax * ax + ay * ay)
     for j in range(n):
         centre[j] = 2.0 * diffusion * rate[j] / relative[j] if rate[j] > 0.0 else 0.0
-    first = centre[0] if ends == 1 and centre[0] <= 2.0 * centre[1] else 0.0
-    last = centre[n - 1] if ends == 1 and centre[n - 1] <= 2.0 * centre[n - 2] else 0.0
+    first = centre[0] - slope[0] * spacing[0] if ends == 1 else 0.0
+    last = centre[n - 1] + slope[n - 1] * spacing[n - 2] if ends == 1 else 0.0
     for j in range(1, n - 1):
-        strength = centre[j] / (spacing[j - 1] + spacing[j])
-        before[j] = strength / spacing[j - 1]
-        after[j] = strength / spacing[j]
+        both = spacing[j - 1] + spacing[j]
+        before[j] = (centre[j] - slope[j] * spacing[j]) / (both * spacing[j - 1])
+        after[j] = (centre[j] + slope[j] * spacing[j - 1]) / (both * spacing[j])
     for j in range(1, n - 1):
         centre[j] = -(before[j] + after[j])
     near, far = spacing[0], spacing[1]
@@ -80,6 +116,15 @@ def diffusion_rows(start: Vector, diffusion: float, ends: int, rows: Vector) -> 
     near, far = spacing[n - 2], spacing[n - 3]
     last /= near + far
     centre[n - 1], before[n - 1], after[n - 1] = last / near, -last / near - last / far, last / far
+    if ends == 1:
+        step = slope[0] / spacing[0]
+        centre[0], after[0] = centre[0] - step, after[0] + step
+        step = slope[n - 1] / spacing[n - 2]
+        centre[n - 1], before[n - 1] = centre[n - 1] + step, before[n - 1] - step
+    if abs(before[0]) > MOST_RATIO * abs(after[1]):
+        centre[0], after[0], before[0] = 0.0, 0.0, 0.0
+    if abs(after[n - 1]) > MOST_RATIO * abs(before[n - 2]):
+        centre[n - 1], before[n - 1], after[n - 1] = 0.0, 0.0, 0.0
 
 
 @kernel(void(VECTOR, TABLE, int64, VECTOR))
@@ -156,7 +201,8 @@ def rosenbrock_step(
     """Make one step from a state of the path, to ``trial``; return its error, nan where it fails."""
     rows, factors = work[11:15], work[15:19]
     begin, to = start[:3].ravel(), trial.ravel()
-    diffusion_rows(start, diffusion, ends, rows)
+    slope_rate(contact, start, constants, columns, modulus, law, work)
+    wear_rows(start, work[10], diffusion, ends, rows)
     factorise(rows, GAMMA * step, factors)
     for j in range(start.shape[1]):
         work[9, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]

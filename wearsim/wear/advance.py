@@ -34,12 +34,12 @@ from wearsim.kernels.steps import (
     states_between,
     wear_in_steps,
 )
-from wearsim.kernels.wear import BROKEN, DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
+from wearsim.kernels.wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
 
-_CHUNK, MOST_STEPS = 64, 5_000
+_CHUNK, MOST_STEPS = 64, 10_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
 
 Table = NDArray[np.float64]
@@ -93,6 +93,10 @@ class _Solution:
         return self.end if self.met else float(self.state(self.end)[2].max())
 
 
+class _TooManyStepsError(ConvergenceError):
+    """A solve that does not end; a tighter one would take even more steps."""
+
+
 class _Solve:
     """One solve on its way: the compiled steps and the states that they have written."""
 
@@ -107,7 +111,7 @@ class _Solve:
     def run(self) -> _Solution:
         """Go on until a limit or the horizon ends it; raise what else does."""
         status, failing = RUNNING, None
-        while status == RUNNING and failing is None:
+        while status == RUNNING and failing is None and self.times.size <= MOST_STEPS:
             status = self._go_on()
             failing = self._first_failing()
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
@@ -136,7 +140,7 @@ class _Solve:
         self.times = np.concatenate([self.times[:-1], times[:written]])
         self.path = np.concatenate([self.path[:-1], path[:written]])
         self.written = written
-        return BROKEN if status == RUNNING and self.times.size > MOST_STEPS else int(status)
+        return int(status)
 
     def _first_failing(self) -> int | None:
         """Return the first of the new states at which a limit other than the depth fails."""
@@ -175,7 +179,8 @@ class _Solve:
             check_sawtooth(contact, depth, cycles, self.problem.criteria[0].limit)
         broken = ~np.isfinite(self.work[9])
         place = contact.arc_length[int((broken if broken.any() else self.path[-1, 3]).argmax())]
-        raise ConvergenceError(
+        kind = _TooManyStepsError if status == RUNNING else ConvergenceError
+        raise kind(
             f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
             'on, but stopped: use method = "per_cycle" or more nodes'
         )
@@ -240,6 +245,8 @@ def run_advance(
     while tolerance >= TIGHTEST:
         try:
             after = _Solve(problem, tolerance).run()
+        except _TooManyStepsError as error:
+            raise ConvergenceError(str(error)) from None
         except (ContactError, ConvergenceError) as error:
             # Loose steps may run past what the flank itself never does; tighter ones decide.
             before, failure = None, error
