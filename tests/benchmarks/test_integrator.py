@@ -15,7 +15,7 @@ from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.wear import DEPTH_REACHED
 from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
@@ -43,22 +43,6 @@ def b9_contact():
         flank_curvature=np.full(u.size, 1.0 / 39.1),
         roller_radius=6.035,
         modulus=math.pi * 0.418**2 * 2.1e5,
-    ).contact
-
-
-def strand_contact():
-    case = load_case(STRAND)
-    drive = case.drive
-    return StrandMechanism(
-        strand=drive.tooth.strand,
-        profile=drive.profile,
-        contact_end=drive.contact_end,
-        contact_start=drive.contact_start,
-        pitch=case.chain.pitch,
-        pull_per_width=drive.pull / drive.face_width,
-        angular_speed=2.0 * np.pi * drive.heaviest.speed_rpm / 60.0,
-        slip_fraction=drive.slip_fraction,
-        modulus=case.modulus,
     ).contact
 
 
@@ -102,7 +86,7 @@ def test_solve_of_b9(benchmark):
 
 def test_solve_of_the_strand(benchmark):
     """Against the loop over updates of 1000 cycles, some 15 000 of them, explicit and stable."""
-    contact = strand_contact()
+    contact = pointwise_mechanism(load_case(STRAND)).contact
     life = Solve(contact, 0.2, True).measured(benchmark) / 5e-11
     loop = run_per_cycle(contact, archard(5e-11), (depth_criterion(0.2),), 1e9, 1000)
     benchmark.extra_info["life_error"] = life / float(loop.cycles[-1]) - 1.0

@@ -93,12 +93,10 @@ def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vect
     list of str
         Sentences for the result.
     """
-    loaded = flank["load_per_width_N_per_mm"] > 0.0
-    widths = half_width(
-        flank["load_per_width_N_per_mm"][loaded],
-        flank["relative_curvature_per_mm"][loaded],
-        contact.modulus,
-    )
+    load, relative = flank["load_per_width_N_per_mm"], flank["relative_curvature_per_mm"]
+    # Between two steps an interpolated flank may conform where those of both steps do not.
+    touching = (load > 0.0) & (relative > 0.0)
+    widths = half_width(load[touching], relative[touching], contact.modulus)
     found = wide_contact(contact, float(widths.max()))
     spacing = float(np.diff(contact.arc_length).max())
     if spacing > np.median(widths):

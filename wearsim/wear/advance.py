@@ -37,7 +37,7 @@ from wearsim.kernels.steps import (
 from wearsim.kernels.wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
-from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
+from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _CHUNK, MOST_STEPS = 64, 10_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
@@ -106,28 +106,33 @@ class _Solve:
         self.state, self.clock = problem.start(), np.zeros(CLOCK)
         self.work = np.zeros((WORK_ROWS, points))
         self.increments = np.zeros((STAGES, 3 * points))
-        self.times, self.path = np.zeros(0), np.zeros((0, STATE_ROWS, points))
+        self.chunks: list[tuple[Vector, Table]] = []
 
     def run(self) -> _Solution:
         """Go on until a limit or the horizon ends it; raise what else does."""
         status, failing = RUNNING, None
-        while status == RUNNING and failing is None and self.times.size <= MOST_STEPS:
+        while status == RUNNING and failing is None and self._states() <= MOST_STEPS:
             status = self._go_on()
             failing = self._first_failing()
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
             self._refuse(status)
         met = self.problem.criteria[0] if status == DEPTH_REACHED else None
         end, rates = float(self.clock[END]), int(self.clock[RATES])
-        if failing is None:
-            return _Solution(self.times, self.path, end, met, rates)
-        times, path = self.times[: failing + 1], self.path[: failing + 1]
-        if failing + 1 < self.times.size:
-            end, met = float(times[-1]), None
-        return self._cut(_Solution(times, path, end, met, rates))
+        if failing is not None:
+            times, path = self.chunks[-1]
+            if failing + 1 < times.size:
+                end, met = float(times[failing]), None
+            self.chunks[-1] = times[: failing + 1], path[: failing + 1]
+        all_times, all_paths = zip(*self.chunks, strict=True)
+        solution = _Solution(np.concatenate(all_times), np.concatenate(all_paths), end, met, rates)
+        return solution if failing is None else self._cut(solution)
+
+    def _states(self) -> int:
+        return sum(times.size for times, _ in self.chunks)
 
     def _go_on(self) -> int:
         problem, contact = self.problem, self.problem.contact
-        times, path = np.empty(_CHUNK), np.empty((_CHUNK, *self.path.shape[1:]))
+        times, path = np.empty(_CHUNK), np.empty((_CHUNK, STATE_ROWS, self.state.shape[1]))
         self.clock[WRITTEN] = 0.0
         status = wear_in_steps(
             rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
@@ -137,16 +142,15 @@ class _Solve:
         )  # fmt: skip
         written = int(self.clock[WRITTEN])
         # The last state of a call is the first of the next.
-        self.times = np.concatenate([self.times[:-1], times[:written]])
-        self.path = np.concatenate([self.path[:-1], path[:written]])
-        self.written = written
+        new = 1 if self.chunks else 0
+        if written > new:
+            self.chunks.append((times[new:written], path[new:written]))
         return int(status)
 
     def _first_failing(self) -> int | None:
-        """Return the first of the new states at which a limit other than the depth fails."""
+        """Return the first state of the last chunk at which a limit other than the depth fails."""
         others = self.problem.criteria[1:]
-        for place in range(self.times.size - self.written, self.times.size):
-            x, y, depth = self.path[place, :3]
+        for place, (x, y, depth) in enumerate(self.chunks[-1][1][:, :3]):
             if any(criterion.margin(x, y, depth) <= 0.0 for criterion in others):
                 return place
         return None
@@ -166,19 +170,17 @@ class _Solve:
         return solution
 
     def _refuse(self, status: int) -> NoReturn:
-        contact, cycles = self.problem.contact, self.problem.cycles(float(self.times[-1]))
+        contact, (times, path) = self.problem.contact, self.chunks[-1]
+        cycles = self.problem.cycles(float(times[-1]))
         x, y, depth = self.state
         if np.isfinite(self.state).all():
             check_touch(contact, x, y, depth, cycles)
         if status == VANISHED:
-            raise ContactError(
-                f"contact at cycle {cycles:.6g}: the loaded points must slide, but none does: "
-                "without sliding there is no wear and no life"
-            )
+            raise no_sliding(cycles)
         if status == TOOTHED:
             check_sawtooth(contact, depth, cycles, self.problem.criteria[0].limit)
         broken = ~np.isfinite(self.work[9])
-        place = contact.arc_length[int((broken if broken.any() else self.path[-1, 3]).argmax())]
+        place = contact.arc_length[int((broken if broken.any() else path[-1, 3]).argmax())]
         kind = _TooManyStepsError if status == RUNNING else ConvergenceError
         raise kind(
             f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "

@@ -11,12 +11,12 @@ import numpy as np
 
 from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
-from wearsim.errors import ContactError, ConvergenceError
+from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
-from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch
+from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _BLOCK = 50_000
 """Updates between two looks at the keyboard: compiled code does not see an interrupt."""
@@ -82,10 +82,7 @@ class _Run:
             status = self._block(depth, min(_BLOCK, last - self.updates))
         if status in (CONFORMING, VANISHED):
             check_touch(self.contact, self.x, self.y, self.depth, self.cycles)
-            raise ContactError(
-                f"contact at cycle {self.cycles:.6g}: the loaded points must slide, but none does: "
-                "without sliding there is no wear and no life"
-            )
+            raise no_sliding(self.cycles)
         if status == UNSTABLE:
             self._refuse()
         if status == BROKEN:

@@ -102,6 +102,25 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
         )
 
 
+def no_sliding(cycles: float) -> ContactError:
+    """Return the error of a flank that is loaded where nothing slides.
+
+    Parameters
+    ----------
+    cycles : float
+        Loading cycles so far.
+
+    Returns
+    -------
+    ContactError
+        With the cycle.
+    """
+    return ContactError(
+        f"contact at cycle {cycles:.6g}: the loaded points must slide, but none does: without sliding "
+        "there is no wear and no life"
+    )
+
+
 def check_fold(contact: Contact, run: Trajectory) -> None:
     """Raise where the worn flank crosses itself.
 

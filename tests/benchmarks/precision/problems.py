@@ -5,7 +5,7 @@ compiled call alone, or of SciPy's loop with everything that it calls.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from time import perf_counter
 
 import integrators
@@ -20,7 +20,7 @@ from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.wear import DEPTH_REACHED, soften, wear_depth
 from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import Law, archard, power
 from wearsim.wear.per_cycle import run_per_cycle
@@ -57,7 +57,7 @@ class Problem:
 
     @property
     def numbers(self):
-        return replace(self.law, coefficient=1.0).numbers(self.contact.kind)
+        return self.law.unit_numbers(self.contact.kind)
 
     @property
     def diffusion(self):
@@ -96,19 +96,8 @@ def b9(nodes):
 def strand(exponent, nodes):
     """Chain 16B-1 on 20 teeth with an evolute flank, pressure exponent m."""
     case = load_case(STRAND, [f"sprocket.nodes={nodes}"])
-    drive = case.drive
-    mechanism = StrandMechanism(
-        strand=drive.tooth.strand,
-        profile=drive.profile,
-        contact_end=drive.contact_end,
-        contact_start=drive.contact_start,
-        pitch=case.chain.pitch,
-        pull_per_width=drive.pull / drive.face_width,
-        angular_speed=2.0 * np.pi * drive.heaviest.speed_rpm / 60.0,
-        slip_fraction=drive.slip_fraction,
-        modulus=case.modulus,
-    )
-    return Problem(mechanism.contact, power(5e-11 / 800.0 ** (exponent - 1.0), exponent), 0.2, 1)
+    contact = pointwise_mechanism(case).contact
+    return Problem(contact, power(5e-11 / 800.0 ** (exponent - 1.0), exponent), 0.2, 1)
 
 
 class Compiled:
