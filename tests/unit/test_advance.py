@@ -12,10 +12,10 @@ import pytest
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.wear.accuracy import difference, grid_error
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.law import archard
+from wearsim.wear.trajectory import difference
 
 ROLLER, MODULUS, LOAD = 5.0, 1e5, 200.0
 SIGMA = math.sqrt(LOAD * MODULUS / (math.pi * ROLLER))
@@ -130,11 +130,3 @@ def test_difference_of_two_runs() -> None:
     short, _ = run_advance(contact(), LAW, LIMIT, 1e4, 1e-4)
     shorter, _ = run_advance(contact(path=1.25), LAW, LIMIT, 1e4, 1e-4)
     assert difference(short, shorter) == pytest.approx(0.25, rel=1e-9)
-
-
-def test_grid_error_is_the_move_of_the_life_on_half_the_points() -> None:
-    given = contact(81, ripple=-0.5)
-    run, _ = run_advance(given, LAW, LIMIT, 1e9, 1e-6)
-    half, _ = run_advance(contact(41, ripple=-0.5), LAW, LIMIT, 1e9, 1e-6)
-    expected = abs(half.cycles[-1] / run.cycles[-1] - 1.0)
-    assert grid_error(run, given, LAW, LIMIT, 1e9, 1e-6) == pytest.approx(expected, rel=1e-2)

@@ -61,6 +61,44 @@ def test_running_in_is_the_integral_of_its_coefficient(
     assert warp.running_cycles(np.array([worn]))[0] == pytest.approx(run, rel=1e-9, abs=1e-12)
 
 
+@pytest.mark.parametrize("factor", [1.0, 1.2, 3.0, 10.0, 30.0])
+def test_amplification_is_the_greatest_change_of_the_cycles_run(factor: float) -> None:
+    """Over that of the constant cycles: from differences of both."""
+    warp = RunningIn(factor, 100.0)
+    constant = np.geomspace(0.1, 1e8, 20001)
+    moved = np.diff(np.log(warp.running_cycles(constant))) / np.diff(np.log(constant))
+    assert warp.amplification == pytest.approx(moved.max(), rel=1e-3)
+
+
+def test_running_in_does_not_follow_the_density_of_the_rows(tmp_path: Path) -> None:
+    """The mean path is that over the arc length: 0.75 of a path that grows from 0.5 to 1."""
+    lives = []
+    for power in (1.0, 3.0):
+        arc = 10.0 * np.linspace(0.0, 1.0, 81) ** power
+        rows = [f"{s!r},100,0,{0.5 + 0.05 * s!r}" for s in arc.tolist()]
+        head = "arc_length_mm,load_per_width_N_per_mm,flank_curvature_per_mm,sliding_distance_mm"
+        (tmp_path / "rows.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
+        tables = {
+            "format_version": 1,
+            "chain": {"designation": "16B-1"},
+            "mechanism": {"kind": "prescribed", "table_file": str(tmp_path / "rows.csv")},
+            "load": {"speed_rpm": 100},
+            "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+            "stop": {"critical_depth_mm": 0.05},
+            "run": {"life_tolerance": 1e-4},
+        }
+        plain = wearsim.simulate(wearsim.load_case(tables))
+        way = 0.75 * plain.cycles
+        settings = ("wear.running_in_factor=3", f"wear.running_in_distance_mm={way!r}")
+        run = wearsim.simulate(wearsim.load_case(tables, settings))
+        warp = RunningIn(3.0, plain.cycles)
+        assert run.cycles == pytest.approx(
+            warp.running_cycles(np.array([plain.cycles]))[0], rel=1e-3
+        )
+        lives.append(run.cycles)
+    assert lives[1] == pytest.approx(lives[0], rel=2e-3)
+
+
 def test_no_running_in_changes_no_digit() -> None:
     cycles = np.array([0.1, 3.7, 1e9 / 3.0])
     np.testing.assert_array_equal(CONSTANT.running_cycles(cycles), cycles)
@@ -69,10 +107,20 @@ def test_no_running_in_changes_no_digit() -> None:
 
 @pytest.mark.parametrize("life", [strand, wrap])
 def test_running_in_shortens_a_life_by_what_it_wore_too_much(life: Any) -> None:
-    """Over a distance far below that of the life the cost is (f - 1) N_r cycles."""
-    plain = life()
-    short = life("wear.running_in_factor=4", "wear.running_in_distance_mm=10")
-    twice = life("wear.running_in_factor=7", "wear.running_in_distance_mm=10")
+    """Over a distance far below that of the life the cost is (f - 1) N_r cycles.
+
+    The tolerances are those that make all three the same run over cycles of constant coefficient.
+    """
+
+    def runs_in(factor: float) -> WearResult:
+        tolerance = 5e-3 * RunningIn(factor, 1.0).amplification
+        return life(
+            f"wear.running_in_factor={factor}",
+            "wear.running_in_distance_mm=10",
+            f"run.life_tolerance={tolerance!r}",
+        )
+
+    plain, short, twice = life("run.life_tolerance=5e-3"), runs_in(4.0), runs_in(7.0)
     lost = plain.cycles - short.cycles if hasattr(plain.life, "hours") else 0.0
     assert lost > 0.0
     assert plain.cycles - twice.cycles == pytest.approx(2.0 * lost, rel=1e-6)

@@ -37,8 +37,9 @@ LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""
 
 STATUS, TIME_RUN, CHANGE, WIDEST = range(4)
-"""Of what is found: what ended the last run, its time, relative difference of the last two lives,
-greatest q rho_H of the new and of the last flank (half-width squared times pi E*/4)."""
+"""Of what is found: what ended the last run, its time, relative difference of the last two lives or
+of the depths at the horizon, greatest q rho_H of the new and of the last flank (half-width squared
+times pi E*/4)."""
 
 
 @kernel(float64(TABLE))
@@ -48,6 +49,16 @@ def widest(work: Vector) -> float:
     for j in range(work.shape[1]):
         greatest = max(greatest, work[4, j] / work[7, j] if work[4, j] > 0.0 else 0.0)
     return greatest
+
+
+@kernel(float64(VECTOR, VECTOR))
+def depth_change(depth: Vector, before: Vector) -> float:
+    """Return the greatest difference over the greatest depth."""
+    change, deepest = 0.0, 0.0
+    for j in range(depth.size):
+        change = max(change, abs(depth[j] - before[j]))
+        deepest = max(deepest, depth[j])
+    return change / deepest
 
 
 @kernel(
@@ -118,6 +129,8 @@ def wear_many(
 ) -> None:
     """Find the life of every flank: first index of all arrays but those to work in.
 
+    ``worn``: x, y and depth in the end, and a row to work in.
+
     A life stands where two runs, one with a tenth of the other's tolerance, differ by at
     most a tenth of the tolerance of the life; where none do, the status is RUNNING.
     """
@@ -131,22 +144,21 @@ def wear_many(
         while tolerance >= TIGHTEST and found[i, STATUS] == RUNNING:
             status = run_once(
                 make_step, contact, starts[i], constants[i], columns[i], numbers[i], laws[i], ends,
-                tolerance, most, worn[i], work, increments, clock, times, path,
+                tolerance, most, worn[i, :3], work, increments, clock, times, path,
             )  # fmt: skip
-            progress = clock[END]
-            if status == HORIZON:
-                progress = 0.0
-                for j in range(worn.shape[2]):
-                    progress = max(progress, worn[i, 2, j])
             if status == ended and status in (DEPTH_REACHED, HORIZON):
-                change = abs(progress / before - 1.0)
+                if status == HORIZON:
+                    change = depth_change(worn[i, 2], worn[i, 3])
+                else:
+                    change = abs(clock[END] / before - 1.0)
                 if change <= 0.1 * numbers[i, LIFE_TOLERANCE]:
                     found[i, STATUS] = status
-            ended, before = status, progress
+            ended, before = status, clock[END]
+            worn[i, 3] = worn[i, 2]
             # Where the steps do not suffice a tighter run takes even more.
             tolerance = 0.0 if status == RUNNING else 0.1 * tolerance
         status = flank_rate(
-            contact, worn[i], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
+            contact, worn[i, :3], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
         )
         if status != RUNNING:
             found[i, STATUS] = RUNNING

@@ -13,7 +13,8 @@ from wearsim.case.model import Case, WrapDrive
 from wearsim.contact.engagement import Mechanism
 from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
-from wearsim.simulation.pointwise import pointwise_mechanism, problem
+from wearsim.simulation.pointwise import pointwise_mechanism
+from wearsim.simulation.task import task
 from wearsim.simulation.validity import few_cycles, low_contact_ratio, wide_contact
 from wearsim.wear.many import Flank, Worn, advance_many
 from wearsim.wear.running_in import RunningIn
@@ -142,14 +143,14 @@ def _job(case: Case) -> _Job | None:
     if isinstance(case.drive, WrapDrive) or case.run.method != "advance":
         return None
     mechanism = pointwise_mechanism(case)
-    law, criteria, warp, horizon = problem(case, mechanism)
-    if len(criteria) > 1:
+    asked = task(case, mechanism.contact)
+    if len(asked.criteria) > 1:
         return None
+    limit, coefficient = asked.criteria[0], asked.law.coefficient
     flank = Flank(
-        mechanism.contact, law, criteria[0].limit, horizon * law.coefficient,
-        case.run.life_tolerance,
-    )  # fmt: skip
-    return _Job(case, mechanism, flank, criteria[0].name, warp, law.coefficient)
+        asked.contact, asked.law, limit.limit, asked.horizon * coefficient, asked.life_tolerance
+    )
+    return _Job(case, mechanism, flank, limit.name, asked.running_in, coefficient)
 
 
 def _submit(pool: ThreadPoolExecutor, jobs: list[_Job | None]) -> list[_Batch]:
@@ -197,7 +198,8 @@ def _life(job: _Job, worn: Worn) -> CaseLife:
     ratio = np.array([job.mechanism.worn_contact_ratio(worn.x, worn.y)])
     warnings += low_contact_ratio(np.array([life.hours_run]), ratio)
     stop = job.limit if reached else "horizon_hours"
-    return CaseLife(job.case.name, life, stop, worn.change, tuple(warnings))
+    error = worn.change * job.running_in.amplification
+    return CaseLife(job.case.name, life, stop, error, tuple(warnings))
 
 
 def _alone(case: Case) -> CaseLife | WearsimError:

@@ -1,26 +1,21 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 
 from wearsim.case.model import Case, PrescribedDrive, StrandDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
-from wearsim.contact.hertz import half_width, peak_pressure
+from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
-from wearsim.simulation.limits import limit_states, tooth_criteria
+from wearsim.simulation.law import running_in_assumptions
+from wearsim.simulation.limits import limit_states
+from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
-from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import Criterion
-from wearsim.wear.duty import DutyPart, equivalent_factor
-from wearsim.wear.law import Law
-from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
@@ -45,17 +40,14 @@ def simulate_points(case: Case) -> WearResult:
         The life would be wrong.
     """
     mechanism = pointwise_mechanism(case)
-    law, criteria, warp, horizon = problem(case, mechanism)
+    asked = task(case, mechanism.contact)
     warnings = list(case.warnings)
-    run, step_error = _run(case, mechanism.contact, law, criteria, horizon, warnings)
+    run, step_error = _run(case, asked, warnings)
     check_fold(mechanism.contact, run)
-    error = step_error + _grid_error(
-        case, mechanism.contact, law, criteria, horizon, run, step_error, warnings
-    )
-    run = replace(run, cycles=warp.running_cycles(run.cycles))
+    error = step_error + _grid_error(case, mechanism.contact, run, step_error, warnings)
     history, flank = _tables(case, mechanism, run)
     warnings += validity(mechanism.contact, history, flank)
-    low, high = _band(case, mechanism.contact, criteria, run, horizon, warp, warnings)
+    low, high = _band(case, asked, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
     deepest = int(run.depth[-1].argmax())
@@ -82,10 +74,10 @@ def simulate_points(case: Case) -> WearResult:
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts={},
-        limits=limit_states(criteria, run.x[-1], run.y[-1], run.depth[-1]),
+        limits=limit_states(asked.criteria, run.x[-1], run.y[-1], run.depth[-1]),
         assumptions=(
             *mechanism.assumptions(),
-            *running_in_assumptions(warp),
+            *running_in_assumptions(asked.running_in),
             *case.assumptions,
         ),
         warnings=tuple(warnings),
@@ -95,30 +87,6 @@ def simulate_points(case: Case) -> WearResult:
         flank_columns=flank,
         environment=environment(),
     )
-
-
-def problem(
-    case: Case, mechanism: Mechanism
-) -> tuple[Law, tuple[Criterion, ...], RunningIn, float]:
-    """Return what a case asks of the wear engine.
-
-    Parameters
-    ----------
-    case : Case
-        On a strand or under a table of loads.
-    mechanism : Mechanism
-        Of the case.
-
-    Returns
-    -------
-    tuple of Law, tuple of Criterion, RunningIn and float
-        Law, limits, running-in and horizon in cycles of constant coefficient.
-    """
-    runs_in = case.wear.running_in_factor != 1.0
-    sliding = _sliding_per_cycle(case, mechanism.contact) if runs_in else 0.0
-    warp = running_in(case.wear, sliding)
-    horizon = warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
-    return _law(case), tooth_criteria(case), warp, horizon
 
 
 def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
@@ -136,9 +104,8 @@ def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     GridStudy
         Of the three runs.
     """
-    mechanism = pointwise_mechanism(case)
-    law, criteria, _, horizon = problem(case, mechanism)
-    return grid_study(mechanism.contact, law, criteria, horizon, life_tolerance)
+    tight = replace(case, run=replace(case.run, life_tolerance=life_tolerance))
+    return grid_study(pointwise_mechanism(case).contact, lambda grid: task(tight, grid).run()[0])
 
 
 def pointwise_mechanism(case: Case) -> Mechanism:
@@ -196,57 +163,19 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
     )
 
 
-def _law(case: Case, factor: float = 1.0) -> Law:
-    """Return the law with its coefficient times a factor and for the mean over the duty."""
-    law = wear_law(case.wear, case.wear.coefficient * factor)
-    if not isinstance(case.drive, StrandDrive):
-        return law
-    most = case.drive.heaviest
-    parts = [
-        DutyPart(
-            block.share,
-            block.tension / most.tension,
-            block.speed_rpm / most.speed_rpm,
-            block.wear_factor,
-        )
-        for block in case.drive.blocks
-    ]
-    equivalent = equivalent_factor(law, Kind.TRAVELLING, parts)
-    return replace(law, coefficient=law.coefficient * equivalent)
-
-
-def _sliding_per_cycle(case: Case, contact: Contact) -> float:
-    """Mean path that a loaded point of the new flank slides in a cycle of the duty [mm]."""
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
-    loaded = touch.load_per_width > 0.0
-    slip = touch.slip[loaded]
-    if contact.kind is Kind.TRAVELLING:
-        load, relative = touch.load_per_width[loaded], touch.relative_curvature[loaded]
-        slip = slip * 2.0 * half_width(load, np.maximum(relative, 1e-9), contact.modulus)
-    path = float(slip.mean()) if slip.size else 0.0
-    if not isinstance(case.drive, StrandDrive):
-        return path
-    # The width of the contact goes with the root of the load.
-    most, blocks = case.drive.pull, case.drive.blocks
-    return path * math.fsum(block.share * math.sqrt(block.tension / most) for block in blocks)
-
-
-def _run(
-    case: Case,
-    contact: Contact,
-    law: Law,
-    criteria: tuple[Criterion, ...],
-    horizon: float,
-    warnings: list[str],
-) -> tuple[Trajectory, float]:
+def _run(case: Case, asked: Task, warnings: list[str]) -> tuple[Trajectory, float]:
+    """Return the run of a case, and the error of its steps."""
     if case.run.method == "advance":
-        return run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+        return asked.run()
     from wearsim.wear.per_cycle import run_per_cycle
 
-    run = run_per_cycle(contact, law, criteria, horizon, case.run.cycles_per_update)
+    run = asked.run_in(
+        run_per_cycle(
+            asked.contact, asked.law, asked.criteria, asked.horizon, case.run.cycles_per_update
+        )
+    )
     try:
-        check, change = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+        check, change = asked.run()
     except WearsimError as reason:
         warnings.append(
             f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
@@ -256,19 +185,12 @@ def _run(
 
 
 def _grid_error(
-    case: Case,
-    contact: Contact,
-    law: Law,
-    criteria: tuple[Criterion, ...],
-    horizon: float,
-    run: Trajectory,
-    step_error: float,
-    warnings: list[str],
+    case: Case, contact: Contact, run: Trajectory, step_error: float, warnings: list[str]
 ) -> float:
     """Return the error of the grid, and warn where it and that of the steps are too large."""
     tolerance = case.run.life_tolerance
     try:
-        error = grid_error(run, contact, law, criteria, horizon, tolerance)
+        error = grid_error(run, contact, lambda grid: task(case, grid).run()[0])
     except WearsimError as reason:
         warnings.append(
             f"the error of the grid could not be estimated on half the points, 100 % is stated: {reason}"
@@ -328,30 +250,24 @@ def _tables(
 
 
 def _band(
-    case: Case,
-    contact: Contact,
-    criteria: tuple[Criterion, ...],
-    run: Trajectory,
-    horizon: float,
-    warp: RunningIn,
-    warnings: list[str],
+    case: Case, asked: Task, run: Trajectory, warnings: list[str]
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
     if isinstance(life, Life):
-        constant = warp.constant_cycles(life.cycles)
+        constant = asked.running_in.constant_cycles(life.cycles)
         factors = np.array([case.wear.high, case.wear.low])
-        low, high = warp.running_cycles(constant / factors).tolist()
+        low, high = asked.running_in.running_cycles(constant / factors).tolist()
         return Life(low, low / case.cycles_per_hour), Life(high, high / case.cycles_per_hour)
-    law = _law(case, case.wear.high)
+    law = replace(asked.law, coefficient=case.wear.high * asked.law.coefficient)
     try:
-        worse, _ = run_advance(contact, law, criteria, horizon, case.run.life_tolerance)
+        worse, _ = replace(asked, law=law).run()
     except WearsimError as reason:
         # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
         cycles = float(run.cycles[-1]) / case.wear.high
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
-    return _life(case, replace(worse, cycles=warp.running_cycles(worse.cycles))), life
+    return _life(case, worse), life
 
 
 def _life(case: Case, run: Trajectory) -> Life | LowerBound:

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
+from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
@@ -24,10 +25,10 @@ from wearsim.wear.accuracy import GridStudy, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
-from wearsim.wear.halving import halve_steps, run_together
+from wearsim.wear.halving import advance_dwelling, halve_steps, run_together
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
-from wearsim.wear.trajectory import difference
+from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
@@ -143,8 +144,15 @@ def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> Grid
         Of the three runs.
     """
     contact = wrap_contact(case, drive)
-    law, criteria, horizon = _problem(case, contact)
-    return grid_study(contact.thinned(), law, criteria, horizon, life_tolerance)
+    run_on = partial(_on_grid, *_problem(case, contact), life_tolerance)
+    return grid_study(contact.thinned(), run_on)
+
+
+def _on_grid(
+    law: Law, criteria: tuple[Criterion, ...], horizon: float, life_tolerance: float, grid: Dwelling
+) -> Trajectory:
+    run, _ = advance_dwelling(grid, law, criteria, horizon, life_tolerance)
+    return replace(run, cycles=law.running_in.running_cycles(run.cycles))
 
 
 def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
@@ -263,18 +271,18 @@ def _run(
     progress: Callable[[float], None],
 ) -> tuple[DwellingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
-    tolerance = case.run.life_tolerance
+    amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
     thin = contact.thinned()
     levels = ((thin, 1), (thin.coarsened(), 1), (thin, 0))
     fine, sparse, coarse = run_together(levels, law, criteria, horizon, progress=progress)
     run, error = halve_steps(
-        thin, law, criteria, horizon, tolerance, (coarse, fine), progress=progress
+        thin, law, criteria, horizon, tolerance / amplification, (coarse, fine), progress=progress
     )
     if case.run.method == "per_cycle":
         check = run
         run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]), progress)
         error += difference(run, check)
-    error += difference(fine, sparse)
+    error = amplification * (error + difference(fine, sparse))
     if error > tolerance:
         warnings.append(
             f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"

@@ -87,10 +87,16 @@ class _Solution:
         found: Table = self.states(np.array([time]))[0]
         return found
 
-    @property
-    def progress(self) -> float:
-        """What two solves are compared by: the life, or the depth at the horizon."""
-        return self.end if self.met else float(self.state(self.end)[2].max())
+    def change(self, before: "_Solution") -> float:
+        """Return the relative difference from a solve that met the same limit.
+
+        It is that of the lives; at the horizon the greatest of all depths there, over the
+        greatest depth: that of one point alone may be small by accident.
+        """
+        if self.met:
+            return abs(self.end / before.end - 1.0)
+        depth, other = self.state(self.end)[2], before.state(before.end)[2]
+        return float(np.abs(depth - other).max() / depth.max())
 
 
 class _TooManyStepsError(ConvergenceError):
@@ -254,7 +260,7 @@ def run_advance(
             before, failure = None, error
         else:
             if before is not None and before.met == after.met:
-                change = abs(after.progress / before.progress - 1.0)
+                change = after.change(before)
                 if change <= 0.1 * life_tolerance:
                     return _trajectory(problem, after), change
             before = after

@@ -98,7 +98,7 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
         )
         for flank in flanks
     ]
-    worn, found = np.empty_like(starts), np.empty((len(flanks), 4))
+    worn, found = np.empty((len(flanks), 4, points)), np.empty((len(flanks), 4))
     wear_many(
         rosenbrock_step, one.kernel, starts, np.array([contact.constants for contact in contacts]),
         np.array([contact.columns for contact in contacts]), np.array(numbers),
