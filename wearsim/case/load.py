@@ -1,19 +1,16 @@
 """Reading a case: from a file or a mapping, with overrides, to a complete Case."""
 
 import copy
-import re
-import tomllib
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
+from wearsim.case.document import Source, read_document
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case
 from wearsim.case.resolve import resolve
 from wearsim.case.schema import CaseTables
-from wearsim.errors import CaseError, Fault
 
 _STAND_INS: dict[str, Any] = {
     "format_version": 1,
@@ -24,7 +21,7 @@ _STAND_INS: dict[str, Any] = {
 """What takes the place of a faulty part while the others are looked at."""
 
 
-def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str] = ()) -> Case:
+def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
     """Return the case of an input file or of a mapping with the same tables.
 
     Parameters
@@ -57,17 +54,8 @@ def load_case(source: "str | Path | Mapping[str, Any]", overrides: Sequence[str]
     >>> case.cycles_per_hour
     6000.0
     """
-    if isinstance(source, Mapping):
-        name, text, folder = "case", "", Path()
-        data = copy.deepcopy(dict(source))
-    else:
-        path = Path(source)
-        name, folder = path.stem, path.parent
-        text, data = _read(path)
-    file = "case" if isinstance(source, Mapping) else str(source)
-    faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
-    for item in overrides:
-        _override(data, item)
+    document = read_document(source, overrides)
+    name, folder, data, faults = document.name, document.folder, document.data, document.faults
     _check_load(data, faults)
     try:
         tables = CaseTables.model_validate(data)
@@ -122,48 +110,3 @@ def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
     if wrong & {"load", "duty"}:
         wrong |= {"load"} | ({"duty"} & data.keys())
     return wrong | {"stop"} if "sprocket" in wrong else wrong
-
-
-def _read(path: Path) -> tuple[str, dict[str, Any]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise CaseError(
-            [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
-        ) from None
-    except UnicodeDecodeError:
-        raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
-    try:
-        return text, tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        place = re.search(r"\(at line (\d+), column \d+\)", str(error))
-        line = int(place.group(1)) if place else text.count("\n") + 1
-        raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
-    except (ValueError, RecursionError) as error:
-        raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
-
-
-def _bare(raw: str) -> float | str:
-    """Return what is not TOML: a number such as .5, else the text itself."""
-    try:
-        return float(raw)
-    except ValueError:
-        return raw
-
-
-def _override(data: dict[str, Any], item: str) -> None:
-    key, equals, raw = item.partition("=")
-    key, raw = key.strip(), raw.strip()
-    if not equals or not all(key.split(".")):
-        raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
-    try:
-        value = tomllib.loads(f"value = {raw}")["value"]
-    except (ValueError, RecursionError):
-        value = _bare(raw)
-    *tables, last = key.split(".")
-    place: Any = data
-    for table in tables:
-        place = place.setdefault(table, {})
-        if not isinstance(place, dict):
-            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
-    place[last] = value

@@ -21,6 +21,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
 _EXAMPLES = """\b
@@ -54,6 +55,7 @@ for _command in (
     compare,
     maintain,
     remaining,
+    wave_drive,
     init,
     schema,
     list_table,

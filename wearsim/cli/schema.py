@@ -9,19 +9,33 @@ from wearsim.cli.standard import standard
 
 @click.command(short_help="JSON Schema of the input file or of the result.")
 @click.option("--result", "of_result", is_flag=True, help="Of what life --json prints instead.")
+@click.option(
+    "--of",
+    "command",
+    metavar="COMMAND",
+    help="Of the input of a calculation such as wave-drive instead.",
+)
 @standard
-def schema(of_result: bool) -> None:
+def schema(of_result: bool, command: str | None) -> None:
     """Print the JSON Schema of the input file; editors complete and check .toml files with it."""
+    if of_result and command:
+        raise click.UsageError("give --result or --of, not both")
     if of_result:
         from importlib.resources import files
 
         click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
         return
     from wearsim.case.schema import CaseTables
+    from wearsim.case.schema.calculations import CALCULATIONS
 
+    if command and command not in CALCULATIONS:
+        raise click.BadParameter(
+            f"must be one of {', '.join(CALCULATIONS)}, not {command}", param_hint="--of"
+        )
+    model = CALCULATIONS[command] if command else CaseTables
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **CaseTables.model_json_schema(),
-        "title": "wearsim case",
+        **model.model_json_schema(),
+        "title": f"wearsim {command or 'case'}",
     }
     click.echo(json.dumps(content, indent=2))

@@ -1,9 +1,8 @@
 """The whole input file, one module a table."""
 
-from typing import Annotated, Literal
+from pydantic import Field
 
-from pydantic import BeforeValidator, Field
-
+from wearsim.case.schema.calculation import FormatVersion
 from wearsim.case.schema.chain import ChainTable
 from wearsim.case.schema.drive import DriveTable
 from wearsim.case.schema.duty import DutyBlock
@@ -39,16 +38,10 @@ __all__ = [
 ]
 
 
-def _whole(value: object) -> object:
-    if type(value) is not int:
-        raise ValueError("must be 1")
-    return value
-
-
 class CaseTables(Table):
     """The tables of an input file as they were given."""
 
-    format_version: Annotated[Literal[1], BeforeValidator(_whole)]
+    format_version: FormatVersion
     title: str = ""
     chain: ChainTable
     sprocket: SprocketTable | None = None

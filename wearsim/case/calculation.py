@@ -1,0 +1,43 @@
+"""Reading the input of a calculation that is no drive: its own tables, checked in one pass."""
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from wearsim.case.document import Source, read_document
+from wearsim.case.schema.calculation import CalculationTables
+
+Tables = TypeVar("Tables", bound=CalculationTables)
+
+
+def load_calculation(source: Source, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
+    """Return the tables of a calculation.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A TOML file, or its tables as dictionaries.
+    model : type
+        The tables that it must hold.
+    overrides : sequence of str
+        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    CalculationTables
+        Of the model; its title is the name of the file where none is given.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input, with file and line.
+    """
+    document = read_document(source, overrides)
+    document.data.setdefault("title", document.name)
+    try:
+        return model.model_validate(document.data)
+    except ValidationError as error:
+        document.faults.add_validation(error, model)
+        document.faults.check()
+        raise

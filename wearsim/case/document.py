@@ -1,0 +1,115 @@
+"""An input file or a mapping with overrides, before anything is checked."""
+
+import copy
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wearsim.case.messages import Faults
+from wearsim.errors import CaseError, Fault
+
+Source = str | Path | Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Document:
+    """What stands in an input file.
+
+    Attributes
+    ----------
+    name : str
+        Stem of the file.
+    folder : pathlib.Path
+        Folder that paths in it are relative to.
+    data : dict
+        Its tables with the overrides.
+    faults : Faults
+        Takes what is wrong with it.
+    """
+
+    name: str
+    folder: Path
+    data: dict[str, Any]
+    faults: Faults
+
+
+def read_document(source: Source, overrides: Sequence[str]) -> Document:
+    """Read a TOML file, or take a mapping with the same tables.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A TOML file, or its tables as dictionaries (paths in it are then relative to the
+        working directory).
+    overrides : sequence of str
+        ``table.key=VALUE``; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    Document
+        Not yet checked.
+
+    Raises
+    ------
+    CaseError
+        It cannot be read, or an override cannot be applied.
+    """
+    if isinstance(source, Mapping):
+        file, name, text, folder = "case", "case", "", Path()
+        data = copy.deepcopy(dict(source))
+    else:
+        path = Path(source)
+        file, name, folder = str(path), path.stem, path.parent
+        text, data = _read(path)
+    faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
+    for item in overrides:
+        _override(data, item)
+    return Document(name, folder, data, faults)
+
+
+def _read(path: Path) -> tuple[str, dict[str, Any]]:
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise CaseError(
+            [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
+        ) from None
+    except UnicodeDecodeError:
+        raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
+    try:
+        return text, tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"\(at line (\d+), column \d+\)", str(error))
+        line = int(place.group(1)) if place else text.count("\n") + 1
+        raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
+    except (ValueError, RecursionError) as error:
+        raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
+
+
+def _bare(raw: str) -> float | str:
+    """Return what is not TOML: a number such as .5, else the text itself."""
+    try:
+        return float(raw)
+    except ValueError:
+        return raw
+
+
+def _override(data: dict[str, Any], item: str) -> None:
+    key, equals, raw = item.partition("=")
+    key, raw = key.strip(), raw.strip()
+    if not equals or not all(key.split(".")):
+        raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
+    try:
+        value = tomllib.loads(f"value = {raw}")["value"]
+    except (ValueError, RecursionError):
+        value = _bare(raw)
+    *tables, last = key.split(".")
+    place: Any = data
+    for table in tables:
+        place = place.setdefault(table, {})
+        if not isinstance(place, dict):
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
+    place[last] = value
