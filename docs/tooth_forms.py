@@ -39,7 +39,7 @@ DEPTH_PER_PITCH = 0.02
 def tables(name: str, sprocket: dict[str, object]) -> dict[str, object]:
     """A drive with another tooth form, its chain by dimensions so that no standard objects."""
     case = load_case(ROOT / "cases" / f"{name}.toml")
-    chain = case.chain
+    chain = case.drive.chain
     inputs = {
         key: dict(value) if isinstance(value, dict) else value for key, value in case.inputs.items()
     }

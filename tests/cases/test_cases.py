@@ -236,7 +236,7 @@ def test_the_drives_differ_in_kind():
     assert len(cases) >= 8
     loads = {key for case in cases for key in case.inputs["load"]}
     assert {"tension_N", "power_kW", "torque_N_m"} < loads
-    assert len({case.chain.pitch for case in cases}) >= 5
+    assert len({case.drive.chain.pitch for case in cases}) >= 5
     assert len({case.modulus for case in cases}) >= 2
     assert len({case.inputs["wear"].get("condition") for case in cases}) >= 4
 
@@ -342,9 +342,9 @@ def test_motorcycle_sprocket_ends_by_its_tip():
 
 def test_numbers_with_units_reach_the_engine():
     """8 in = 203.2 mm, 5/8 in = 15.875 mm, 1 mm3/(N m) = 1e-3 mm2/N by definition."""
-    assert loaded("d6-crawler-27t-soil").chain.pitch == pytest.approx(203.2)
+    assert loaded("d6-crawler-27t-soil").drive.chain.pitch == pytest.approx(203.2)
     road = loaded("520-15t-road")
-    assert road.chain.pitch == pytest.approx(15.875)
+    assert road.drive.chain.pitch == pytest.approx(15.875)
     assert 1e9 * road.wear.coefficient == pytest.approx(1.0)
 
 

@@ -39,14 +39,14 @@ def chain_hours(case: wearsim.Case) -> float:
     strand, where driver and driven sprocket are left and entered, and of the slack one.
     """
     inputs, drive = case.inputs, case.drive
-    layout, area = drive.layout, case.chain.bearing_area
+    layout, area = drive.layout, case.drive.chain.bearing_area
     load = drive.heaviest
     tight, slack = load.tension + load.centrifugal, drive.slack + load.centrifugal
     own = case.drive.gaps / case.engaged_every
     mate = layout.teeth_2 if case.drive.driver else layout.teeth_1
-    turning = math.pi * case.chain.pin_diameter * (1 / own + 1 / mate)
+    turning = math.pi * case.drive.chain.pin_diameter * (1 / own + 1 / mate)
     rate = inputs["joint"]["specific_wear_rate_mm2_per_N"]
-    loop = rate * (tight + slack) / area * turning / case.chain.pitch
+    loop = rate * (tight + slack) / area * turning / case.drive.chain.pitch
     pitches = inputs["sprocket"]["teeth"] / inputs["sprocket"].get("engaged_every", 1)
     loops = 60.0 * inputs["load"]["speed_rpm"] * pitches / layout.links
     return 0.01 * inputs["stop"]["elongation_percent"] / (loop * loops)

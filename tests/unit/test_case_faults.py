@@ -188,7 +188,7 @@ def test_what_is_no_toml(faults, text, expected):
 def test_byte_order_mark_and_windows_line_ends_are_no_fault(tmp_path, faults):
     path = tmp_path / "windows.toml"
     path.write_bytes(b"\xef\xbb\xbf" + MINIMAL.replace("\n", "\r\n").encode())
-    assert load_case(path).chain.designation == "16B-1"
+    assert load_case(path).drive.chain.designation == "16B-1"
     text = b"\xef\xbb\xbf" + changed(("teeth = 20", "teeth = 3")).replace("\n", "\r\n").encode()
     assert faults(text)[0].startswith("drive.toml:5: sprocket.teeth")
 
@@ -307,7 +307,7 @@ class TestOverrides:
             ["sprocket.teeth=25", "chain.designation = 12B-1", 'load.power_kW="2 kW"', "title=a b"],
         )
         assert case.inputs["sprocket"]["teeth"] == 25
-        assert case.chain.pitch == 19.05
+        assert case.drive.chain.pitch == 19.05
         assert case.inputs["load"]["power_kW"] == 2.0
         assert case.title == "a b"
 

@@ -299,9 +299,9 @@ def test_case_says_how_it_reads_a_designation():
         "wear": {"condition": "hardened, oiled"},
     }
     read, text = load_case(tables), "chain '16b' is read as 16B of the catalogue"
-    assert read.chain.designation == "16B-1"
+    assert read.drive.chain.designation == "16B-1"
     assert read.inputs["chain"]["designation"] == "16B"
     assert text in read.assumptions
     given = load_case(read.inputs)
     assert text not in given.assumptions
-    assert given.chain == read.chain
+    assert given.drive.chain == read.drive.chain

@@ -224,7 +224,7 @@ class TestWrap:
         """Joint pressure is tension plus q v^2 over A; v of 19 * 12.7 mm a turn."""
         duty = [block(*entry) for entry in self.PAIR]
         duty_case = load_case({**WRAP, "duty": duty})
-        chain = duty_case.chain
+        chain = duty_case.drive.chain
         growth = 0.0
         for share, tension, speed in self.PAIR:
             own = 1e6 * chain.mass_per_length * (19 * 12.7e-3 * speed / 60) ** 2

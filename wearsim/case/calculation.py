@@ -5,7 +5,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from wearsim.case.document import Source, read_document
+from wearsim.case.document import Document, Source, read_document
 from wearsim.case.schema.calculation import CalculationTables
 
 Tables = TypeVar("Tables", bound=CalculationTables)
@@ -35,6 +35,29 @@ def load_calculation(source: Source, model: type[Tables], overrides: Sequence[st
     """
     document = read_document(source, overrides)
     document.data.setdefault("title", document.name)
+    return checked(document, model)
+
+
+def checked(document: Document, model: type[Tables]) -> Tables:
+    """Return the tables of a document.
+
+    Parameters
+    ----------
+    document : Document
+        What stands in a file.
+    model : type
+        The tables that it must hold.
+
+    Returns
+    -------
+    CalculationTables
+        Of the model.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with them, with file and line.
+    """
     try:
         return model.model_validate(document.data)
     except ValidationError as error:

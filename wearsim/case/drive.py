@@ -53,10 +53,10 @@ def resolve_strand(case: Resolution, chain: Chain, duty: Duty | None) -> StrandD
         return None
     tooth, contact_end, contact_start = tooth_and_range
     fraction = slip_fraction(case)
-    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction)
+    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain)
 
 
-def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | None:
+def resolve_prescribed(case: Resolution, wear: WearInput, chain: Chain) -> PrescribedDrive | None:
     """Complete a flank whose load and sliding come from a table.
 
     Parameters
@@ -65,6 +65,8 @@ def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | N
         The case so far.
     wear : WearInput
         Its wear law.
+    chain : Chain
+        Its chain.
 
     Returns
     -------
@@ -97,7 +99,7 @@ def resolve_prescribed(case: Resolution, wear: WearInput) -> PrescribedDrive | N
             f"is ill-posed (got {wear.pressure_exponent:g})",
         )
         return None
-    return PrescribedDrive(table, slip_fraction(case))
+    return PrescribedDrive(table, slip_fraction(case), chain)
 
 
 def slip_fraction(case: Resolution, default: float = 1.0) -> float:

@@ -6,11 +6,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from wearsim.case.calculation import checked
 from wearsim.case.document import Source, read_document
+from wearsim.case.gear import resolve_gear
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case
 from wearsim.case.resolve import resolve
 from wearsim.case.schema import CaseTables
+from wearsim.case.schema.gear import GearTables
 
 _STAND_INS: dict[str, Any] = {
     "format_version": 1,
@@ -56,6 +59,8 @@ def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
     """
     document = read_document(source, overrides)
     name, folder, data, faults = document.name, document.folder, document.data, document.faults
+    if "gear" in data:
+        return resolve_gear(checked(document, GearTables), name, folder, faults)
     _check_load(data, faults)
     try:
         tables = CaseTables.model_validate(data)

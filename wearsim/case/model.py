@@ -10,6 +10,7 @@ from wearsim.case.tables import PrescribedTable
 from wearsim.catalogue.tables import Chain
 from wearsim.geometry.drive_layout import DriveLayout
 from wearsim.geometry.gap import Gap
+from wearsim.geometry.involute import InvolutePair
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.tooth import Tooth
 from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
@@ -72,6 +73,8 @@ class StrandDrive:
         The duty.
     slip_fraction : float
         Sliding as a fraction of that of a roller that does not turn.
+    chain : Chain
+        The chain.
     """
 
     tooth: Tooth
@@ -80,6 +83,7 @@ class StrandDrive:
     face_width: float
     blocks: tuple[Block, ...]
     slip_fraction: float
+    chain: Chain
 
     @property
     def heaviest(self) -> Block:
@@ -152,10 +156,13 @@ class PrescribedDrive:
         The table.
     slip_fraction : float
         Scales its sliding.
+    chain : Chain
+        The chain whose roller touches it.
     """
 
     table: PrescribedTable
     slip_fraction: float
+    chain: Chain
 
 
 @dataclass(frozen=True)
@@ -224,6 +231,8 @@ class WrapDrive:
         f1 on the power in the ratings.
     exploitation_factor : float
         K_e on the joint pressure in the ratings.
+    chain : Chain
+        The chain.
     """
 
     outline: Profile
@@ -246,6 +255,7 @@ class WrapDrive:
     joint: JointInput
     service_factor: float
     exploitation_factor: float
+    chain: Chain
 
     @property
     def heaviest(self) -> Block:
@@ -304,7 +314,41 @@ class WrapDrive:
         return tip_land(x, y, self.gaps)
 
 
-Drive = StrandDrive | PrescribedDrive | WrapDrive
+@dataclass(frozen=True, eq=False)
+class GearDrive:
+    """A pinion and a wheel.
+
+    Attributes
+    ----------
+    pair : InvolutePair
+        The new gears.
+    face_width : float
+        b [mm].
+    torque : float
+        Of the pinion [N mm].
+    stiffness : float
+        Of a pair of teeth per face width [N/mm2]; 0 for rigid teeth.
+    wheel_wear_ratio : float
+        Wear coefficient of the wheel over that of the pinion.
+    points : int
+        Of the flank.
+    """
+
+    pair: InvolutePair
+    face_width: float
+    torque: float
+    stiffness: float
+    wheel_wear_ratio: float
+    points: int
+
+    @property
+    def line_load(self) -> float:
+        """Normal load over face width of all pairs of teeth in contact [N/mm]."""
+        return self.torque / (self.pair.base_radius[0] * self.face_width)
+
+
+ChainDrive = StrandDrive | PrescribedDrive | WrapDrive
+Drive = ChainDrive | GearDrive
 
 
 @dataclass(frozen=True)
@@ -386,14 +430,12 @@ class Case:
         All tables with every default taken, as an input file would give them.
     files : tuple of pathlib.Path
         CSV files that it read.
-    chain : Chain
-        The chain.
-    drive : StrandDrive, PrescribedDrive or WrapDrive
+    drive : StrandDrive, PrescribedDrive, WrapDrive or GearDrive
         What touches the flank.
     modulus : float
         Contact modulus E* [MPa].
     speed_rpm : float
-        Speed of the sprocket, the mean over the time of its duty.
+        Speed of the sprocket, the mean over the time of its duty; of the pinion.
     engaged_every : int
         Every which gap carries a roller.
     turns_per_cycle : int
@@ -417,7 +459,6 @@ class Case:
     title: str
     inputs: Mapping[str, Any]
     files: tuple[Path, ...]
-    chain: Chain
     drive: Drive
     modulus: float
     speed_rpm: float

@@ -4,15 +4,15 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.case.messages import Faults
-from wearsim.case.schema import CaseTables
+from wearsim.case.schema import CaseTables, Table
 
 
-class Resolution:
-    """A case while it is being completed: what was given, found, taken and doubted.
+class Record:
+    """What is given, found, taken and doubted while a case is being completed.
 
     Parameters
     ----------
-    tables : CaseTables
+    tables : Table
         The validated input.
     folder : pathlib.Path
         Place that paths are relative to.
@@ -20,14 +20,10 @@ class Resolution:
         Takes what is wrong.
     """
 
-    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
-        self.tables = tables
+    def __init__(self, tables: Table, folder: Path, faults: Faults) -> None:
         self.folder = folder
         self.faults = faults
         self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
-        if tables.sprocket is not None and "back_flank" not in tables.sprocket.model_fields_set:
-            # Taken where the tooth form has one.
-            del self.inputs["sprocket"]["back_flank"]
         self.files: list[Path] = []
         self.assumptions: list[str] = []
         self.warnings: list[str] = []
@@ -70,3 +66,24 @@ class Resolution:
         path = self.folder / name
         self.files.append(path)
         return path
+
+
+class Resolution(Record):
+    """The record of a drive with a chain.
+
+    Parameters
+    ----------
+    tables : CaseTables
+        The validated input.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+    """
+
+    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
+        super().__init__(tables, folder, faults)
+        self.tables = tables
+        if tables.sprocket is not None and "back_flank" not in tables.sprocket.model_fields_set:
+            # Taken where the tooth form has one.
+            del self.inputs["sprocket"]["back_flank"]

@@ -10,29 +10,22 @@ from wearsim.case.kind import mechanism_kind
 from wearsim.case.messages import Faults
 from wearsim.case.model import (
     Case,
-    Drive,
+    ChainDrive,
     PrescribedDrive,
-    RunInput,
     StrandDrive,
-    WearInput,
     WrapDrive,
 )
 from wearsim.case.resolution import Resolution
-from wearsim.case.schema import CaseTables, ChainTable, MaterialTable, WearTable
+from wearsim.case.schema import CaseTables, ChainTable
+from wearsim.case.shared import modulus_of, run_input, take_defaults, wear_input
 from wearsim.case.wrap import resolve_wrap
-from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains, materials, wear_conditions
-from wearsim.contact.hertz import contact_modulus
-
-DEFAULT_BAND = 3.0
-"""Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
+from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
 TOLERANCE, WRAP_TOLERANCE = 1e-3, 1e-2
 """Relative tolerances of a life by default; that of a wrap costs more."""
-
-_PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
 
 
 def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:
@@ -60,16 +53,16 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         With everything that is wrong.
     """
     case = Resolution(tables, folder, faults)
-    for table, key, value in _taken_defaults(tables):
-        case.assumptions.append(f"{table}.{key} = {value} (default)")
+    take_defaults(case, tables)
     chain = _chain(case, tables.chain)
-    modulus = _modulus(case)
-    wear = _changing(tables.wear, _wear(case, tables.wear))
+    materials = tables.material
+    modulus = modulus_of(case, {"sprocket": materials.sprocket, "roller": materials.roller})
+    wear = wear_input(case, tables.wear)
     kind = mechanism_kind(case)
     duty = resolve_duty(case, kind, chain)
-    drive: Drive | None
+    drive: ChainDrive | None
     if kind == "prescribed":
-        drive = resolve_prescribed(case, wear)
+        drive = resolve_prescribed(case, wear, chain)
     elif kind == "wrap":
         drive = resolve_wrap(case, chain, duty)
     else:
@@ -78,7 +71,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     more_limits = _more_limits(case, drive)
-    run = _run(case, kind)
+    run = run_input(case, tables.run, WRAP_TOLERANCE if kind == "wrap" else TOLERANCE)
     faults.check()
     assert drive is not None and duty is not None
     return Case(
@@ -86,7 +79,6 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         title=tables.title or name,
         inputs=case.inputs,
         files=tuple(case.files),
-        chain=chain,
         drive=drive,
         modulus=modulus,
         speed_rpm=duty.speed_rpm,
@@ -116,24 +108,6 @@ def _turns_per_cycle(case: Resolution) -> int:
     return table.engaged_every // common
 
 
-def _taken_defaults(tables: CaseTables) -> list[tuple[str, str, object]]:
-    """Defaults of the schema itself that matter for the life and were not given."""
-    taken: list[tuple[str, str, object]] = []
-    wanted = {
-        "wear": ("law",),
-        "run": ("method", "horizon_hours"),
-    }
-    for table, keys in wanted.items():
-        model = getattr(tables, table)
-        if model is not None:
-            taken += [
-                (table, key, getattr(model, key))
-                for key in keys
-                if key not in model.model_fields_set
-            ]
-    return taken
-
-
 def _chain(case: Resolution, table: ChainTable) -> Chain:
     if table.designation is None:
         assert table.pitch_mm and table.roller_diameter_mm and table.inner_width_mm
@@ -160,94 +134,7 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
     return chain
 
 
-def _modulus(case: Resolution) -> float:
-    (e1, nu1), (e2, nu2) = (_material(case, body) for body in ("sprocket", "roller"))
-    return contact_modulus((e1, e2), (nu1, nu2))
-
-
-def _material(case: Resolution, body: str) -> tuple[float, float]:
-    table: MaterialTable = getattr(case.tables.material, body)
-    if table.name is not None:
-        known = materials()[table.name]
-        return known.youngs_modulus, known.poissons_ratio
-    steel, modulus, ratio = materials()["steel"], table.youngs_modulus_MPa, table.poissons_ratio
-    if modulus is None:
-        modulus = steel.youngs_modulus
-        case.take(f"material.{body}.youngs_modulus_MPa", modulus, "steel, default")
-    if ratio is None:
-        ratio = steel.poissons_ratio
-        case.take(f"material.{body}.poissons_ratio", ratio, "steel, default")
-    return modulus, ratio
-
-
-def _wear(case: Resolution, table: WearTable) -> WearInput:
-    if table.condition is not None:
-        return _condition(case, table, table.condition)
-    coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
-    assert coefficient is not None
-    low, high = _PLAUSIBLE_WEAR_RATE
-    if table.law == "archard" and not low <= coefficient <= high:
-        case.warnings.append(
-            f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
-            "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
-        )
-    case.assumptions.append("the constants of the wear law are the user's")
-    factor = _band_factor(case, table)
-    return WearInput(
-        law=table.law,
-        coefficient=coefficient,
-        pressure_exponent=table.pressure_exponent or 1.0,
-        hardness=table.hardness_MPa or 1.0,
-        reference_speed=table.reference_speed_mm_per_s or 1.0,
-        speed_exponent=table.speed_exponent or 0.0,
-        low=1.0 / factor,
-        high=factor,
-        band=f"factor {factor:g} to either side",
-    )
-
-
-def _changing(table: WearTable, wear: WearInput) -> WearInput:
-    """Add what changes the coefficient as the drive wears."""
-    if table.case_depth_mm is not None and table.core_factor is not None:
-        wear = replace(wear, case_depth=table.case_depth_mm, core_factor=table.core_factor)
-    if table.running_in_factor is not None and table.running_in_distance_mm is not None:
-        wear = replace(
-            wear,
-            running_in_factor=table.running_in_factor,
-            running_in_distance=table.running_in_distance_mm,
-        )
-    if table.roller_wear_ratio is not None:
-        wear = replace(wear, roller_ratio=table.roller_wear_ratio)
-    return wear
-
-
-def _band_factor(case: Resolution, table: WearTable) -> float:
-    if table.band_factor is not None:
-        return table.band_factor
-    case.take(
-        "wear.band_factor",
-        DEFAULT_BAND,
-        "the coefficient is the user's; a tooth life is only as good as it, factor 3 to 10",
-    )
-    return DEFAULT_BAND
-
-
-def _condition(case: Resolution, table: WearTable, name: str) -> WearInput:
-    condition = wear_conditions()[name]
-    typical = condition.typical
-    low, high = condition.low / typical, condition.high / typical
-    band = f"{name!r}: {condition.source}"
-    if table.band_factor is not None:
-        low, high = 1.0 / table.band_factor, table.band_factor
-        band = f"factor {table.band_factor:g} to either side"
-    case.assumptions.append(
-        f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
-        f"(wear condition {name!r})"
-    )
-    return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
-
-
-def _critical_depth(case: Resolution, drive: Drive | None) -> float:
+def _critical_depth(case: Resolution, drive: ChainDrive | None) -> float:
     given = case.tables.stop.critical_depth_mm
     if given is not None:
         _check_depth(case, drive, given)
@@ -271,7 +158,7 @@ def _critical_depth(case: Resolution, drive: Drive | None) -> float:
     return math.nan
 
 
-def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
+def _check_depth(case: Resolution, drive: ChainDrive | None, depth: float) -> None:
     """Compare a given critical depth with the tooth that has to bear it."""
     if not isinstance(drive, StrandDrive | WrapDrive):
         return
@@ -289,7 +176,7 @@ def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
         )
 
 
-def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) -> None:
+def _check_tip_land(case: Resolution, drive: ChainDrive | None, min_tip_land: float) -> None:
     key = "stop.min_tip_land_mm"
     if isinstance(drive, PrescribedDrive):
         case.faults.add(key, "a table of loads has no tooth and no tip: remove this key")
@@ -301,7 +188,7 @@ def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) 
         )
 
 
-def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
+def _more_limits(case: Resolution, drive: ChainDrive | None) -> dict[str, float]:
     """Limits of the worn tooth beyond depth and tip land, by their keys."""
     stop = case.tables.stop
     keys = (
@@ -330,14 +217,3 @@ def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
                 f"{drive.pitch_line_thickness:.4g} mm (got {least:g})",
             )
     return given
-
-
-def _run(case: Resolution, kind: str) -> RunInput:
-    table = case.tables.run
-    if table.method == "per_cycle" and table.cycles_per_update is None:
-        case.take("run.cycles_per_update", 1, "every cycle")
-    tolerance = table.life_tolerance
-    if tolerance is None:
-        tolerance = WRAP_TOLERANCE if kind == "wrap" else TOLERANCE
-        case.take("run.life_tolerance", tolerance, "default")
-    return RunInput(table.method, table.cycles_per_update or 1, tolerance, table.horizon_hours)

@@ -88,6 +88,7 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
         exploitation_factor=_factor(
             case, "exploitation", "steady, drip oil, one shift; raises the pressure in the ratings"
         ),
+        chain=chain,
     )
 
 

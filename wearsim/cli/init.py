@@ -36,8 +36,9 @@ def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
         check_free(out, force)
     case = _seed(chain, teeth, kind)
     # A chain speed of 1 m/s and a tenth of what the chain's strength allows.
-    speed = float(f"{60_000.0 / (case.chain.pitch * teeth):.2g}")
-    power = float(f"{case.chain.tensile / 10.0 * case.chain.pitch * teeth * speed / 6e7:.2g}")
+    pitch, tensile = _size(case)
+    speed = float(f"{60_000.0 / (pitch * teeth):.2g}")
+    power = float(f"{tensile / 10.0 * pitch * teeth * speed / 6e7:.2g}")
     template = Path(__file__).with_name("templates") / f"{kind}.toml"
     text = template.read_text(encoding="utf-8").format(
         teeth=teeth, power=power, speed=speed, **_values(case)
@@ -73,6 +74,14 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
                 for fault in error.faults
             ]
         ) from None
+
+
+def _size(case: "Case") -> tuple[float, float]:
+    """Pitch [mm] and breaking load [N] of the chain."""
+    from wearsim.catalogue.tables import chains
+
+    chain = chains()[case.inputs["chain"]["designation"]]
+    return chain.pitch, chain.tensile
 
 
 def _values(case: "Case") -> dict[str, Any]:

@@ -83,6 +83,9 @@ class Contact:
         Whether load and sliding are those of the columns (rows as in ``kernels.offset``) and the
         curvature follows from the depth over their arc length, at the ends not at all; of the
         worn points otherwise.
+    least_curvature : float
+        Relative curvature [1/mm] that the kernel takes where that of the worn flank is less: a
+        mate that bridges a hollow; 0 where it takes that of the flank everywhere.
     """
 
     kind: Kind
@@ -95,6 +98,7 @@ class Contact:
     modulus: float
     slip_curvature_exponent: float
     offset_form: bool
+    least_curvature: float = 0.0
 
     def coarsened(self) -> "Contact":
         """Return the same contact on about every second point.
@@ -144,6 +148,20 @@ class Mechanism(Protocol):
     @property
     def contact(self) -> Contact:
         """The flank and its contact."""
+
+    def mate_columns(self, depth: Vector) -> "dict[str, Vector]":
+        """Return columns of a mate that wears with the flank.
+
+        Parameters
+        ----------
+        depth : numpy.ndarray
+            Depth of the flank [mm], shape (snapshots, points).
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            For the table of the flank, shape (snapshots * points,); empty where none wears.
+        """
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
         """Return the contact ratio of a worn flank.

@@ -97,6 +97,21 @@ class PrescribedMechanism:
             offset_form=True,
         )
 
+    def mate_columns(self, depth: Vector) -> dict[str, Vector]:
+        """Return nothing: rollers do not wear.
+
+        Parameters
+        ----------
+        depth : numpy.ndarray
+            Depth of the flank [mm], not used.
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            Empty.
+        """
+        return {}
+
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
         """Return nan: a table of loads says nothing of the rollers before and after.
 

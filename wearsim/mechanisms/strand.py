@@ -98,6 +98,21 @@ class StrandMechanism:
             offset_form=False,
         )
 
+    def mate_columns(self, depth: Vector) -> dict[str, Vector]:
+        """Return nothing: rollers do not wear.
+
+        Parameters
+        ----------
+        depth : numpy.ndarray
+            Depth of the flank [mm], not used.
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            Empty.
+        """
+        return {}
+
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
         """Return the range of sprocket turn over which the flank can touch, in pitches.
 

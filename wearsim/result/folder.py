@@ -33,6 +33,7 @@ _FLANK = (
 HISTORY_COLUMNS = {
     "strand": _HISTORY,
     "prescribed": _HISTORY,
+    "gear_pair": _HISTORY,
     "wrap": (
         "cycles", "time_hours", "max_depth_mm", "elongation_percent", "roller_wear_mm", "chain",
         "peak_pressure_MPa", "max_sliding_speed_mm_per_s", "removed_area_mm2", "tip_land_mm",
@@ -42,6 +43,7 @@ HISTORY_COLUMNS = {
 FLANK_COLUMNS = {
     "strand": _FLANK,
     "prescribed": _FLANK,
+    "gear_pair": (*_FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
     "wrap": ("cycles", "gap_kind", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm"),
 }
 """Columns of both tables for every kind of mechanism."""

@@ -2,9 +2,11 @@
 
 from typing import TYPE_CHECKING
 
-from wearsim.case.model import Case, StrandDrive, WrapDrive
+from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
+from wearsim.contact.engagement import Contact
 from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector
+from wearsim.kernels.gear_rows import MATE_DEPTH
 from wearsim.result import LimitState
 from wearsim.wear.criteria import (
     Criterion,
@@ -49,6 +51,27 @@ def tooth_criteria(case: Case) -> tuple[Criterion, ...]:
                 )
             )
     return tuple(found)
+
+
+def mate_criteria(case: Case, contact: Contact) -> tuple[Criterion, ...]:
+    """Return the limit of the wheel of a gear pair.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    contact : Contact
+        Its flank and contact, on any grid.
+
+    Returns
+    -------
+    tuple of Criterion
+        One, or none without a wheel.
+    """
+    if not isinstance(case.drive, GearDrive):
+        return ()
+    ratio, key = contact.columns[MATE_DEPTH], "wheel_critical_depth_mm"
+    return (rising(key, case.more_limits[key], lambda x, y, depth: float((ratio * depth).max())),)
 
 
 def over_pins(path: "RollerPath", x: Vector, y: Vector, gaps: int) -> float:

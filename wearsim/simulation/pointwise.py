@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from wearsim.case.model import Case, PrescribedDrive, StrandDrive
+from wearsim.case.model import Case, GearDrive, PrescribedDrive, StrandDrive
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import WearsimError
@@ -131,11 +131,23 @@ def pointwise_mechanism(case: Case) -> Mechanism:
             profile=drive.profile,
             contact_end=drive.contact_end,
             contact_start=drive.contact_start,
-            pitch=case.chain.pitch,
+            pitch=drive.chain.pitch,
             pull_per_width=drive.pull / drive.face_width,
             angular_speed=2.0 * np.pi * drive.heaviest.speed_rpm / 60.0,
             slip_fraction=drive.slip_fraction,
             modulus=case.modulus,
+        )
+    if isinstance(drive, GearDrive):
+        from wearsim.mechanisms.gear_pair import GearPairMechanism
+
+        return GearPairMechanism(
+            pair=drive.pair,
+            line_load=drive.line_load,
+            angular_speed=2.0 * np.pi * case.speed_rpm / 60.0,
+            modulus=case.modulus,
+            mate_coefficient=drive.wheel_wear_ratio,
+            stiffness=drive.stiffness,
+            points=drive.points,
         )
     assert isinstance(drive, PrescribedDrive)
     return _prescribed(case, drive)
@@ -158,7 +170,7 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
         if speed is not None
         else np.full(slip.size, np.nan),
         flank_curvature=table.flank_curvature,
-        roller_radius=0.5 * case.chain.roller_diameter,
+        roller_radius=0.5 * drive.chain.roller_diameter,
         modulus=case.modulus,
     )
 
@@ -245,6 +257,7 @@ def _tables(
         "sliding_speed_mm_per_s": speed.ravel(),
         "load_per_width_N_per_mm": load.ravel(),
         "relative_curvature_per_mm": relative.ravel(),
+        **mechanism.mate_columns(run.depth),
     }
     return history, flank
 

@@ -9,7 +9,7 @@ from wearsim.case.model import Case, StrandDrive
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.contact.hertz import half_width
 from wearsim.simulation.law import running_in, wear_law
-from wearsim.simulation.limits import tooth_criteria
+from wearsim.simulation.limits import mate_criteria, tooth_criteria
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.duty import DutyPart, equivalent_factor
@@ -101,7 +101,7 @@ def task(case: Case, contact: Contact) -> Task:
     return Task(
         contact,
         _law(case),
-        tooth_criteria(case),
+        (*tooth_criteria(case), *mate_criteria(case, contact)),
         warp,
         warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour),
         case.run.life_tolerance / warp.amplification,

@@ -104,4 +104,19 @@ def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vect
             f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
             f"{np.median(widths):.3g} mm: use more nodes (rows of a table)"
         )
+    if contact.least_curvature > 0.0:
+        found += _bridged(contact, history["time_hours"], relative, load)
     return found + low_contact_ratio(history["time_hours"], history["worn_contact_ratio"])
+
+
+def _bridged(contact: Contact, hours: Vector, relative: Vector, load: Vector) -> list[str]:
+    """Return a warning of hollows that the mate bridges."""
+    shape = hours.size, contact.arc_length.size
+    bridged = (relative <= contact.least_curvature) & (load > 0.0)
+    part = bridged.reshape(shape).mean(axis=1)
+    if not part.any():
+        return []
+    return [
+        f"from about {hours[int((part > 0.0).argmax())]:.3g} h on the mate bridges hollows, on "
+        f"{100.0 * part.max():.2g} % of the flank at most: Hertz's pressure is not known there"
+    ]

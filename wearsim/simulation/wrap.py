@@ -170,14 +170,14 @@ def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
     WrapMechanism
         Rollers on the unworn gap, under the largest of the rated tensions.
     """
-    radius = 0.5 * case.chain.roller_diameter
+    radius = 0.5 * drive.chain.roller_diameter
     return WrapMechanism(
         outline=drive.outline,
         path=roller_path(drive.outline, radius, (drive.outline.x.size + 1) // 2),
         pitch_angle=drive.pitch_angle,
         wrap_angle=drive.wrap_angle,
         chain=WrapChain(
-            pitch=case.chain.pitch,
+            pitch=drive.chain.pitch,
             roller_radius=radius,
             bush_radius=drive.bush_radius,
             link_stiffness=drive.link_stiffness,
@@ -227,8 +227,8 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
                 (block.tension + block.centrifugal) / joint.bearing_area,
                 (drive.slack + block.centrifugal) / joint.bearing_area,
             ),
-            case.chain.pin_diameter,
-            case.chain.pitch,
+            drive.chain.pin_diameter,
+            drive.chain.pitch,
             (own, mate),
         )
         for block in drive.blocks

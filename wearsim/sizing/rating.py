@@ -46,7 +46,7 @@ def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
     >>> found.teeth, found.speed, round(found.power, 9)
     (20.0, 750.0, 30.0)
     """
-    layout, chain = drive.layout, case.chain
+    layout, chain = drive.layout, drive.chain
     mate = layout.teeth_2 if drive.driver else layout.teeth_1
     own = drive.gaps / case.engaged_every
     # 27 gaps of which every second carries a roller are 13.5 teeth, and no more than 13.

@@ -1,8 +1,10 @@
-"""The input files of all calculations, by the command that reads them."""
+"""The input files other than that of a chain drive: of a gear pair, and by commands that read them."""
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.gear import GearTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
 CALCULATIONS: dict[str, type[CalculationTables]] = {
+    "gear": GearTables,
     "wave-drive": WaveDriveTables,
 }

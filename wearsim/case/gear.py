@@ -1,0 +1,131 @@
+"""From the tables of a gear pair as given to a complete case."""
+
+import math
+from pathlib import Path
+
+from wearsim.case.messages import Faults
+from wearsim.case.model import Case, GearDrive
+from wearsim.case.resolution import Record
+from wearsim.case.schema.gear import GearTable, GearTables
+from wearsim.case.shared import modulus_of, run_input, take_defaults, wear_input
+from wearsim.errors import GeometryError
+from wearsim.geometry.involute import InvolutePair
+
+NODES = 201
+
+PAIR_STIFFNESS = 14.0
+"""Of a pair of teeth [N/(mm um)], the single stiffness c' of ISO 6336-1 for usual steel gears."""
+
+TOLERANCE = 1e-3
+"""Relative tolerance of a life by default."""
+
+
+def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) -> Case:
+    """Complete the case of a gear pair.
+
+    Parameters
+    ----------
+    tables : GearTables
+        The validated input.
+    name : str
+        Of the case.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Case
+        Complete; the pinion's turns are its cycles.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong.
+    """
+    case = Record(tables, folder, faults)
+    take_defaults(case, tables)
+    materials = tables.material
+    modulus = modulus_of(case, {"pinion": materials.pinion, "wheel": materials.wheel})
+    wear = wear_input(case, tables.wear)
+    if wear.pressure_exponent < 1.0:
+        faults.add(
+            "wear.pressure_exponent",
+            "must be at least 1 on gears: below 1 a pit deepens itself and the problem is ill-posed "
+            f"(got {wear.pressure_exponent:g})",
+        )
+    pair = _pair(case, tables.gear)
+    nodes = tables.gear.nodes or NODES
+    if tables.gear.nodes is None:
+        case.take("gear.nodes", nodes, "default")
+    if "wheel_wear_ratio" not in tables.wear.model_fields_set:
+        case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
+    stiffness = _stiffness(case, tables)
+    run = run_input(case, tables.run, TOLERANCE)
+    faults.check()
+    assert pair is not None
+    limit = tables.stop.wheel_critical_depth_mm
+    if limit is None:
+        limit = tables.stop.critical_depth_mm
+        case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
+    return Case(
+        name=name,
+        title=tables.title or name,
+        inputs=case.inputs,
+        files=(),
+        drive=GearDrive(
+            pair=pair,
+            face_width=tables.gear.face_width_mm,
+            torque=1000.0 * tables.load.torque_N_m,
+            stiffness=stiffness,
+            wheel_wear_ratio=tables.wear.wheel_wear_ratio,
+            points=nodes,
+        ),
+        modulus=modulus,
+        speed_rpm=tables.load.speed_rpm,
+        engaged_every=1,
+        turns_per_cycle=1,
+        wear=wear,
+        critical_depth=tables.stop.critical_depth_mm,
+        min_tip_land=0.0,
+        more_limits={"wheel_critical_depth_mm": limit},
+        run=run,
+        assumptions=tuple(case.assumptions),
+        warnings=tuple(case.warnings),
+    )
+
+
+def _pair(case: Record, table: GearTable) -> InvolutePair | None:
+    teeth, module = (table.pinion_teeth, table.wheel_teeth), table.module_mm
+    shifts, tips = (table.pinion_shift, table.wheel_shift), []
+    for gear, count, shift in zip(("pinion", "wheel"), teeth, shifts, strict=True):
+        radius = getattr(table, f"{gear}_tip_radius_mm")
+        if radius is None:
+            radius = module * (0.5 * count + 1.0 + shift)
+            case.take(f"gear.{gear}_tip_radius_mm", radius, "addendum of one module, plus shift")
+        tips.append(radius)
+    pair = InvolutePair(
+        teeth, module, math.radians(table.pressure_angle_deg), shifts, (tips[0], tips[1])
+    )
+    try:
+        pair.check()
+    except GeometryError as error:
+        case.faults.add("gear", str(error).removeprefix("gear pair: "))
+        return None
+    return pair
+
+
+def _stiffness(case: Record, tables: GearTables) -> float:
+    """Stiffness of a pair of teeth per face width [N/mm2]; 0 for rigid teeth."""
+    table = tables.mechanism
+    if "load_sharing" not in table.model_fields_set:
+        case.assumptions.append("mechanism.load_sharing = elastic (default)")
+    if table.load_sharing == "rigid":
+        return 0.0
+    given = table.pair_stiffness_N_per_mm_um
+    if given is None:
+        given = PAIR_STIFFNESS
+        why = "single stiffness of usual steel gears, ISO 6336-1"
+        case.take("mechanism.pair_stiffness_N_per_mm_um", given, why)
+    return 1000.0 * given

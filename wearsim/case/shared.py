@@ -1,0 +1,180 @@
+"""What cases of all kinds complete alike: materials, wear law and how the life is calculated."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from wearsim.case.model import RunInput, WearInput
+from wearsim.case.resolution import Record
+from wearsim.case.schema import MaterialTable, RunTable, Table, WearTable
+from wearsim.catalogue.tables import materials, wear_conditions
+from wearsim.contact.hertz import contact_modulus
+
+DEFAULT_BAND = 3.0
+"""Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
+
+_PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
+
+_TOLD = {"wear": ("law",), "run": ("method", "horizon_hours")}
+"""Defaults of the schema itself that matter for the life."""
+
+
+def take_defaults(case: Record, tables: Table) -> None:
+    """Record the defaults of the schema that matter for the life and were not given.
+
+    Parameters
+    ----------
+    case : Record
+        The case so far.
+    tables : Table
+        Its tables.
+    """
+    for table, keys in _TOLD.items():
+        model = getattr(tables, table)
+        for key in keys:
+            if key not in model.model_fields_set:
+                case.assumptions.append(f"{table}.{key} = {getattr(model, key)} (default)")
+
+
+def modulus_of(case: Record, bodies: Mapping[str, MaterialTable]) -> float:
+    """Return the contact modulus of two materials.
+
+    Parameters
+    ----------
+    case : Record
+        The case so far.
+    bodies : mapping of str to MaterialTable
+        Both, by their tables under ``material``.
+
+    Returns
+    -------
+    float
+        E* [MPa].
+    """
+    (e1, nu1), (e2, nu2) = (_material(case, body, table) for body, table in bodies.items())
+    return contact_modulus((e1, e2), (nu1, nu2))
+
+
+def _material(case: Record, body: str, table: MaterialTable) -> tuple[float, float]:
+    if table.name is not None:
+        known = materials()[table.name]
+        return known.youngs_modulus, known.poissons_ratio
+    steel, modulus, ratio = materials()["steel"], table.youngs_modulus_MPa, table.poissons_ratio
+    if modulus is None:
+        modulus = steel.youngs_modulus
+        case.take(f"material.{body}.youngs_modulus_MPa", modulus, "steel, default")
+    if ratio is None:
+        ratio = steel.poissons_ratio
+        case.take(f"material.{body}.poissons_ratio", ratio, "steel, default")
+    return modulus, ratio
+
+
+def run_input(case: Record, table: RunTable, tolerance: float) -> RunInput:
+    """Return how the life is calculated.
+
+    Parameters
+    ----------
+    case : Record
+        The case so far.
+    table : RunTable
+        What was given.
+    tolerance : float
+        Relative tolerance of the life where none was.
+
+    Returns
+    -------
+    RunInput
+        Complete.
+    """
+    if table.method == "per_cycle" and table.cycles_per_update is None:
+        case.take("run.cycles_per_update", 1, "every cycle")
+    if table.life_tolerance is None:
+        case.take("run.life_tolerance", tolerance, "default")
+    return RunInput(
+        table.method, table.cycles_per_update or 1, table.life_tolerance or tolerance,
+        table.horizon_hours,
+    )  # fmt: skip
+
+
+def wear_input(case: Record, table: WearTable) -> WearInput:
+    """Return the wear law with its band.
+
+    Parameters
+    ----------
+    case : Record
+        The case so far.
+    table : WearTable
+        What was given.
+
+    Returns
+    -------
+    WearInput
+        Complete, with what changes the coefficient as the drive wears.
+    """
+    return _changing(table, _law(case, table))
+
+
+def _law(case: Record, table: WearTable) -> WearInput:
+    if table.condition is not None:
+        return _condition(case, table, table.condition)
+    coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
+    assert coefficient is not None
+    low, high = _PLAUSIBLE_WEAR_RATE
+    if table.law == "archard" and not low <= coefficient <= high:
+        case.warnings.append(
+            f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
+            "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
+        )
+    case.assumptions.append("the constants of the wear law are the user's")
+    factor = _band_factor(case, table)
+    return WearInput(
+        law=table.law,
+        coefficient=coefficient,
+        pressure_exponent=table.pressure_exponent or 1.0,
+        hardness=table.hardness_MPa or 1.0,
+        reference_speed=table.reference_speed_mm_per_s or 1.0,
+        speed_exponent=table.speed_exponent or 0.0,
+        low=1.0 / factor,
+        high=factor,
+        band=f"factor {factor:g} to either side",
+    )
+
+
+def _changing(table: WearTable, wear: WearInput) -> WearInput:
+    """Add what changes the coefficient as the drive wears."""
+    if table.case_depth_mm is not None and table.core_factor is not None:
+        wear = replace(wear, case_depth=table.case_depth_mm, core_factor=table.core_factor)
+    if table.running_in_factor is not None and table.running_in_distance_mm is not None:
+        wear = replace(
+            wear,
+            running_in_factor=table.running_in_factor,
+            running_in_distance=table.running_in_distance_mm,
+        )
+    if table.roller_wear_ratio is not None:
+        wear = replace(wear, roller_ratio=table.roller_wear_ratio)
+    return wear
+
+
+def _band_factor(case: Record, table: WearTable) -> float:
+    if table.band_factor is not None:
+        return table.band_factor
+    case.take(
+        "wear.band_factor",
+        DEFAULT_BAND,
+        "the coefficient is the user's; a tooth life is only as good as it, factor 3 to 10",
+    )
+    return DEFAULT_BAND
+
+
+def _condition(case: Record, table: WearTable, name: str) -> WearInput:
+    condition = wear_conditions()[name]
+    typical = condition.typical
+    low, high = condition.low / typical, condition.high / typical
+    band = f"{name!r}: {condition.source}"
+    if table.band_factor is not None:
+        low, high = 1.0 / table.band_factor, table.band_factor
+        band = f"factor {table.band_factor:g} to either side"
+    case.assumptions.append(
+        f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
+        f"(wear condition {name!r})"
+    )
+    return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)

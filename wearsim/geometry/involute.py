@@ -1,0 +1,246 @@
+"""Involute spur gears with profile shift: base circles, path of contact, flanks."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.optimize import brentq
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.profile import Profile, Vector
+
+
+def involute_function(angle: float) -> float:
+    """Return inv(alpha) = tan(alpha) - alpha.
+
+    Parameters
+    ----------
+    angle : float
+        Pressure angle [rad], 0 to below pi/2.
+
+    Returns
+    -------
+    float
+        The involute function [rad].
+
+    Examples
+    --------
+    >>> round(involute_function(math.radians(20.0)), 9)
+    0.014904384
+    """
+    return math.tan(angle) - angle
+
+
+@dataclass(frozen=True)
+class InvolutePair:
+    """A pinion and a wheel with straight teeth that mesh without backlash.
+
+    All along the path of contact is counted from the point where the line of action leaves the
+    base circle of the pinion: there the radius of curvature of the pinion's flank is the way
+    itself, that of the wheel's what is left of ``line_length``. The pinion drives, so a tooth
+    meets from the tip of the wheel, ``path_start``, to the tip of the pinion, ``path_end``
+    (ISO 21771).
+
+    Attributes
+    ----------
+    teeth : tuple of int
+        z1 and z2.
+    module : float
+        m [mm].
+    pressure_angle : float
+        alpha of the basic rack [rad].
+    profile_shift : tuple of float
+        x1 and x2, in modules.
+    tip_radius : tuple of float
+        ra1 and ra2 [mm].
+
+    Examples
+    --------
+    Without shift the working pressure angle is that of the rack:
+
+    >>> pair = InvolutePair((20, 30), 3.0, math.radians(20.0), (0.0, 0.0), (33.0, 48.0))
+    >>> round(math.degrees(pair.working_angle), 9), pair.centre_distance
+    (20.0, 75.0)
+    >>> round(pair.contact_ratio, 9)
+    1.605176092
+    """
+
+    teeth: tuple[int, int]
+    module: float
+    pressure_angle: float
+    profile_shift: tuple[float, float]
+    tip_radius: tuple[float, float]
+
+    @property
+    def ratio(self) -> float:
+        """Gear ratio u = z2/z1."""
+        return self.teeth[1] / self.teeth[0]
+
+    @property
+    def base_radius(self) -> tuple[float, float]:
+        """Radii of the base circles rb1 and rb2 [mm]."""
+        z1, z2 = self.teeth
+        half = 0.5 * self.module * math.cos(self.pressure_angle)
+        return z1 * half, z2 * half
+
+    @property
+    def base_pitch(self) -> float:
+        """Distance of successive flanks along the line of action, p_b = pi m cos(alpha) [mm]."""
+        return math.pi * self.module * math.cos(self.pressure_angle)
+
+    @cached_property
+    def working_angle(self) -> float:
+        """Working pressure angle [rad] from inv(alpha_w) = inv(alpha) + 2 tan(alpha) (x1+x2)/(z1+z2)."""
+        shift = sum(self.profile_shift) / sum(self.teeth)
+        wanted = (
+            involute_function(self.pressure_angle) + 2.0 * math.tan(self.pressure_angle) * shift
+        )
+        if not wanted > 0.0:
+            raise GeometryError(
+                f"gear pair: inv(alpha_w) must be above 0, but is {wanted:.4g}: raise the sum of the "
+                f"profile shifts, {sum(self.profile_shift):g}"
+            )
+        return float(brentq(lambda angle: involute_function(angle) - wanted, 0.0, 1.5, xtol=1e-16))
+
+    @property
+    def centre_distance(self) -> float:
+        """Centre distance a [mm]."""
+        return sum(self.base_radius) / math.cos(self.working_angle)
+
+    @property
+    def line_length(self) -> float:
+        """Length of the line of action between the base circles, a sin(alpha_w) [mm]."""
+        return self.centre_distance * math.sin(self.working_angle)
+
+    @property
+    def pole(self) -> float:
+        """Place of the pole on the path, rb1 tan(alpha_w) [mm]."""
+        return self.base_radius[0] * math.tan(self.working_angle)
+
+    @property
+    def path_start(self) -> float:
+        """Place A where a tooth comes into contact, at the tip of the wheel [mm]."""
+        return self.line_length - self._tip_tangent(1)
+
+    @property
+    def path_end(self) -> float:
+        """Place E where it leaves, at the tip of the pinion [mm]."""
+        return self._tip_tangent(0)
+
+    @property
+    def contact_ratio(self) -> float:
+        """Length of the path of contact over the base pitch."""
+        return (self.path_end - self.path_start) / self.base_pitch
+
+    def _tip_tangent(self, wheel: int) -> float:
+        """Length of the tangent from the tip circle to the base circle [mm]."""
+        tip, base = self.tip_radius[wheel], self.base_radius[wheel]
+        if not tip > base:
+            raise GeometryError(
+                f"gear pair: the tip radius of gear {wheel + 1} must be above its base radius "
+                f"{base:.4g} mm, but is {tip:.4g} mm"
+            )
+        return math.sqrt(tip * tip - base * base)
+
+    def check(self) -> None:
+        """Raise where the pair cannot run.
+
+        Raises
+        ------
+        GeometryError
+            Interference beyond a base circle, or a contact ratio below 1 or of 2 and more.
+        """
+        for name, least, limit in (
+            ("2", self.path_start, "path of contact starts"),
+            ("1", self.line_length - self.path_end, "path of contact ends"),
+        ):
+            if not least > 0.0:
+                raise GeometryError(
+                    f"gear pair: the {limit} {-least:.4g} mm beyond the base circle, where there is no "
+                    f"involute: lower the tip radius of gear {name} by shift or a shorter addendum"
+                )
+        if not 1.0 <= self.contact_ratio < 2.0:
+            raise GeometryError(
+                "gear pair: the contact ratio must be at least 1 and below 2, but is "
+                f"{self.contact_ratio:.4g}: change tip radii or numbers of teeth"
+            )
+
+    def separation(self, place: Vector) -> Vector:
+        """Return how far a pair of teeth beyond the ends of the path is apart.
+
+        Before A the corner of the wheel's tip is next to the pinion's flank, after E that of
+        the pinion's to the wheel's; the gap is measured along the line of action.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            Where a pair would touch on the line of action, from the pinion's base circle [mm].
+
+        Returns
+        -------
+        numpy.ndarray
+            Gap [mm]: 0 on the path of contact, infinite where the corner meets no involute.
+        """
+        base, tips, line = self.base_radius, self.tip_radius, self.line_length
+        before = _corner_gap(place, base, tips[1], line)
+        after = _corner_gap(line - place, base[::-1], tips[0], line)
+        gap = np.where(place < self.path_start, before, 0.0)
+        return np.where(place > self.path_end, after, gap)
+
+    def flank(self, place: Vector) -> Profile:
+        """Return the points of the pinion's flank that touch at places of the path.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            Increasing places on the path [mm], above 0.
+
+        Returns
+        -------
+        Profile
+            Around the pinion's axis; the involute starts on the base circle at (0, rb1).
+        """
+        return _involute(self.base_radius[0], place)
+
+    def mating_flank(self, place: Vector) -> Profile:
+        """Return the points of the wheel's flank that touch at places of the path.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            Increasing places on the path [mm], below the length of the line.
+
+        Returns
+        -------
+        Profile
+            Around the wheel's axis, from root to tip: in the reverse order of the places.
+        """
+        return _involute(self.base_radius[1], (self.line_length - place)[::-1])
+
+
+def _involute(base_radius: float, tangent: Vector) -> Profile:
+    roll = tangent / base_radius
+    x = base_radius * (np.sin(roll) - roll * np.cos(roll))
+    y = base_radius * (np.cos(roll) + roll * np.sin(roll))
+    return Profile(x, y)
+
+
+def _corner_gap(place: Vector, base: tuple[float, float], tip_radius: float, line: float) -> Vector:
+    """Gap between a flank on the first base circle and the corner of a tip around the second.
+
+    The first base circle touches the line at its origin from below, the second at ``line``
+    from above. A flank starts on its base circle clockwise from there by its tangent over
+    the base radius.
+    """
+    own, other = base
+    tangent = math.sqrt(tip_radius**2 - other**2)
+    start = -0.5 * math.pi - (line - place) / other
+    corner = start + tangent / other - math.atan(tangent / other)
+    x = line + tip_radius * np.cos(corner)
+    y = own + other + tip_radius * np.sin(corner)
+    inside = x * x + y * y - own * own
+    reach = np.sqrt(np.maximum(inside, 0.0)) / own
+    through = np.arctan2(y, x) + np.arctan(reach) - reach
+    gap = own * (0.5 * math.pi - place / own - through)
+    return np.where(inside > 0.0, gap, np.inf)

@@ -1,0 +1,212 @@
+"""An involute spur pair whose flanks wear each other."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.hertz import half_width
+from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.kernels.gear_pair import gear_pair_contact
+from wearsim.kernels.gear_rows import COLUMNS
+
+_LEAST_CURVATURE = 0.04
+"""Of the least relative curvature of the new flanks: where a worn step leaves a hollow of less, the
+mate bridges it, with a contact at most five times as wide as on new flanks."""
+
+
+@dataclass(frozen=True, eq=False)
+class GearPairMechanism:
+    """Both flanks of a gear pair, in the cycles of the pinion.
+
+    One depth stands for both: flanks that meet at the same place share load, pressure and
+    sliding speed, so the wheel's depth is at any time
+
+        h2/h1 = (k2/k1) (v_t1/v_t2) z1/z2 = (k2/k1) xi/(T1T2 - xi)
+
+    of the pinion's, xi the place on the line of action: the wheel meets u times less often.
+    Every tooth meets the average of its mates, as with hunting teeth or teeth all alike.
+
+    Attributes
+    ----------
+    pair : InvolutePair
+        The new gears.
+    line_load : float
+        Normal load over face width of all pairs in contact, T1/(rb1 b) [N/mm].
+    angular_speed : float
+        Of the pinion [rad/s].
+    modulus : float
+        Contact modulus E* [MPa].
+    mate_coefficient : float
+        k2/k1, wear coefficient of the wheel over that of the pinion.
+    stiffness : float
+        Of one pair of teeth per face width [N/mm2]; 0 for rigid teeth that share the load
+        half and half.
+    points : int
+        Of the flank, at least 5.
+    """
+
+    pair: InvolutePair
+    line_load: float
+    angular_speed: float
+    modulus: float
+    mate_coefficient: float
+    stiffness: float
+    points: int
+
+    @cached_property
+    def place(self) -> Vector:
+        """Places of the points on the path of contact [mm]."""
+        return np.linspace(self.pair.path_start, self.pair.path_end, self.points)
+
+    @property
+    def mate_depth(self) -> Vector:
+        """Depth of the wheel over that of the pinion at every point."""
+        return self.mate_coefficient * self.place / (self.pair.line_length - self.place)
+
+    @property
+    def slip_ratio(self) -> Vector:
+        """|v_s|/v_t1 of the pinion, |1 - v_t2/v_t1|."""
+        ratio = (self.pair.line_length - self.place) / (self.pair.ratio * self.place)
+        return np.abs(1.0 - ratio)
+
+    @property
+    def sliding_speed(self) -> Vector:
+        """|v_s| [mm/s]."""
+        relative = self.angular_speed * (1.0 + 1.0 / self.pair.ratio)
+        return np.abs(self.place - self.pair.pole) * relative
+
+    @property
+    def curvature(self) -> Vector:
+        """Relative curvature of the new flanks [1/mm]."""
+        return 1.0 / self.place + 1.0 / (self.pair.line_length - self.place)
+
+    @property
+    def share(self) -> Vector:
+        """Share of the line load that rigid teeth carry: 1, one half where two pairs touch.
+
+        At the ends of single contact it passes from one to the other over the width of the
+        contact, in which a point of the flank sees both.
+        """
+        pair, place = self.pair, self.place
+        load = np.full(place.size, self.line_load)
+        width = 2.0 * float(half_width(load, self.curvature, self.modulus).max())
+        single = pair.path_end - pair.base_pitch, pair.path_start + pair.base_pitch
+        inside = np.minimum(place - single[0], single[1] - place) / width + 0.5
+        share: Vector = 0.5 + 0.5 * np.clip(inside, 0.0, 1.0)
+        return share
+
+    @cached_property
+    def contact(self) -> Contact:
+        """The pinion's flank and its contact."""
+        pair, place, profile = self.pair, self.place, self.flank
+        (own, other), rest = pair.base_radius, pair.line_length - place
+        least = _LEAST_CURVATURE * float(self.curvature.min())
+        columns = np.empty((COLUMNS, place.size))
+        columns[:] = (
+            0.5 * place**2 / own,
+            0.5 * (rest[0] ** 2 - rest**2) / other,
+            self.curvature,
+            self.slip_ratio,
+            self.sliding_speed,
+            profile.normal_x,
+            profile.normal_y,
+            self.mate_depth,
+            self.share,
+            place,
+            self._gap(place + pair.base_pitch),
+            self._gap(place - pair.base_pitch),
+        )
+        return Contact(
+            kind=Kind.TRAVELLING,
+            kernel=gear_pair_contact,
+            constants=np.array([self.line_load, self.stiffness, pair.base_pitch, least]),
+            columns=columns,
+            profile=profile,
+            arc_length=columns[0] - columns[0, 0],
+            roller_radius=float(rest[np.argmin(np.abs(place - pair.pole))]),
+            modulus=self.modulus,
+            slip_curvature_exponent=0.0,
+            offset_form=False,
+            least_curvature=least,
+        )
+
+    @property
+    def flank(self) -> Profile:
+        """The pinion's flank from the place where contact starts to its tip."""
+        return self.pair.flank(self.place)
+
+    def _gap(self, place: Vector) -> Vector:
+        """Gap of another pair; none as far beyond the path as that load cannot close it."""
+        gap = self.pair.separation(place)
+        deflection = self.line_load / self.stiffness if self.stiffness else 0.0
+        return np.where(gap < 4.0 * deflection + 1e-9, gap, np.inf)
+
+    def mate_columns(self, depth: Vector) -> dict[str, Vector]:
+        """Return the wheel's flank as it wears, at the points that meet those of the pinion.
+
+        Parameters
+        ----------
+        depth : numpy.ndarray
+            Depth of the pinion [mm], shape (snapshots, points).
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            Place on the line of action, points around the wheel's axis and depth.
+        """
+        new, worn = self.pair.mating_flank(self.place), self.mate_depth * depth
+        return {
+            "path_mm": np.tile(self.place, depth.shape[0]),
+            "wheel_x_mm": (new.x[::-1] - worn * new.normal_x[::-1]).ravel(),
+            "wheel_y_mm": (new.y[::-1] - worn * new.normal_y[::-1]).ravel(),
+            "wheel_depth_mm": worn.ravel(),
+        }
+
+    def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
+        """Return the contact ratio of the new pair: flanks keep to their path.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm], not used.
+
+        Returns
+        -------
+        float
+            epsilon_alpha.
+        """
+        return self.pair.contact_ratio
+
+    def assumptions(self) -> list[str]:
+        """Return what this picture takes for granted.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+        sharing = (
+            f"pairs of teeth share the load as springs of {self.stiffness / 1000.0:g} N/(mm um), worn "
+            "gaps and the corners of the tips before and after the path of contact included"
+            if self.stiffness
+            else "teeth are rigid and share the load half and half where two pairs touch, also when worn"
+        )
+        common = math.gcd(*self.pair.teeth)
+        meeting = (
+            "every tooth meets every tooth of its mate (hunting)"
+            if common == 1
+            else f"teeth meet every {common}. of their mate's only; all are alike when new and so stay"
+        )
+        return [
+            "worn flanks meet where they did when new, on the line of action, with the same sliding",
+            sharing,
+            meeting,
+            "where a step of the load leaves a hollow the mate bridges it: the relative curvature is "
+            f"not taken below {_LEAST_CURVATURE:g} of that of the new flanks; pressures there are not "
+            "known, wear by a law with pressure exponent 1 does not depend on them",
+            "dynamic loads, misalignment, and wear by the corner of a tip outside the path are left out",
+        ]
