@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.case.model import GearDrive
 from wearsim.result import Life, LowerBound, WearResult
 
 FOLDER = Path(__file__).parents[2] / "cases"
@@ -133,7 +134,7 @@ def test_it_loads_and_its_name_says_what_teeth_and_condition(name):
 def test_it_runs_to_a_complete_result(name):
     run, prescribed = result(name), inputs(name).get("mechanism", {}).get("kind") == "prescribed"
     assert list(run.history_columns) == HISTORY_COLUMNS
-    assert list(run.flank_columns) == FLANK_COLUMNS
+    assert list(run.flank_columns)[: len(FLANK_COLUMNS)] == FLANK_COLUMNS
     unknown = {"worn_contact_ratio"} if prescribed else set()
     if name == "hertz-arc-prescribed":
         unknown |= {"max_sliding_speed_mm_per_s", "sliding_speed_mm_per_s"}
@@ -236,14 +237,16 @@ def test_the_drives_differ_in_kind():
     assert len(cases) >= 8
     loads = {key for case in cases for key in case.inputs["load"]}
     assert {"tension_N", "power_kW", "torque_N_m"} < loads
-    assert len({case.drive.chain.pitch for case in cases}) >= 5
+    chains = [case.drive.chain for case in cases if not isinstance(case.drive, GearDrive)]
+    assert len({chain.pitch for chain in chains}) >= 5
     assert len({case.modulus for case in cases}) >= 2
     assert len({case.inputs["wear"].get("condition") for case in cases}) >= 4
 
 
 def test_every_data_file_belongs_to_a_case():
     named = {path.name for name in PATHS for path in loaded(name).files}
-    assert {path.name for path in FOLDER.iterdir()} - {p.name for p in PATHS.values()} == named
+    files = {path.name for path in FOLDER.iterdir() if path.is_file()}
+    assert files - {path.name for path in PATHS.values()} == named
 
 
 def test_benchmark_b9_keeps_its_reference_life():

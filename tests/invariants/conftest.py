@@ -1,16 +1,19 @@
 """Every mechanism under one signature, so that no test knows which one it looks at."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Kind, Mechanism
+from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.involute import InvolutePair
 from wearsim.geometry.points import flank_from_points
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
+from wearsim.kernels.gear_rows import SLIP
+from wearsim.mechanisms.gear_pair import GearPairMechanism
 from wearsim.mechanisms.prescribed import PrescribedMechanism
 from wearsim.mechanisms.strand import StrandMechanism
 from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
@@ -88,6 +91,9 @@ class Wrapped:
 
     contact: WrapContact
 
+    def mate_columns(self, depth: np.ndarray) -> dict[str, np.ndarray]:
+        return {}
+
     def worn_contact_ratio(self, x: np.ndarray, y: np.ndarray) -> float:
         return np.nan
 
@@ -128,10 +134,68 @@ def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) 
     )
 
 
-MECHANISMS = (evolute, points, slip_ratio, sliding_distance, wrap)
+@dataclass(frozen=True)
+class Part:
+    """A mechanism with another contact."""
+
+    whole: Mechanism
+    contact: Contact
+
+    def mate_columns(self, depth: np.ndarray) -> dict[str, np.ndarray]:
+        return self.whole.mate_columns(depth)
+
+    def worn_contact_ratio(self, x: np.ndarray, y: np.ndarray) -> float:
+        return self.whole.worn_contact_ratio(x, y)
+
+    def assumptions(self) -> list[str]:
+        return self.whole.assumptions()
+
+
+def gears(
+    stiffness: float, nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+) -> Mechanism:
+    """FZG C14 ten times as large; a part of the sliding, which a gear pair has no number for."""
+    size = 10.0 * length
+    pair = InvolutePair(
+        (16, 24), 4.5 * size, np.radians(20.0), (0.1817, 0.1715), (41.318 * size, 59.272 * size)
+    )
+    whole = GearPairMechanism(
+        pair,
+        load * 400.0 / length,
+        slip * 10.0,
+        MODULUS / length**2,
+        1.0,
+        stiffness / length**2,
+        nodes,
+    )
+    columns = whole.contact.columns.copy()
+    columns[SLIP] *= slip
+    return Part(whole, replace(whole.contact, columns=columns))
+
+
+def rigid_gears(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    return gears(0.0, nodes, length, load, slip)
+
+
+def elastic_gears(
+    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+) -> Mechanism:
+    return gears(1400.0, nodes, length, load, slip)
+
+
+SMOOTH = (evolute, points, slip_ratio, sliding_distance, wrap)
+"""Mechanisms with no kink in the middle of the flank, as gears have one at the pole."""
+
+MECHANISMS = (*SMOOTH, rigid_gears, elastic_gears)
 
 
 @pytest.fixture(params=MECHANISMS, ids=lambda build: build.__name__)
 def build(request: pytest.FixtureRequest) -> Build:
     """Return the function that builds one of the mechanisms."""
+    return request.param
+
+
+@pytest.fixture(params=SMOOTH, ids=lambda build: build.__name__)
+def smooth(request: pytest.FixtureRequest) -> Build:
+    """Return the function that builds one of the mechanisms without kinks."""
     return request.param

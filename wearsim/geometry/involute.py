@@ -199,7 +199,8 @@ class InvolutePair:
         Returns
         -------
         Profile
-            Around the pinion's axis; the involute starts on the base circle at (0, rb1).
+            Around the pinion's axis, from root to tip; the involute starts at (0, rb1) and leans
+            to -x.
         """
         return _involute(self.base_radius[0], place)
 
@@ -221,7 +222,7 @@ class InvolutePair:
 
 def _involute(base_radius: float, tangent: Vector) -> Profile:
     roll = tangent / base_radius
-    x = base_radius * (np.sin(roll) - roll * np.cos(roll))
+    x = base_radius * (roll * np.cos(roll) - np.sin(roll))
     y = base_radius * (np.cos(roll) + roll * np.sin(roll))
     return Profile(x, y)
 

@@ -95,7 +95,7 @@ class GearPairMechanism:
         load = np.full(place.size, self.line_load)
         width = 2.0 * float(half_width(load, self.curvature, self.modulus).max())
         single = pair.path_end - pair.base_pitch, pair.path_start + pair.base_pitch
-        inside = np.minimum(place - single[0], single[1] - place) / width + 0.5
+        inside = np.minimum(place - single[0], single[1] - place) / max(width, 1e-9) + 0.5
         share: Vector = 0.5 + 0.5 * np.clip(inside, 0.0, 1.0)
         return share
 

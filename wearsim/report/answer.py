@@ -100,16 +100,19 @@ def _removed(result: WearResult) -> str:
 
 def _parts(result: WearResult) -> list[tuple[str, str]]:
     """Lives of chain and sprocket, and how far every limit is used when the life ends."""
-    if not result.parts:
+    if len(result.limits) < 2:
         return []
-    lives = ", ".join(f"{name} {hours(life)}" for name, life in result.parts.items())
-    chains = int(result.history_columns["chain"][-1])
-    more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
     used = ", ".join(
         f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
         for state in result.limits
     )
-    return [("Of which", f"{lives}{more}"), ("Limits", f"at the end of the life {used}")]
+    limits = [("Limits", f"at the end of the life {used}")]
+    if not result.parts:
+        return limits
+    lives = ", ".join(f"{name} {hours(life)}" for name, life in result.parts.items())
+    chains = int(result.history_columns["chain"][-1])
+    more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
+    return [("Of which", f"{lives}{more}"), *limits]
 
 
 def service_text(inputs: Mapping[str, Any], running: float, before: float = 0.0) -> str:
@@ -239,6 +242,8 @@ def _worst(result: WearResult) -> str:
     if kind == "strand":
         side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
         place += f" from the root, on the side where the roller {side}"
+    if kind == "gear_pair":
+        place = f"pinion, {place} from where contact starts to its tip"
     if kind == "wrap":
         place = f"{_depth(result.max_depth)} mm {place} from the gap's right tip"
     pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"

@@ -11,7 +11,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
 from wearsim.case.load import load_case
-from wearsim.case.model import StrandDrive
+from wearsim.case.model import GearDrive, StrandDrive
 from wearsim.catalogue.tables import chains
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.report.answer import grouped
@@ -96,12 +96,12 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     x = new.x + enlarged * (last["x_mm"] - new.x)
     y = new.y + enlarged * (last["y_mm"] - new.y)
     deepest = int(last["depth_mm"].argmax())
-    radius = _roller_radius(result)
+    radius, mate = _mate(result, float(last["arc_length_mm"][deepest]))
     centre_x = new.x[deepest] + radius * new.normal_x[deepest]
     centre_y = new.y[deepest] + radius * new.normal_y[deepest]
     panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
     panel.add_patch(Circle((centre_x, centre_y), radius, fill=False, color="grey", linestyle="--"))
-    panel.text(centre_x, centre_y, "roller", color="grey", ha="center", va="center", clip_on=True)
+    panel.text(centre_x, centre_y, mate, color="grey", ha="center", va="center", clip_on=True)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
     panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
@@ -125,11 +125,18 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
-def _roller_radius(result: WearResult) -> float:
+def _mate(result: WearResult, arc_length: float) -> tuple[float, str]:
+    """Radius of what touches the flank at a place, and what it is."""
+    if "gear" in result.inputs:
+        last = _snapshot(result, -1)
+        place = float(np.interp(arc_length, last["arc_length_mm"], last["path_mm"]))
+        drive = load_case(result.inputs).drive
+        assert isinstance(drive, GearDrive)
+        return drive.pair.line_length - place, "wheel"
     chain = result.inputs["chain"]
     if "designation" in chain:
-        return 0.5 * chains()[chain["designation"]].roller_diameter
-    return 0.5 * float(chain["roller_diameter_mm"])
+        return 0.5 * chains()[chain["designation"]].roller_diameter, "roller"
+    return 0.5 * float(chain["roller_diameter_mm"]), "roller"
 
 
 def _outline(result: WearResult) -> tuple[Vector, Vector]:

@@ -118,5 +118,6 @@ def _bridged(contact: Contact, hours: Vector, relative: Vector, load: Vector) ->
         return []
     return [
         f"from about {hours[int((part > 0.0).argmax())]:.3g} h on the mate bridges hollows, on "
-        f"{100.0 * part.max():.2g} % of the flank at most: Hertz's pressure is not known there"
+        f"{100.0 * part.max():.2g} % of the flank at most: Hertz's pressure is not known there and too "
+        "high on the ridges beside them"
     ]

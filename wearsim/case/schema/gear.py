@@ -69,7 +69,8 @@ class GearWearTable(WearTable):
         chains = {
             "condition": "wear conditions are those of sprockets: give specific_wear_rate_mm2_per_N",
             "roller_wear_ratio": "belongs to chains: remove it",
-            "case_depth_mm": "a hardened layer is not told apart on gears: remove it and core_factor",
+            "case_depth_mm": "a hardened layer is not told apart on gears: remove it",
+            "core_factor": "a hardened layer is not told apart on gears: remove it",
         }
         found = [(key, text) for key, text in chains.items() if getattr(self, key) is not None]
         return found + [entry for entry in super().conflicts() if entry[0] not in chains]

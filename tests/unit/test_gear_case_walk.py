@@ -1,0 +1,176 @@
+"""Changing any key of a gear pair's file changes the result, or raises an error that names it."""
+
+import copy
+import typing
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+import wearsim
+from wearsim.case.schema.gear import GearTables
+from wearsim.simulation.many import CaseLife
+
+WITHOUT_EFFECT = {"format_version": "1 only", "title": "only shown", "mechanism.kind": "one value"}
+
+GEARS: dict[str, Any] = {
+    "format_version": 1,
+    "title": "gears",
+    "gear": {
+        "pinion_teeth": 16, "wheel_teeth": 24, "module_mm": 4.5, "pinion_shift": 0.1817,
+        "wheel_shift": 0.1715, "face_width_mm": 14, "nodes": 61,
+    },
+    "load": {"torque_N_m": 200, "speed_rpm": 100},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
+    "stop": {"critical_depth_mm": 0.005},
+    "run": {"horizon_hours": 1e6},
+}  # fmt: skip
+POWER = {"law": "power", "coefficient": 1e-13, "pressure_exponent": 2.0}
+DROZDOV = {
+    "law": "drozdov", "coefficient": 1e-8, "pressure_exponent": 2.0, "hardness_MPa": 6000,
+    "reference_speed_mm_per_s": 100, "speed_exponent": 0.2,
+}  # fmt: skip
+
+
+def with_keys(tables: dict[str, Any], *settings: tuple[str, Any]) -> dict[str, Any]:
+    found = copy.deepcopy(tables)
+    for key, value in settings:
+        *above, last = key.split(".")
+        place = found
+        for table in above:
+            place = place.setdefault(table, {})
+        place[last] = value
+    return found
+
+
+def edited(*settings: tuple[str, Any], **tables: dict[str, Any]) -> dict[str, Any]:
+    """The base with whole tables replaced and single keys set."""
+    return with_keys({**GEARS, **tables}, *settings)
+
+
+BASES = {
+    "archard": edited(),
+    "power": edited(wear=POWER),
+    "drozdov": edited(wear=DROZDOV),
+    "rigid": edited(("mechanism.load_sharing", "rigid")),
+    "running in": edited(
+        ("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)
+    ),
+    "per cycle": edited(
+        ("run.method", "per_cycle"), ("run.cycles_per_update", 100),
+        ("wear.specific_wear_rate_mm2_per_N", 1e-9),
+    ),
+}  # fmt: skip
+"""A life of each law, sharing and method."""
+
+CHANGES: dict[str, list[tuple[Any, ...]]] = {
+    "gear.pinion_teeth": [("archard", 17), ("archard", 4, "gear.pinion_teeth")],
+    "gear.wheel_teeth": [("archard", 25)],
+    "gear.module_mm": [("archard", 4.6)],
+    "gear.pressure_angle_deg": [("archard", 20.5), ("archard", 40.0, "gear.pressure_angle_deg")],
+    "gear.pinion_shift": [("archard", 0.2), ("archard", -1.9, "gear")],
+    "gear.wheel_shift": [("archard", 0.2)],
+    "gear.pinion_tip_radius_mm": [("archard", 41.2), ("archard", 60.0, "gear")],
+    "gear.wheel_tip_radius_mm": [("archard", 59.2), ("archard", 80.0, "gear")],
+    "gear.face_width_mm": [("archard", 15.0)],
+    "gear.nodes": [("archard", 81)],
+    "material.pinion.name": [("archard", "bronze")],
+    "material.pinion.youngs_modulus_MPa": [("power", 2e5)],
+    "material.pinion.poissons_ratio": [("power", 0.28)],
+    "material.wheel.name": [("archard", "bronze")],
+    "material.wheel.youngs_modulus_MPa": [("power", 2e5)],
+    "material.wheel.poissons_ratio": [("power", 0.28)],
+    "mechanism.load_sharing": [("archard", "rigid")],
+    "mechanism.pair_stiffness_N_per_mm_um": [
+        ("archard", 10.0),
+        ("rigid", 10.0, "mechanism.pair_stiffness_N_per_mm_um"),
+    ],
+    "load.torque_N_m": [("archard", 210.0)],
+    "load.speed_rpm": [("archard", 110.0)],
+    "wear.law": [("archard", "power", "wear.specific_wear_rate_mm2_per_N")],
+    "wear.condition": [("archard", "hardened, oiled", "wear.condition")],
+    "wear.specific_wear_rate_mm2_per_N": [("archard", 2e-10)],
+    "wear.coefficient": [("power", 2e-13)],
+    "wear.pressure_exponent": [("power", 1.8), ("power", 0.9, "wear.pressure_exponent")],
+    "wear.hardness_MPa": [("drozdov", 5000)],
+    "wear.reference_speed_mm_per_s": [("drozdov", 200)],
+    "wear.speed_exponent": [("drozdov", 0.3)],
+    "wear.case_depth_mm": [("archard", 0.01, "wear.case_depth_mm")],
+    "wear.core_factor": [("archard", 2.0, "wear.core_factor")],
+    "wear.roller_wear_ratio": [("archard", 0.5, "wear.roller_wear_ratio")],
+    "wear.running_in_factor": [
+        ("running in", 2.0),
+        ("archard", 2.0, "wear.running_in_distance_mm"),
+    ],
+    "wear.running_in_distance_mm": [("running in", 5000.0)],
+    "wear.band_factor": [("archard", 2.0)],
+    "wear.wheel_wear_ratio": [("archard", 3.0), ("archard", 0.0, "wear.wheel_wear_ratio")],
+    "stop.critical_depth_mm": [("archard", 0.006)],
+    "stop.wheel_critical_depth_mm": [("archard", 0.001)],
+    "run.method": [("per cycle", "advance", "run.cycles_per_update")],
+    "run.cycles_per_update": [("per cycle", 50), ("archard", 2, "run.cycles_per_update")],
+    "run.life_tolerance": [("archard", 1e-5)],
+    "run.horizon_hours": [("archard", 1.0)],
+}
+
+
+def leaves(model: type[BaseModel], prefix: str = "") -> typing.Iterator[str]:
+    for name, field in model.model_fields.items():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
+            yield from leaves(field.annotation, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}"
+
+
+def numbers(result: wearsim.WearResult) -> list[float]:
+    lives = [result.life, result.life_low, result.life_high]
+    return [
+        *(value for life in lives for value in vars(life).values()),
+        result.numerical_error,
+        *np.concatenate([*result.flank_columns.values(), *result.history_columns.values()]),
+    ]
+
+
+def test_every_key_is_covered_and_no_other() -> None:
+    assert sorted([*CHANGES, *WITHOUT_EFFECT]) == sorted(leaves(GearTables))
+
+
+ALL = [(key, *change) for key, changes in CHANGES.items() for change in changes]
+
+
+@pytest.mark.parametrize("change", ALL, ids=lambda change: "-".join(map(str, change[:3])))
+def test_a_changed_key_changes_the_result_or_is_named(change: tuple[Any, ...]) -> None:
+    key, base, value, *named = change
+    tables = with_keys(BASES[base], (key, value))
+    if named:
+        with pytest.raises(wearsim.CaseError) as error:
+            wearsim.load_case(tables)
+        assert named[0] in [fault.key for fault in error.value.faults]
+        return
+    before = numbers(wearsim.simulate(wearsim.load_case(BASES[base])))
+    after = numbers(wearsim.simulate(wearsim.load_case(tables)))
+    assert before != after
+
+
+def test_a_chain_in_a_gear_file_is_named() -> None:
+    with pytest.raises(wearsim.CaseError, match="chain: unknown table"):
+        wearsim.load_case({**GEARS, "chain": {"designation": "16B-1"}})
+
+
+def test_a_result_of_gears_saves_and_loads_itself(tmp_path: Any) -> None:
+    result = wearsim.simulate(wearsim.load_case(GEARS))
+    result.save(tmp_path / "run")
+    again = wearsim.WearResult.load(tmp_path / "run")
+    assert again.life == result.life
+    np.testing.assert_allclose(
+        again.flank_columns["wheel_depth_mm"], result.flank_columns["wheel_depth_mm"], rtol=1e-9
+    )
+
+
+def test_many_lives_of_gears_are_those_alone() -> None:
+    cases = [wearsim.load_case(edited(("load.torque_N_m", torque))) for torque in (150.0, 200.0)]
+    found = list(wearsim.simulate_many(cases))
+    for one, case in zip(found, cases, strict=True):
+        assert isinstance(one, CaseLife)
+        assert one.life == wearsim.simulate(case).life
