@@ -262,3 +262,13 @@ def test_shipped_case_is_c14() -> None:
     assert result.initial_peak_pressure == pytest.approx(1441.84, rel=1e-2)
     last = result.flank.iloc[-201:]
     assert last["wheel_depth_mm"].max() == pytest.approx(0.05 * 0.04596 / 1.5 / 0.07930, rel=1e-3)
+
+
+def test_ridges_and_hollows_are_told() -> None:
+    """Rigid teeth leave a step where a second pair takes over, and a ridge at the pole."""
+    deep = ["mechanism.load_sharing=rigid", "stop.critical_depth_mm=0.1"]
+    warnings = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, deep)).warnings)
+    assert "the mate bridges hollows" in warnings
+    assert "ridges stand where little slides" in warnings
+    new = ["stop.critical_depth_mm=0.0005", "gear.nodes=101"]
+    assert wearsim.simulate(wearsim.load_case(SHIPPED, new)).warnings == ()

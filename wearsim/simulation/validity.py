@@ -12,6 +12,9 @@ _FEW_CYCLES = 1000
 _WIDE = 0.1
 """Half-width over roller radius above which Hertz's half-spaces are doubtful."""
 
+_RIDGE = 3.0
+"""Relative curvature over the greatest of the new flank above which a place is a ridge."""
+
 
 def few_cycles(cycles: float) -> list[str]:
     """Return a warning of a life that is hardly one.
@@ -110,14 +113,20 @@ def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vect
 
 
 def _bridged(contact: Contact, hours: Vector, relative: Vector, load: Vector) -> list[str]:
-    """Return a warning of hollows that the mate bridges."""
+    """Return warnings of hollows that the mate bridges, and of ridges between them."""
     shape = hours.size, contact.arc_length.size
-    bridged = (relative <= contact.least_curvature) & (load > 0.0)
-    part = bridged.reshape(shape).mean(axis=1)
-    if not part.any():
-        return []
-    return [
-        f"from about {hours[int((part > 0.0).argmax())]:.3g} h on the mate bridges hollows, on "
-        f"{100.0 * part.max():.2g} % of the flank at most: Hertz's pressure is not known there and too "
-        "high on the ridges beside them"
-    ]
+    curvature, loaded = relative.reshape(shape), load.reshape(shape) > 0.0
+    hollow = ((curvature <= contact.least_curvature) & loaded).mean(axis=1)
+    ridge = ((curvature > _RIDGE * curvature[0].max()) & loaded).any(axis=1)
+    found = []
+    if hollow.any():
+        found.append(
+            f"from about {hours[int((hollow > 0.0).argmax())]:.3g} h on the mate bridges hollows, on "
+            f"{100.0 * hollow.max():.2g} % of the flank at most: Hertz's pressure is not known there"
+        )
+    if ridge.any():
+        found.append(
+            f"from about {hours[int(ridge.argmax())]:.3g} h on ridges stand where little slides or the "
+            "load steps: Hertz's pressure on them, the peak pressure, has no limit on a finer grid"
+        )
+    return found
