@@ -21,6 +21,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.cli.strength import strength
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -55,6 +56,7 @@ for _command in (
     compare,
     maintain,
     remaining,
+    strength,
     wave_drive,
     init,
     schema,

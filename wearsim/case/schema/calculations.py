@@ -2,9 +2,11 @@
 
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.gear import GearTables
+from wearsim.case.schema.strength import StrengthTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
 CALCULATIONS: dict[str, type[CalculationTables]] = {
     "gear": GearTables,
+    "strength": StrengthTables,
     "wave-drive": WaveDriveTables,
 }

@@ -28,6 +28,9 @@ def _named(value: object) -> object:
     return "0" if type(value) is int and value == 0 else value
 
 
+Regime = Annotated[Literal["0", "I", "II", "III", "IV", "V"], BeforeValidator(_named)]
+"""A typical regime of loading, from constant to very light."""
+
 _BINS: dict[str, Any] = {
     "type": "array",
     "items": {"type": "integer", "minimum": 1, "maximum": _MOST_BINS},
@@ -43,9 +46,7 @@ class LoadTable(Table):
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
     speed_rpm: Positive | None = None
-    regime: Annotated[Literal["0", "I", "II", "III", "IV", "V"], BeforeValidator(_named)] | None = (
-        None
-    )
+    regime: Regime | None = None
     duty_file: str | None = None
     duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
 
