@@ -31,7 +31,9 @@ def profile_table(case: Case) -> pd.DataFrame:
     if isinstance(case.drive, WrapDrive):
         return _gap_table(case.drive)
     if not isinstance(case.drive, StrandDrive):
-        message = "the case must have a sprocket, a table of loads or a gear pair has none: nothing to write"
+        message = (
+            "the case must have a sprocket, a table of loads or gears have none: nothing to write"
+        )
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     flank, strand = case.drive.profile, case.drive.tooth.strand
     if case.inputs["sprocket"]["profile"] == "evolute":
