@@ -26,6 +26,7 @@ GEARS: dict[str, Any] = {
     "stop": {"critical_depth_mm": 0.005},
     "run": {"horizon_hours": 1e6},
 }  # fmt: skip
+STEEL = {"treatment": "carburised", "hardness_HRC": 60.0}
 POWER = {"law": "power", "coefficient": 1e-13, "pressure_exponent": 2.0}
 DROZDOV = {
     "law": "drozdov", "coefficient": 1e-8, "pressure_exponent": 2.0, "hardness_MPa": 6000,
@@ -57,6 +58,7 @@ BASES = {
     "running in": edited(
         ("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)
     ),
+    "fatigue": edited(fatigue={"pinion": STEEL, "wheel": STEEL}),
     "per cycle": edited(
         ("run.method", "per_cycle"), ("run.cycles_per_update", 100),
         ("wear.specific_wear_rate_mm2_per_N", 1e-9),
@@ -106,6 +108,7 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "wear.running_in_distance_mm": [("running in", 5000.0)],
     "wear.band_factor": [("archard", 2.0)],
     "wear.wheel_wear_ratio": [("archard", 3.0), ("archard", 0.0, "wear.wheel_wear_ratio")],
+    "fatigue.load_factor": [("fatigue", 1.2), ("fatigue", 0.9, "fatigue.load_factor")],
     "stop.critical_depth_mm": [("archard", 0.006)],
     "stop.wheel_critical_depth_mm": [("archard", 0.001)],
     "run.method": [("per cycle", "advance", "run.cycles_per_update")],
@@ -115,16 +118,34 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
 }
 
 
+CHANGES |= {
+    f"fatigue.{gear}.{key}": changes
+    for gear in ("pinion", "wheel")
+    for key, changes in {
+        "treatment": [
+            ("fatigue", "surface_hardened"),
+            ("fatigue", "nitrided", f"fatigue.{gear}.contact_limit_MPa"),
+        ],
+        "hardness_HB": [("fatigue", 590.0, f"fatigue.{gear}.hardness_HB")],
+        "hardness_HRC": [("fatigue", 58.0), ("fatigue", 90.0, f"fatigue.{gear}.hardness_HRC")],
+        "contact_limit_MPa": [("fatigue", 1500.0)],
+        "contact_safety": [("fatigue", 1.3)],
+    }.items()
+}
+
+
 def leaves(model: type[BaseModel], prefix: str = "") -> typing.Iterator[str]:
     for name, field in model.model_fields.items():
-        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
-            yield from leaves(field.annotation, f"{prefix}{name}.")
+        kinds = (field.annotation, *typing.get_args(field.annotation))
+        tables = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+        if tables:
+            yield from leaves(tables[0], f"{prefix}{name}.")
         else:
             yield f"{prefix}{name}"
 
 
 def numbers(result: wearsim.WearResult) -> list[float]:
-    lives = [result.life, result.life_low, result.life_high]
+    lives = [result.life, result.life_low, result.life_high, *result.parts.values()]
     return [
         *(value for life in lives for value in vars(life).values()),
         result.numerical_error,

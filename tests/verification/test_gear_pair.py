@@ -264,6 +264,27 @@ def test_shipped_case_is_c14() -> None:
     assert last["wheel_depth_mm"].max() == pytest.approx(0.05 * 0.04596 / 1.5 / 0.07930, rel=1e-3)
 
 
+def test_contact_fatigue_beside_the_wear() -> None:
+    """23 HRC / 1.2 of carburised teeth against p0 at C: N_HG K^-6 over 60 n, source 001."""
+    result = wearsim.simulate(wearsim.load_case(SHIPPED))
+    hours = 1.2e8 * (1347.27 / (23.0 * 60.0 / 1.2)) ** -6 / (60.0 * 100.0)
+    assert result.parts["pinion_fatigue"].hours_run == pytest.approx(hours, rel=1e-4)
+    assert result.parts["wheel_fatigue"].hours_run == pytest.approx(1.5 * hours, rel=1e-4)
+    assert result.summary()["pinion_fatigue_life_hours"] == pytest.approx(hours, rel=1e-4)
+    assert not [text for text in result.warnings if "fatigue" in text]
+    loaded = ["load.torque_N_m=500", "wear.specific_wear_rate_mm2_per_N=1e-11"]
+    first = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, loaded)).warnings)
+    assert "contact fatigue of the pinion comes before the wear" in first
+    most = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
+    assert "more than the pinion endures for any time" in " ".join(most.warnings)
+    assert most.parts == {}
+
+
+def test_fatigue_that_never_comes_is_a_bound() -> None:
+    result = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=100"]))
+    assert isinstance(result.parts["pinion_fatigue"], wearsim.LowerBound)
+
+
 def test_ridges_and_hollows_are_told() -> None:
     """Rigid teeth leave a step where a second pair takes over, and a ridge at the pole."""
     deep = ["mechanism.load_sharing=rigid", "stop.critical_depth_mm=0.1"]

@@ -4,9 +4,9 @@ import math
 from pathlib import Path
 
 from wearsim.case.messages import Faults
-from wearsim.case.model import Case, GearDrive
+from wearsim.case.model import Case, GearDrive, GearSide
 from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearTable, GearTables
+from wearsim.case.schema.gear import GearFatigueTable, GearTable, GearTables
 from wearsim.case.shared import modulus_of, run_input, take_defaults, wear_input
 from wearsim.errors import GeometryError
 from wearsim.geometry.involute import InvolutePair
@@ -81,6 +81,8 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
             stiffness=stiffness,
             wheel_wear_ratio=tables.wear.wheel_wear_ratio,
             points=nodes,
+            load_factor=tables.fatigue.load_factor if tables.fatigue else 1.0,
+            materials=_materials(case, tables.fatigue),
         ),
         modulus=modulus,
         speed_rpm=tables.load.speed_rpm,
@@ -114,6 +116,24 @@ def _pair(case: Record, table: GearTable) -> InvolutePair | None:
         case.faults.add("gear", str(error).removeprefix("gear pair: "))
         return None
     return pair
+
+
+def _materials(case: Record, table: GearFatigueTable | None) -> tuple[GearSide, GearSide] | None:
+    if table is None:
+        return None
+    if "load_factor" not in table.model_fields_set:
+        case.assumptions.append("fatigue.load_factor = 1 (default)")
+    pinion, wheel = (
+        GearSide(
+            side.treatment,
+            side.hardness_HB or side.hardness_HRC or 0.0,
+            "HB" if side.hardness_HB else "HRC",
+            side.contact_limit_MPa,
+            side.contact_safety,
+        )
+        for side in (table.pinion, table.wheel)
+    )
+    return pinion, wheel
 
 
 def _stiffness(case: Record, tables: GearTables) -> float:

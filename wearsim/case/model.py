@@ -314,6 +314,29 @@ class WrapDrive:
         return tip_land(x, y, self.gaps)
 
 
+@dataclass(frozen=True)
+class GearSide:
+    """Material of a pinion or wheel against contact fatigue.
+
+    Attributes
+    ----------
+    treatment : str
+        Heat treatment.
+    hardness : float
+        Of the flank.
+    scale : str
+        ``HB`` or ``HRC``.
+    contact_limit, contact_safety : float or None
+        sigma_Hlim [MPa] and S_H; None for those of the treatment.
+    """
+
+    treatment: str
+    hardness: float
+    scale: str
+    contact_limit: float | None
+    contact_safety: float | None
+
+
 @dataclass(frozen=True, eq=False)
 class GearDrive:
     """A pinion and a wheel.
@@ -332,6 +355,10 @@ class GearDrive:
         Wear coefficient of the wheel over that of the pinion.
     points : int
         Of the flank.
+    load_factor : float
+        K_H on the load, for contact fatigue only.
+    materials : tuple of GearSide or None
+        Of pinion and wheel; None where contact fatigue is not asked for.
     """
 
     pair: InvolutePair
@@ -340,6 +367,8 @@ class GearDrive:
     stiffness: float
     wheel_wear_ratio: float
     points: int
+    load_factor: float = 1.0
+    materials: tuple[GearSide, GearSide] | None = None
 
     @property
     def line_load(self) -> float:

@@ -109,7 +109,11 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
     limits = [("Limits", f"at the end of the life {used}")]
     if not result.parts:
         return limits
-    lives = ", ".join(f"{name} {hours(life)}" for name, life in result.parts.items())
+    lives = ", ".join(
+        f"{name.replace('_', ' ')} {hours(life)}" for name, life in result.parts.items()
+    )
+    if "chain" not in result.parts:
+        return [("Beside", f"contact fatigue (pitting): {lives}"), *limits]
     chains = int(result.history_columns["chain"][-1])
     more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
     return [("Of which", f"{lives}{more}"), *limits]

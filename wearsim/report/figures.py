@@ -109,7 +109,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     label = f"deepest, {result.max_depth:.3g} mm"
     panel.plot(x[deepest], y[deepest], "o", color="tab:red", markersize=5, label=label)
     reach = 1.6 * extent
-    left = new.x.min() - (0.2 if result.parts else 0.7) * extent
+    left = new.x.min() - (0.2 if "sprocket" in result.parts else 0.7) * extent
     right = max(new.x.max(), min(centre_x + radius, new.x.max() + reach)) + 0.2 * extent
     low = min(new.y.min(), y.min(), max(centre_y - radius, new.y.min() - reach))
     top = max(new.y.max(), min(centre_y + radius, new.y.max() + reach)) + 0.1 * extent
@@ -164,7 +164,7 @@ def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
 
 
 def _run_time(result: WearResult) -> str:
-    if result.parts:
+    if "sprocket" in result.parts:
         reached = "sprocket worn" if isinstance(result.parts["sprocket"], Life) else "run ends"
     else:
         reached = "life" if isinstance(result.life, Life) else "limit not reached"

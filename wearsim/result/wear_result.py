@@ -62,7 +62,8 @@ class WearResult:
         What was asked for.
     parts : mapping
         Lives of ``chain`` and ``sprocket`` on a wrap, with chains replaced at their limit;
-        empty otherwise.
+        ``pinion_fatigue`` and ``wheel_fatigue`` of gears whose materials are given: hours until
+        pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
         Every limit and what its quantity has come to at the end of the life.
     assumptions, warnings : tuple of str

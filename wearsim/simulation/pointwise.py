@@ -15,6 +15,7 @@ from wearsim.simulation.law import running_in_assumptions
 from wearsim.simulation.limits import limit_states
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, validity
+from wearsim.sizing.gear_fatigue import fatigue_lives
 from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
@@ -50,6 +51,7 @@ def simulate_points(case: Case) -> WearResult:
     low, high = _band(case, asked, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
+    fatigue = _fatigue(case, _life(case, run), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -73,7 +75,7 @@ def simulate_points(case: Case) -> WearResult:
         updates=run.updates,
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
-        parts={},
+        parts=fatigue,
         limits=limit_states(asked.criteria, run.x[-1], run.y[-1], run.depth[-1]),
         assumptions=(
             *mechanism.assumptions(),
@@ -281,6 +283,28 @@ def _band(
         cycles = float(run.cycles[-1]) / case.wear.high
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
+
+
+def _fatigue(
+    case: Case, wear: Life | LowerBound, warnings: list[str]
+) -> dict[str, Life | LowerBound]:
+    """Return the lives of gears until pitting, in cycles of the pinion; none for others."""
+    endured, rate = fatigue_lives(case), case.cycles_per_hour
+    for name, found in endured.items():
+        if found.hours == 0.0:
+            warnings.append(
+                f"contact fatigue: the stress at the pole is more than the {name} endures for any time"
+            )
+        elif not found.bound and found.hours < wear.hours_run:
+            warnings.append(
+                f"contact fatigue of the {name} comes before the wear, after {found.hours:.3g} h: it "
+                "governs"
+            )
+    return {
+        f"{name}_fatigue": life_of(found.hours * rate, rate, not found.bound)
+        for name, found in endured.items()
+        if found.hours > 0.0
+    }
 
 
 def _life(case: Case, run: Trajectory) -> Life | LowerBound:

@@ -228,6 +228,6 @@ def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _
         values=values,
         life=result.parts.get("sprocket", result.life),
         coefficient=case.wear.coefficient,
-        assumptions=(*_CONSTANT, *(joints if result.parts else ()), *result.assumptions),
+        assumptions=(*_CONSTANT, *(joints if "chain" in result.parts else ()), *result.assumptions),
         warnings=result.warnings,
     )

@@ -7,6 +7,7 @@ from pydantic import Field
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.material import MaterialTable
 from wearsim.case.schema.run import RunTable
+from wearsim.case.schema.strength import AtLeastOne, Brinell, Rockwell, Stress, Treatment
 from wearsim.case.schema.table import Table
 from wearsim.case.schema.wear import WearTable
 from wearsim.case.units import Number, Positive, PositiveNumber
@@ -83,6 +84,39 @@ class GearStopTable(Table):
     wheel_critical_depth_mm: Positive | None = None
 
 
+class GearSideTable(Table):
+    """Material of pinion or wheel against contact fatigue."""
+
+    treatment: Treatment
+    hardness_HB: Brinell | None = None
+    hardness_HRC: Rockwell | None = None
+    contact_limit_MPa: Stress | None = None
+    contact_safety: AtLeastOne | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = []
+        if (self.hardness_HB is None) == (self.hardness_HRC is None):
+            got = "none" if self.hardness_HB is None else "both"
+            message = f"give exactly one of hardness_HB and hardness_HRC (got {got})"
+            found.append(("hardness_HB", message))
+        if self.treatment == "nitrided" and self.contact_limit_MPa is None:
+            message = (
+                "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take "
+                "1050 MPa"
+            )
+            found.append(("contact_limit_MPa", message))
+        return found
+
+
+class GearFatigueTable(Table):
+    """Contact fatigue beside the wear."""
+
+    load_factor: AtLeastOne = 1.0
+    pinion: GearSideTable
+    wheel: GearSideTable
+
+
 class GearTables(CalculationTables):
     """The whole file."""
 
@@ -92,5 +126,6 @@ class GearTables(CalculationTables):
     mechanism: GearMechanismTable = GearMechanismTable()
     load: GearLoadTable
     wear: GearWearTable
+    fatigue: GearFatigueTable | None = None
     stop: GearStopTable
     run: RunTable = RunTable()
