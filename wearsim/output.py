@@ -32,13 +32,24 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive", "strength")
+_FIGURES = (
+    *("flanks", "along_flank", "depth_over_hours", "maintenance"),
+    *("wave_drive", "strength", "face_load"),
+)
+_TABLES = (
+    *("history", "flank", "summary", "policies", "tooth_counts"),
+    *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
+)
 _WRITTEN = {
-    *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
-    *("summary.csv", "summary.md"),
-    *("policies.csv", "tooth_counts.csv", "maintenance.md"),
-    *("methods.csv", "elasticities.csv"),
-    *("gears.csv", "allowable_over_hours.csv"),
+    *(
+        "result.json",
+        "case.lock.toml",
+        "environment.json",
+        "inputs",
+        "summary.md",
+        "maintenance.md",
+    ),
+    *(f"{name}.csv" for name in _TABLES),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""

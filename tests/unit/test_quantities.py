@@ -1,18 +1,23 @@
 """The table of names holds every input key and every output column, and nothing else."""
 
+import csv
 import json
 import typing
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from pydantic import BaseModel
 
 import wearsim
 from wearsim.case.load import load_case
 from wearsim.case.messages import Faults
 from wearsim.case.schema import CaseTables
+from wearsim.case.schema.calculations import CALCULATIONS
 from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import rows
+from wearsim.cli.main import wearsim_command
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
@@ -28,25 +33,59 @@ CASE = {
     "stop": {"critical_depth_mm": 0.01},
 }
 
-UNITS = {
-    "mm": "mm", "mm2": "mm^2", "N": "N", "MPa": "MPa", "kW": "kW", "kN": "kN", "rpm": "rpm",
-    "deg": "deg", "hours": "h", "hours_low": "h", "hours_high": "h", "hours_run": "h",
-    "N_m": "N*m", "per_mm": "1/mm", "mm_per_s": "mm/s", "mm2_per_N": "mm^2/N", "N_per_mm": "N/mm",
-    "kg_per_m": "kg/m", "km_per_hour": "km/h", "tonnes_per_hour": "t/h", "s": "s",
-}  # fmt: skip
+CALCULATION_CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
+OTHER_ENDINGS = {"h": "hours", "km/h": "km_per_hour", "t/h": "tonnes_per_hour"}
+"""Endings of names whose unit is written otherwise in the table."""
+WORDS_AFTER_UNIT = ("_low", "_high", "_run")
+
+
+def ending(unit):
+    """How a name in a unit ends: ``N_per_mm_um`` for N/(mm*um), ``per_mm`` for 1/mm."""
+    if unit in OTHER_ENDINGS:
+        return OTHER_ENDINGS[unit]
+    for sign, word in {"(": "", ")": "", "^": "", "*": "_", "1/": "per_", "/": "_per_"}.items():
+        unit = unit.replace(sign, word)
+    return unit
+
+
+def tables_in(annotation):
+    """Tables that a type is made of: itself, or in a list, a choice or both."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [table for inner in typing.get_args(annotation) for table in tables_in(inner)]
 
 
 def input_keys(model):
     for name, field in model.model_fields.items():
-        tables = [
-            kind
-            for kind in (field.annotation, *typing.get_args(field.annotation))
-            if isinstance(kind, type) and issubclass(kind, BaseModel)
-        ]
-        if tables:
-            yield from input_keys(tables[0])
-        else:
+        tables = tables_in(field.annotation)
+        for table in tables:
+            yield from input_keys(table)
+        if not tables:
             yield name
+
+
+def all_input_keys():
+    return {key for model in (CaseTables, *CALCULATIONS.values()) for key in input_keys(model)}
+
+
+def keys_below(content):
+    """Keys of all objects of a JSON value."""
+    if isinstance(content, dict):
+        yield from content
+    if isinstance(content, dict | list):
+        for inner in content.values() if isinstance(content, dict) else content:
+            yield from keys_below(inner)
+
+
+def calculation_columns(path, folder):
+    """JSON keys and columns that the command writes whose name a case file starts with."""
+    command = max((name for name in CALCULATIONS if path.stem.startswith(name)), key=len)
+    done = CliRunner().invoke(wearsim_command, [command, str(path), "-q", "--out", str(folder)])
+    assert done.exit_code == 0, done.output
+    yield from keys_below(json.loads((folder / "result.json").read_text(encoding="utf-8")))
+    for table in folder.glob("*.csv"):
+        with table.open(encoding="utf-8", newline="") as file:
+            yield from next(csv.reader(file))
 
 
 def catalogue_columns():
@@ -101,11 +140,16 @@ def written(tmp_path_factory):
         *("cost_per_1000_h", "classes", "same_link_kind"),
         *catalogue_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
+        *(
+            name
+            for path in CALCULATION_CASES
+            for name in calculation_columns(path, tmp_path_factory.mktemp(path.stem) / "out")
+        ),
     }
 
 
 def test_every_input_key_is_listed():
-    assert set(input_keys(CaseTables)) - set(quantities()) == set()
+    assert all_input_keys() - set(quantities()) == set()
 
 
 def test_every_column_is_listed(written):
@@ -113,7 +157,12 @@ def test_every_column_is_listed(written):
 
 
 def test_no_row_is_unused(written):
-    assert set(quantities()) - written - set(input_keys(CaseTables)) == set()
+    assert set(quantities()) - written - all_input_keys() == set()
+
+
+def test_every_calculation_has_a_case():
+    for command in CALCULATIONS:
+        assert any(path.stem.startswith(command) for path in CALCULATION_CASES), command
 
 
 def test_every_quantity_has_a_meaning():
@@ -121,7 +170,11 @@ def test_every_quantity_has_a_meaning():
 
 
 def test_name_carries_the_unit():
+    """A name ends in its unit, and a name that ends like one of the units has that unit."""
+    endings = {ending(q.unit): q.unit for q in quantities().values() if q.unit}
     for name, quantity in quantities().items():
-        endings = [ending for ending in UNITS if f"_{name}".endswith(f"_{ending}")]
-        expected = UNITS[max(endings, key=len)] if endings else ""
-        assert quantity.unit == expected, name
+        bare = name
+        for word in WORDS_AFTER_UNIT:
+            bare = bare.removesuffix(word)
+        found = [end for end in endings if f"_{bare}".endswith(f"_{end}")]
+        assert quantity.unit == (endings[max(found, key=len)] if found else ""), name

@@ -7,6 +7,7 @@ from pydantic import ValidationError
 
 from wearsim.case.document import Document, Source, read_document
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.table import Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)
 
@@ -64,3 +65,28 @@ def checked(document: Document, model: type[Tables]) -> Tables:
         document.faults.add_validation(error, model)
         document.faults.check()
         raise
+
+
+def defaults_taken(tables: Table, prefix: str = "") -> tuple[str, ...]:
+    """Return what a file left to its defaults, as an answer lists it under its assumptions.
+
+    Parameters
+    ----------
+    tables : Table
+        The input, or a table of it.
+    prefix : str
+        Dotted name of the table and a dot.
+
+    Returns
+    -------
+    tuple of str
+        Such as ``"run.method = advance (default)"``; without what is absent by default.
+    """
+    taken: list[str] = []
+    for key, value in tables:
+        if isinstance(value, Table):
+            taken += defaults_taken(value, f"{prefix}{key}.")
+        elif prefix and key not in tables.model_fields_set and value is not None:
+            shown = f"{value:g}" if isinstance(value, float) else value
+            taken.append(f"{prefix}{key} = {shown} (default)")
+    return tuple(taken)

@@ -12,6 +12,7 @@ import click
 import wearsim
 from wearsim.cli.check import check
 from wearsim.cli.compare import compare
+from wearsim.cli.face_load import face_load
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
@@ -58,6 +59,7 @@ for _command in (
     remaining,
     strength,
     wave_drive,
+    face_load,
     init,
     schema,
     list_table,

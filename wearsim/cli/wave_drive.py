@@ -16,10 +16,10 @@ def wave_drive(case: Path, settings: tuple[str, ...]) -> "Sheet":
     Each gives its diameter, the range over the values recommended for it, and what its result
     rests on; diameters that were published are held against it.
     """
-    from wearsim.case.calculation import load_calculation
+    from wearsim.case.calculation import defaults_taken, load_calculation
     from wearsim.case.schema.wave_drive import WaveDriveTables
     from wearsim.report.wave_drive import wave_drive_sheet
     from wearsim.sizing.wave_drive import wave_drive as diameters
 
     tables = load_calculation(case, WaveDriveTables, settings)
-    return wave_drive_sheet(tables.title, diameters(tables))
+    return wave_drive_sheet(tables.title, diameters(tables), defaults_taken(tables))

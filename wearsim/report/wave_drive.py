@@ -9,48 +9,60 @@ from matplotlib.figure import Figure
 
 from wearsim.report.answer import numbered, row
 from wearsim.report.sheet import Sheet
-from wearsim.sizing.wave_drive import Found
+from wearsim.sizing.wave_drive import MethodComparison, MethodDiameter
 
 _ASSUMPTIONS = (
     "formulas of six textbooks as collected by Tkachenko (2010), whose tables are lost in part",
     "the range of a method is that over the values the source recommends for its own keys, all "
     "others as given",
-    "where a printed formula cannot give the printed diameter the corrected one is taken: a cube "
-    "root in torsion, 10 instead of 28.4 in rim_bending",
+    "two printed formulas cannot give the diameters printed with them; unless formula = printed they "
+    "are corrected: a cube root in torsion, 10 instead of 28.4 in rim_bending",
 )
 
 
-def wave_drive_sheet(title: str, found: Sequence[Found]) -> Sheet:
+def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequence[str]) -> Sheet:
     """Return what ``wearsim wave-drive`` shows.
 
     Parameters
     ----------
     title : str
         Of the case.
-    found : sequence of Found
+    comparison : MethodComparison
         The methods.
+    defaults : sequence of str
+        What the file left to its defaults.
 
     Returns
     -------
     Sheet
         With the tables ``methods`` and ``elasticities``.
     """
+    found = comparison.diameters
     rows = [_row(one) for one in found]
     slopes = [
         {"sizing_method": one.method.name, "key": key, "elasticity": slope}
         for one in found
         for key, slope in one.elasticity.items()
     ]
+    assumptions = (*_ASSUMPTIONS, *defaults)
+    warnings = [f"left out: {reason}" for reason in comparison.left_out.values()]
+    warnings += _warnings(found)
     return Sheet(
-        text=_text(title, found),
-        content={"title": title, "methods": rows, "elasticities": slopes},
+        text=_text(title, found, assumptions),
+        content={
+            "title": title,
+            "methods": rows,
+            "elasticities": slopes,
+            "assumptions": list(assumptions),
+            "warnings": warnings,
+        },
         tables={"methods": pd.DataFrame(rows), "elasticities": pd.DataFrame(slopes)},
         figures={"wave_drive": wave_drive_figure(title, found)},
-        warnings=tuple(_warnings(found)),
+        warnings=tuple(warnings),
     )
 
 
-def _row(one: Found) -> dict[str, Any]:
+def _row(one: MethodDiameter) -> dict[str, Any]:
     known = not math.isnan(one.published)
     return {
         "sizing_method": one.method.name,
@@ -60,8 +72,8 @@ def _row(one: Found) -> dict[str, Any]:
         "least_diameter_mm": one.least,
         "greatest_diameter_mm": one.greatest,
         "rank": one.rank,
-        "best_rank": one.best_rank,
-        "worst_rank": one.worst_rank,
+        "least_rank": one.least_rank,
+        "greatest_rank": one.greatest_rank,
         "published_diameter_mm": one.published if known else None,
         "reproduces": one.reproduces if known else None,
         "allowable": one.method.allowable,
@@ -69,32 +81,36 @@ def _row(one: Found) -> dict[str, Any]:
     }
 
 
-def _text(title: str, found: Sequence[Found]) -> str:
-    head = f"{'method':18s}{'of':5s}{'limits':26s}{'d, mm':>8s}{'range':>14s}{'rank':>8s}"
-    lines = [title, "", f"{head}{'published':>11s}"]
+def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, ...]) -> str:
+    head = f"{'method':18s}{'of':5s}{'limits':26s}{'d, mm':>8s}{'range, mm':>15s}{'rank':>9s}"
+    lines = [title, "", f"  {head}{'published':>11s}"]
     for one in found:
         span = f"{one.least:.1f}-{one.greatest:.1f}" if one.greatest > one.least else "-"
         ranks = f"{one.rank}"
-        if one.worst_rank > one.best_rank:
-            ranks += f" ({one.best_rank}-{one.worst_rank})"
+        if one.greatest_rank > one.least_rank:
+            ranks += f" ({one.least_rank}-{one.greatest_rank})"
         shown = "" if math.isnan(one.published) else f"{one.published:g}"
         lines.append(
-            f"{one.method.name:18s}{one.method.source:5s}{one.method.criterion:26s}{one.diameter:8.1f}"
-            f"{span:>14s}{ranks:>8s}{shown:>11s}"
+            f"  {one.method.name:18s}{one.method.source:5s}{one.method.criterion:26s}"
+            f"{one.diameter:8.1f}{span:>15s}{ranks:>9s}{shown:>11s}".rstrip()
         )
-    published = [one for one in found if not math.isnan(one.published)]
-    lines += ["", *(_held(one) for one in published)] if published else []
-    return "\n".join([*lines, "", row("Assumes", numbered(_ASSUMPTIONS))])
+    published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]
+    lines += ["", *published] if published else []
+    return "\n".join([*lines, "", row("Assumes", numbered(assumptions))])
 
 
-def _held(one: Found) -> str:
+def _held(one: MethodDiameter) -> str:
     name, key = one.method.name, one.method.allowable
-    verdict = "reproduces" if one.reproduces else "does NOT reproduce"
-    needs = "no value does" if math.isnan(one.needed) else f"takes {key} = {one.needed:.6g}"
-    return f"{name}: {one.published:g} mm {verdict} ({one.diameter:.1f} mm here); exactly {needs}"
+    verdict = "reproduced" if one.reproduces else f"NOT reproduced ({one.diameter:.1f} mm)"
+    if math.isnan(one.needed):
+        return f"{name}: {one.published:g} mm {verdict}; no {key} gives it"
+    low, high = one.method.ranges.get(key, (-math.inf, math.inf))
+    fits = one.reproduces or low <= one.needed <= high
+    beyond = "" if fits else f", not {low:g}-{high:g}"
+    return f"{name}: {one.published:g} mm {verdict}; takes {key} = {one.needed:.4g}{beyond}"
 
 
-def _warnings(found: Sequence[Found]) -> list[str]:
+def _warnings(found: Sequence[MethodDiameter]) -> list[str]:
     diameters = [one.diameter for one in found]
     warnings = []
     if max(diameters) > 1.3 * min(diameters):
@@ -103,6 +119,18 @@ def _warnings(found: Sequence[Found]) -> list[str]:
             "different things with different safety; take the one whose limits you know"
         )
     for one in found:
+        if one.as_printed:
+            warnings.append(
+                f"{one.method.name}: the formula as printed is wrong: it cannot give the diameter that is "
+                "printed with it; take formula = corrected"
+            )
+        ranges = {**one.method.ranges, **one.method.drive_ranges}
+        for key, value in one.outside.items():
+            low, high = ranges[key]
+            warnings.append(
+                f"{one.method.name}: {key} = {value:g} is outside {low:g}-{high:g}, for which the method "
+                "is stated"
+            )
         steepest = max(one.elasticity.items(), key=lambda item: abs(item[1]))
         if abs(steepest[1]) > 1.01:
             warnings.append(
@@ -112,14 +140,14 @@ def _warnings(found: Sequence[Found]) -> list[str]:
     return warnings
 
 
-def wave_drive_figure(title: str, found: Sequence[Found]) -> Figure:
+def wave_drive_figure(title: str, found: Sequence[MethodDiameter]) -> Figure:
     """Return a bar for the range of each method with its diameter.
 
     Parameters
     ----------
     title : str
         Of the case.
-    found : sequence of Found
+    found : sequence of MethodDiameter
         The methods.
 
     Returns
@@ -134,7 +162,13 @@ def wave_drive_figure(title: str, found: Sequence[Found]) -> Figure:
             [one.least, one.greatest], [place, place], color="tab:blue", alpha=0.35, linewidth=9,
             solid_capstyle="butt", label="over the recommended values" if place == 0 else None,
         )  # fmt: skip
-        panel.plot(one.diameter, place, "o", color="tab:blue", label="here" if place == 0 else None)
+        panel.plot(
+            one.diameter,
+            place,
+            "o",
+            color="tab:blue",
+            label="with the values given" if place == 0 else None,
+        )
         panel.annotate(
             f"{one.diameter:.0f}", (one.diameter, place), (0, 7), textcoords="offset points",
             ha="center", fontsize=7,

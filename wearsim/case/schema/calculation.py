@@ -37,4 +37,4 @@ class CalculationTables(Table):
     """The tables of an input file that is about no drive."""
 
     format_version: FormatVersion
-    title: str
+    title: str = ""

@@ -1,6 +1,7 @@
 """The input files other than that of a chain drive: of a gear pair, and by commands that read them."""
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.case.schema.gear import GearTables
 from wearsim.case.schema.strength import StrengthTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
@@ -9,4 +10,5 @@ CALCULATIONS: dict[str, type[CalculationTables]] = {
     "gear": GearTables,
     "strength": StrengthTables,
     "wave-drive": WaveDriveTables,
+    "face-load": FaceLoadTables,
 }

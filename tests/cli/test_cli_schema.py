@@ -1,0 +1,69 @@
+"""``wearsim schema --of COMMAND``: valid, described, and true of the shipped cases."""
+
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from wearsim.case.schema.calculations import CALCULATIONS
+from wearsim.cli.main import wearsim_command
+
+CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
+
+
+def cases_of(command):
+    """Files whose name starts with the command, of all commands the longest that fits."""
+    found = []
+    for path in CASES:
+        fitting = [name for name in CALCULATIONS if path.stem.startswith(name)]
+        if fitting and max(fitting, key=len) == command:
+            found.append(path)
+    return found
+
+
+@pytest.fixture(params=CALCULATIONS)
+def schema(request, cli):
+    done = cli("schema", "--of", request.param)
+    assert (done.code, done.err) == (0, "")
+    return request.param, json.loads(done.out)
+
+
+def test_schema_is_valid_and_every_key_is_described(schema):
+    command, content = schema
+    Draft202012Validator.check_schema(content)
+    assert content["title"] == f"wearsim {command}"
+    for table in (content, *content.get("$defs", {}).values()):
+        if "properties" not in table:
+            continue
+        assert table["additionalProperties"] is False
+        for name, entry in table["properties"].items():
+            assert entry.get("description") or "$ref" in str(entry), name
+
+
+def test_shipped_cases_are_valid_and_faults_are_not(schema):
+    command, content = schema
+    validator = Draft202012Validator(content)
+    assert cases_of(command), f"cases/sizing must hold {command}-*.toml"
+    for path in cases_of(command):
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        assert list(validator.iter_errors(tables)) == [], path
+        assert not validator.is_valid({**tables, "format_version": 2})
+        assert not validator.is_valid({**tables, "no_such_table": {}})
+
+
+def test_every_file_belongs_to_a_calculation_and_every_calculation_is_a_command():
+    assert sorted(path for command in CALCULATIONS for path in cases_of(command)) == CASES
+    assert set(CALCULATIONS) <= set(wearsim_command.commands)
+
+
+def test_unknown_command_is_named(cli):
+    done = cli("schema", "--of", "wave-drives")
+    assert done.code == 2
+    assert "must be one of " in done.err
+    assert "wave-drive" in done.err
+
+
+def test_one_schema_at_a_time(cli):
+    assert cli("schema", "--result", "--of", "wave-drive").code == 2
