@@ -32,12 +32,16 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive")
+_FIGURES = (
+    *("flanks", "along_flank", "depth_over_hours", "maintenance"),
+    *("stiffness_spectrum", "wave_drive"),
+)
 _WRITTEN = {
     *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
     *("summary.csv", "summary.md"),
     *("policies.csv", "tooth_counts.csv", "maintenance.md"),
     *("methods.csv", "elasticities.csv"),
+    *("lines.csv", "statics.csv"),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""

@@ -33,6 +33,7 @@ UNITS = {
     "deg": "deg", "hours": "h", "hours_low": "h", "hours_high": "h", "hours_run": "h",
     "N_m": "N*m", "per_mm": "1/mm", "mm_per_s": "mm/s", "mm2_per_N": "mm^2/N", "N_per_mm": "N/mm",
     "kg_per_m": "kg/m", "km_per_hour": "km/h", "tonnes_per_hour": "t/h", "s": "s",
+    "Hz": "Hz",
 }  # fmt: skip
 
 

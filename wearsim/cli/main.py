@@ -21,6 +21,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -55,6 +56,7 @@ for _command in (
     compare,
     maintain,
     remaining,
+    stiffness_spectrum,
     wave_drive,
     init,
     schema,
