@@ -34,11 +34,12 @@ def check_free(path: Path, force: bool) -> None:
 
 _FIGURES = (
     *("flanks", "along_flank", "depth_over_hours", "maintenance"),
-    *("wave_drive", "strength", "face_load"),
+    *("wave_drive", "strength", "face_load", "stiffness_spectrum"),
 )
 _TABLES = (
     *("history", "flank", "summary", "policies", "tooth_counts"),
     *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
+    *("lines", "statics"),
 )
 _WRITTEN = {
     *(

@@ -22,6 +22,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
@@ -58,6 +59,7 @@ for _command in (
     maintain,
     remaining,
     strength,
+    stiffness_spectrum,
     wave_drive,
     face_load,
     init,

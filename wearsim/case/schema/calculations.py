@@ -3,12 +3,14 @@
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.case.schema.gear import GearTables
+from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
 from wearsim.case.schema.strength import StrengthTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
 CALCULATIONS: dict[str, type[CalculationTables]] = {
     "gear": GearTables,
     "strength": StrengthTables,
+    "stiffness-spectrum": StiffnessSpectrumTables,
     "wave-drive": WaveDriveTables,
     "face-load": FaceLoadTables,
 }
