@@ -14,7 +14,7 @@ import wearsim
 from wearsim.case.load import load_case
 from wearsim.case.messages import Faults
 from wearsim.case.schema import CaseTables
-from wearsim.case.schema.calculations import CALCULATIONS
+from wearsim.case.schema.calculations import CALCULATIONS, OTHER_FILES
 from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import rows
 from wearsim.cli.main import wearsim_command
@@ -22,6 +22,7 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
+from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.simulation.loads import tooth_loads
 
 CASE = {
@@ -65,7 +66,7 @@ def input_keys(model):
 
 
 def all_input_keys():
-    return {key for model in (CaseTables, *CALCULATIONS.values()) for key in input_keys(model)}
+    return {key for model in (CaseTables, *OTHER_FILES.values()) for key in input_keys(model)}
 
 
 def keys_below(content):
@@ -136,6 +137,7 @@ def written(tmp_path_factory):
         *profile_table(case),
         *comparison_table([result]),
         *wrapped(),
+        *FLANK_COLUMNS["gear_pair"],
         *("time_s", "turned", "chains_per_sprocket", "last_chain_used", "stops"),
         *("cost_per_1000_h", "classes", "same_link_kind"),
         *catalogue_columns(),

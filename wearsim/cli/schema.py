@@ -12,8 +12,8 @@ from wearsim.cli.standard import standard
 @click.option(
     "--of",
     "command",
-    metavar="COMMAND",
-    help="Of the input of a calculation such as wave-drive instead.",
+    metavar="KIND",
+    help="Of the input of a gear pair (gear) or of a calculation (wave-drive, ...) instead.",
 )
 @standard
 def schema(of_result: bool, command: str | None) -> None:
@@ -26,13 +26,13 @@ def schema(of_result: bool, command: str | None) -> None:
         click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
         return
     from wearsim.case.schema import CaseTables
-    from wearsim.case.schema.calculations import CALCULATIONS
+    from wearsim.case.schema.calculations import OTHER_FILES
 
-    if command and command not in CALCULATIONS:
+    if command and command not in OTHER_FILES:
         raise click.BadParameter(
-            f"must be one of {', '.join(CALCULATIONS)}, not {command}", param_hint="--of"
+            f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of"
         )
-    model = CALCULATIONS[command] if command else CaseTables
+    model = OTHER_FILES[command] if command else CaseTables
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **model.model_json_schema(),

@@ -1,4 +1,4 @@
-"""The input files other than that of a chain drive: of a gear pair, and by commands that read them."""
+"""The input files other than that of a chain drive."""
 
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.face_load import FaceLoadTables
@@ -8,9 +8,11 @@ from wearsim.case.schema.strength import StrengthTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
 CALCULATIONS: dict[str, type[CalculationTables]] = {
-    "gear": GearTables,
     "strength": StrengthTables,
     "stiffness-spectrum": StiffnessSpectrumTables,
     "wave-drive": WaveDriveTables,
     "face-load": FaceLoadTables,
 }
+"""By the command that reads them."""
+
+OTHER_FILES: dict[str, type[CalculationTables]] = {"gear": GearTables, **CALCULATIONS}
