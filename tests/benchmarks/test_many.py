@@ -51,9 +51,11 @@ def best_of(rounds, run):
 @pytest.mark.parametrize(("nodes", "tolerance"), [(200, 1e-2), (401, 1e-4)])
 def test_threads(benchmark, cases, nodes, tolerance):
     given = list(cases(nodes, tolerance, LIVES))
-    found = {}
+    rounds, found = 5 if nodes == 200 else 2, {}
     for threads in (1, 2):
-        found[threads] = best_of(5, lambda n=threads: deque(wearsim.simulate_many(given, n), 0))
+        found[threads] = best_of(
+            rounds, lambda n=threads: deque(wearsim.simulate_many(given, n), 0)
+        )
     few = given[::100]
     tight = [replace(case, run=replace(case.run, life_tolerance=1e-6)) for case in few]
     errors = [

@@ -115,7 +115,7 @@ def test_circles_beside_a_ray_do_not_stop_it(beside):
     base = np.array([[5.0] * 3, [1.0, 2.5, 4.0], [1.0] * 3, [0.0] * 3])
     locus, touched = np.empty((4, 3)), np.empty(3)
     x, y = np.concatenate([wall_x, row_x]), np.concatenate([wall_y, row_y])
-    roller_locus(x, y, base, radius, np.empty(x.size), locus, touched)
+    roller_locus(x, y, base, radius, np.empty(x.size + 4), locus, touched)
     assert locus[0] == pytest.approx(radius, abs=1e-9)
     assert locus[1] == pytest.approx(base[1], abs=1e-12)
     assert touched == pytest.approx([20.0, 50.0, 80.0], abs=1e-6)
@@ -127,7 +127,7 @@ def test_opposite_side_stops_no_roller_that_fits():
     x = np.concatenate([np.zeros_like(y), np.full_like(y, 2.0 * radius + 1e-3)])
     base = np.array([[radius], [0.0], [1.0], [0.0]])
     locus, touched = np.empty((4, 1)), np.empty(1)
-    roller_locus(x, np.concatenate([y, y]), base, radius, np.empty(x.size), locus, touched)
+    roller_locus(x, np.concatenate([y, y]), base, radius, np.empty(x.size + 4), locus, touched)
     assert locus[:, 0] == pytest.approx([radius, 0.0, 1.0, 0.0], abs=1e-9)
 
 
@@ -135,7 +135,7 @@ def test_ray_that_meets_nothing_leaves_its_node():
     base = np.array([[0.0], [50.0], [0.0], [1.0]])
     locus, touched = np.empty((4, 1)), np.empty(1)
     x = np.linspace(5.0, 6.0, 9)
-    roller_locus(x, 0.0 * x, base, 2.0, np.empty(9), locus, touched)
+    roller_locus(x, 0.0 * x, base, 2.0, np.empty(13), locus, touched)
     assert (locus[:, 0] == base[:, 0]).all()
     assert touched[0] == -1.0
 

@@ -119,10 +119,12 @@ class RollerPath:
         return self._cast(x, y, np.interp(np.linspace(0.0, weight[-1], nodes), weight, first.place))
 
     def _cast(self, x: Vector, y: Vector, place: Vector) -> "WornPath":
-        base = np.array([np.interp(place, np.arange(row.size), row) for row in self.base])
+        before = np.minimum(place.astype(int), self.base.shape[1] - 2)
+        base = self.base.take(before, axis=1)
+        base += (place - before) * (self.base.take(before + 1, axis=1) - base)
         base[2:] /= np.hypot(base[2], base[3])
         locus, touched = np.empty_like(base), np.empty(place.size)
-        roller_locus(x, y, base, self.roller_radius, np.empty(x.size), locus, touched)
+        roller_locus(x, y, base, self.roller_radius, np.empty(x.size + 4), locus, touched)
         return WornPath(place, locus, touched)
 
 

@@ -6,10 +6,68 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, void
+from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
+
+_INSIDE = 1.0 - 1e-12
+"""Part of its radius squared within which a point is inside a roller, not on it."""
+
+
+@kernel(float64(VECTOR, VECTOR, int64, VECTOR, float64))
+def way_to(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> float:
+    """Return the way along a ray to the circle around a point; infinite if it lies behind or beside.
+
+    ``ray``: x, y and the unit direction that it goes against.
+    """
+    ax, ay = ray[0] - x[point], ray[1] - y[point]
+    across = ax * ray[3] - ay * ray[2]
+    rest = radius * radius - across * across
+    along, half = ax * ray[2] + ay * ray[3], math.sqrt(max(rest, 0.0))
+    return along - half if rest > 0.0 and along + half > 1e-9 * radius else math.inf
+
+
+@kernel(int64(VECTOR, VECTOR, VECTOR, float64, VECTOR))
+def first_met(x: Vector, y: Vector, ray: Vector, radius: float, reach: Vector) -> int:
+    """Return the point whose circle a ray meets first, by trying all; ``reach`` takes the ways."""
+    points = x.size
+    bx, by, nx, ny = ray[0], ray[1], ray[2], ray[3]
+    for j in range(points):
+        ax, ay = bx - x[j], by - y[j]
+        across = ax * ny - ay * nx
+        rest = radius * radius - across * across
+        along, half = ax * nx + ay * ny, math.sqrt(max(rest, 0.0))
+        met = rest > 0.0 and along + half > 1e-9 * radius
+        reach[j] = along - half if met else math.inf
+    best = 0
+    for j in range(1, points):
+        best = j if reach[j] < reach[best] else best
+    return best
+
+
+@kernel(int64(VECTOR, VECTOR, int64, VECTOR, float64))
+def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> int:
+    """Return the point that a ray meets first if that is found downhill from another, else -1.
+
+    It is the first of all where no other is inside the roller that touches it.
+    """
+    points, best = x.size, point
+    least = way_to(x, y, best, ray, radius)
+    for direction in (-1, 1):
+        while 0 <= best + direction < points:
+            way = way_to(x, y, best + direction, ray, radius)
+            if not way < least:
+                break
+            best, least = best + direction, way
+    if least == math.inf:
+        return -1
+    cx, cy = ray[0] - least * ray[2], ray[1] - least * ray[3]
+    within, inside = _INSIDE * radius * radius, 0
+    for j in range(points):
+        ax, ay = cx - x[j], cy - y[j]
+        inside += 1 if ax * ax + ay * ay < within else 0
+    return -1 if inside > 0 else best
 
 
 @kernel(void(VECTOR, VECTOR, TABLE, float64, VECTOR, TABLE, VECTOR))
@@ -18,48 +76,39 @@ def roller_locus(
     y: Vector,
     base: Vector,
     radius: float,
-    reach: Vector,
+    work: Vector,
     locus: Vector,
     touched: Vector,
 ) -> None:
     """Move every node of a base line towards the outline until the roller touches it.
 
     ``base``: rows x, y and the unit direction out of the outline that the node moves
-    against. The way to point j is that of the ray to the circle of the roller's radius
+    against. The way to a point is that of the ray to the circle of the roller's radius
     around it; the outline between the points is met by the parabola through the three
     smallest ways. Circles that lie behind the node, those of the opposite side, do not
     count. ``locus`` takes x, y and the unit normal from the touched place to the
-    centre, ``touched`` the number of that place in points; ``reach`` is work of the
-    outline's size. A ray that meets nothing leaves its node where it is.
+    centre, ``touched`` the number of that place in points; ``work`` is of the
+    outline's size and 4 more. A ray that meets nothing leaves its node where it is.
     """
     points, nodes = x.size, base.shape[1]
+    reach, ray, best = work[:points], work[points : points + 4], -1
     for k in range(nodes):
-        bx, by, nx, ny = base[0, k], base[1, k], base[2, k], base[3, k]
-        for j in range(points):
-            ax, ay = bx - x[j], by - y[j]
-            across = ax * ny - ay * nx
-            rest = radius * radius - across * across
-            along, half = ax * nx + ay * ny, math.sqrt(max(rest, 0.0))
-            met = rest > 0.0 and along + half > 1e-9 * radius
-            reach[j] = along - half if met else math.inf
-        # Four at a time: a minimum waits for the one before it.
-        least, least_1, least_2, least_3 = math.inf, math.inf, math.inf, math.inf
-        for j in range(0, points - 3, 4):
-            least, least_1 = min(least, reach[j]), min(least_1, reach[j + 1])
-            least_2, least_3 = min(least_2, reach[j + 2]), min(least_3, reach[j + 3])
-        for j in range(points - points % 4, points):
-            least = min(least, reach[j])
-        least = min(min(least, least_1), min(least_2, least_3))
-        best = 0
-        while reach[best] != least:
-            best += 1
+        for row in range(4):
+            ray[row] = base[row, k]
+        best = met_near(x, y, best, ray, radius) if best >= 0 else -1
+        if best < 0:
+            best = first_met(x, y, ray, radius, reach)
+        least = way_to(x, y, best, ray, radius)
         if least == math.inf:
-            locus[0, k], locus[1, k], locus[2, k], locus[3, k] = bx, by, nx, ny
-            touched[k] = -1.0
+            for row in range(4):
+                locus[row, k] = ray[row]
+            touched[k], best = -1.0, -1
             continue
         place = 0.0
         middle = min(max(best, 1), points - 2)
-        before, here, after = reach[middle - 1], reach[middle], reach[middle + 1]
+        before = way_to(x, y, middle - 1, ray, radius)
+        here = way_to(x, y, middle, ray, radius)
+        after = way_to(x, y, middle + 1, ray, radius)
         bend = before - 2.0 * here + after
         if best == middle and 0.0 < bend < math.inf:
             place = 0.5 * (before - after) / bend
@@ -69,7 +118,7 @@ def roller_locus(
         a, b, c = 0.5 * place * (place - 1.0), 1.0 - place * place, 0.5 * place * (place + 1.0)
         kx = a * x[middle - 1] + b * x[middle] + c * x[middle + 1]
         ky = a * y[middle - 1] + b * y[middle] + c * y[middle + 1]
-        cx, cy = bx - least * nx, by - least * ny
+        cx, cy = ray[0] - least * ray[2], ray[1] - least * ray[3]
         length = math.sqrt((cx - kx) * (cx - kx) + (cy - ky) * (cy - ky))
         locus[0, k], locus[1, k] = cx, cy
         locus[2, k], locus[3, k] = (cx - kx) / length, (cy - ky) / length

@@ -92,9 +92,15 @@ def states_between(times: Vector, path: Vector, wanted: Vector, states: Vector) 
 
 @kernel(float64(TABLE, TABLE, float64, float64))
 def part_to_depth(start: Vector, end: Vector, step: float, limit: float) -> float:
-    """Return the part of a step at which the first point reaches a depth, by bisection."""
-    first = 1.0
-    for j in range(start.shape[1]):
+    """Return the part of a step at which the first point reaches a depth, by bisection.
+
+    The deepest point comes first, so that few others need to be searched.
+    """
+    first, deepest, points = 1.0, 0, start.shape[1]
+    for j in range(points):
+        deepest = j if end[2, j] > end[2, deepest] else deepest
+    for i in range(points):
+        j = (deepest + i) % points
         if end[2, j] < limit or between(start, end, step, 2, first, j) < limit:
             continue
         low, high = 0.0, first

@@ -356,6 +356,8 @@ class WrapContact(Dwelling):
 
     def _by_body(self, values: Rows, functions: "list[Callable[[Rows], Rows]]") -> Rows:
         """Apply to the rollers of every body the function of that body."""
+        if len(functions) == 1:
+            return functions[0](values)
         configuration, _, roller = np.indices(values.shape)
         found = np.empty_like(values)
         for body, function in enumerate(functions):

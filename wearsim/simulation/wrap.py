@@ -273,8 +273,8 @@ def _run(
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
     thin = contact.thinned()
-    levels = ((thin, 1), (thin.coarsened(), 1), (thin, 0))
-    fine, sparse, coarse = run_together(levels, law, criteria, horizon, progress=progress)
+    levels = ((thin, 1), (thin, 0), (thin.coarsened(), 0))
+    fine, coarse, sparse = run_together(levels, law, criteria, horizon, progress=progress)
     run, error = halve_steps(
         thin, law, criteria, horizon, tolerance / amplification, (coarse, fine), progress=progress
     )
@@ -282,7 +282,7 @@ def _run(
         check = run
         run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]), progress)
         error += difference(run, check)
-    error = amplification * (error + difference(fine, sparse))
+    error = amplification * (error + difference(coarse, sparse))
     if error > tolerance:
         warnings.append(
             f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"
