@@ -138,12 +138,8 @@ def test_picture_is_of_the_life_in_the_answer(result):
 
 
 DOCUMENTS = (
-    "README.md",
-    "CHANGELOG.md",
-    "CONTRIBUTING.md",
-    "docs/input.md",
-    "docs/output.md",
-    "docs/physics.md",
+    *("README.md", "CHANGELOG.md", "CONTRIBUTING.md"),
+    *(f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))),
 )
 
 
