@@ -32,12 +32,21 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive")
+_FIGURES = (
+    "flanks",
+    "along_flank",
+    "depth_over_hours",
+    "maintenance",
+    "wave_drive",
+    "convex_concave",
+)
 _WRITTEN = {
     *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
     *("summary.csv", "summary.md"),
     *("policies.csv", "tooth_counts.csv", "maintenance.md"),
     *("methods.csv", "elasticities.csv"),
+    *("flanks.csv", "rack.csv", "rollers.csv"),
+    *(f"{gear}.{kind}" for gear in ("pinion", "wheel") for kind in ("dxf", "stl")),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""
