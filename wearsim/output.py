@@ -34,12 +34,12 @@ def check_free(path: Path, force: bool) -> None:
 
 _FIGURES = (
     *("flanks", "along_flank", "depth_over_hours", "maintenance"),
-    *("wave_drive", "strength", "face_load", "stiffness_spectrum"),
+    *("wave_drive", "strength", "face_load", "stiffness_spectrum", "convex_concave"),
 )
 _TABLES = (
     *("history", "flank", "summary", "policies", "tooth_counts"),
     *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
-    *("lines", "statics"),
+    *("lines", "statics", "flanks", "rack", "rollers"),
 )
 _WRITTEN = {
     *(
@@ -51,6 +51,7 @@ _WRITTEN = {
         "maintenance.md",
     ),
     *(f"{name}.csv" for name in _TABLES),
+    *(f"{gear}.{kind}" for gear in ("pinion", "wheel") for kind in ("dxf", "stl")),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""

@@ -12,6 +12,7 @@ import click
 import wearsim
 from wearsim.cli.check import check
 from wearsim.cli.compare import compare
+from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.face_load import face_load
 from wearsim.cli.init import init
 from wearsim.cli.life import life
@@ -62,6 +63,7 @@ for _command in (
     stiffness_spectrum,
     wave_drive,
     face_load,
+    convex_concave,
     init,
     schema,
     list_table,

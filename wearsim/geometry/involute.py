@@ -8,6 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from wearsim.errors import GeometryError
+from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Profile, Vector
 
 
@@ -129,9 +130,34 @@ class InvolutePair:
         return self._tip_tangent(0)
 
     @property
+    def approach(self) -> float:
+        """Length of the path before the pole [mm], to the wheel's tip or the pinion's base circle."""
+        return self.pole - max(self.path_start, 0.0)
+
+    @property
+    def recess(self) -> float:
+        """Length of the path after the pole [mm], to the pinion's tip or the wheel's base circle."""
+        return min(self.path_end, self.line_length) - self.pole
+
+    @property
     def contact_ratio(self) -> float:
         """Length of the path of contact over the base pitch."""
-        return (self.path_end - self.path_start) / self.base_pitch
+        return (self.approach + self.recess) / self.base_pitch
+
+    def reduced_radius(self, place: Vector) -> Vector:
+        """Return the reduced radius of curvature, xi (T1T2 - xi) / T1T2.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            xi, on the line of action [mm].
+
+        Returns
+        -------
+        numpy.ndarray
+            Radius [mm].
+        """
+        return place * (self.line_length - place) / self.line_length
 
     def _tip_tangent(self, wheel: int) -> float:
         """Length of the tangent from the tip circle to the base circle [mm]."""
@@ -218,6 +244,47 @@ class InvolutePair:
             Around the wheel's axis, from root to tip: in the reverse order of the places.
         """
         return _involute(self.base_radius[1], (self.line_length - place)[::-1])
+
+
+def involute_over_pins(
+    module: float, teeth: int, pressure_angle: float, pin_diameter: float, backlash: float = 0.0
+) -> float:
+    """Return the measurement over pins of an involute gear without profile shift.
+
+    inv alpha_M = inv alpha + D / (m z cos alpha) - (pi m / 2 - j) / (m z), with the centre of
+    the pin at r cos alpha / cos alpha_M.
+
+    Parameters
+    ----------
+    module : float
+        Module m [mm].
+    teeth : int
+        Number z.
+    pressure_angle : float
+        Pressure angle alpha [rad].
+    pin_diameter : float
+        Diameter D of the pins [mm].
+    backlash : float
+        What the teeth are thinner than half the pitch, along the pitch circle [mm].
+
+    Returns
+    -------
+    float
+        Measurement M [mm]; nan where the pin touches no involute.
+
+    Examples
+    --------
+    >>> round(involute_over_pins(4.5, 17, math.radians(20.0), 8.0), 7)
+    87.6143981
+    """
+    a = pressure_angle
+    gap = 0.5 * math.pi * module + backlash
+    target = involute_function(a) + (pin_diameter / math.cos(a) - gap) / (module * teeth)
+    if not target > 0.0:
+        return math.nan
+    at = float(brentq(lambda t: involute_function(t) - target, 0.0, 1.5, xtol=1e-15))
+    centre = 0.5 * module * teeth * math.cos(a) / math.cos(at)
+    return measurement_over_pins(centre, pin_diameter, teeth)
 
 
 def _involute(base_radius: float, tangent: Vector) -> Profile:

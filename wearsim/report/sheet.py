@@ -1,8 +1,8 @@
 """What a calculation shows: text, JSON, tables and pictures."""
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,8 @@ class Sheet:
         By file stem.
     warnings : tuple of str
         What the user should look at.
+    files : mapping of str to callable
+        By file name: what writes a further file to the path that it is given.
     """
 
     text: str
@@ -36,9 +38,10 @@ class Sheet:
     tables: Mapping[str, pd.DataFrame]
     figures: Mapping[str, Figure]
     warnings: tuple[str, ...] = ()
+    files: Mapping[str, Callable[[Path], None]] = field(default_factory=dict)
 
     def save(self, folder: Path, force: bool) -> None:
-        """Write ``result.json``, a CSV file for each table, and each picture as PNG and SVG.
+        """Write ``result.json``, a CSV file for each table, each picture as PNG and SVG, and the files.
 
         Parameters
         ----------
@@ -59,3 +62,5 @@ class Sheet:
                 table.to_csv(place / f"{name}.csv", index=False, lineterminator="\n")
             for name, figure in self.figures.items():
                 save_figure(figure, place, name)
+            for name, write in self.files.items():
+                write(place / name)

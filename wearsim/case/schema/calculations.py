@@ -1,6 +1,7 @@
 """The input files other than that of a chain drive."""
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.convex_concave import ConvexConcaveTables
 from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.case.schema.gear import GearTables
 from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
@@ -12,6 +13,7 @@ CALCULATIONS: dict[str, type[CalculationTables]] = {
     "stiffness-spectrum": StiffnessSpectrumTables,
     "wave-drive": WaveDriveTables,
     "face-load": FaceLoadTables,
+    "convex-concave": ConvexConcaveTables,
 }
 """By the command that reads them."""
 

@@ -1,0 +1,74 @@
+"""A closed outline of lines and circular arcs, as drawing formats hold it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.profile import Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Vertices of a closed outline, run counterclockwise, and the arcs between them.
+
+    Attributes
+    ----------
+    vertices : numpy.ndarray
+        Coordinates [mm], shape (n, 2); the first is not repeated.
+    bulges : numpy.ndarray
+        Of the way from each vertex to the next: tan of a quarter of the angle of its arc,
+        positive counterclockwise, 0 for a line.
+
+    Examples
+    --------
+    A circle of radius 1 from two half circles:
+
+    >>> circle = Outline(np.array([[-1.0, 0.0], [1.0, 0.0]]), np.array([1.0, 1.0]))
+    >>> round(shapely.Polygon(circle.polygon(1e-8)).area, 6)
+    3.141593
+    """
+
+    vertices: Vector
+    bulges: Vector
+
+    def polygon(self, tolerance: float) -> Vector:
+        """Return points of the outline, arcs by chords.
+
+        Parameters
+        ----------
+        tolerance : float
+            Greatest distance of a chord from its arc [mm].
+
+        Returns
+        -------
+        numpy.ndarray
+            Coordinates [mm] on the outline, shape (points, 2); the first is not repeated.
+
+        Raises
+        ------
+        GeometryError
+            The outline crosses itself.
+        """
+        chord = np.roll(self.vertices, -1, axis=0) - self.vertices
+        sweep = 4.0 * np.arctan(self.bulges)
+        half = np.sin(0.5 * np.where(sweep == 0.0, 1.0, sweep))
+        radius = 0.5 * np.hypot(*chord.T) / np.abs(half)
+        # n chords of an arc lie within R sweep^2 / (8 n^2) of it.
+        parts = np.ceil(np.abs(sweep) * np.sqrt(radius / (8.0 * tolerance))).clip(1.0).astype(int)
+        which = np.repeat(np.arange(parts.size), parts)
+        step = np.arange(which.size) - (np.cumsum(parts) - parts)[which]
+        # The point at an angle t along the arc lies at sin(t/2) / sin(sweep/2) of the chord from
+        # the start, turned by (t - sweep)/2.
+        t = sweep[which] * step / parts[which]
+        along, turn = np.sin(0.5 * t) / half[which], 0.5 * (t - sweep[which])
+        cos, sin = along * np.cos(turn), along * np.sin(turn)
+        (x, y), (u, v) = self.vertices[which].T, chord[which].T
+        points = np.column_stack([x + cos * u - sin * v, y + sin * u + cos * v])
+        if not shapely.Polygon(points).is_valid:
+            raise GeometryError(
+                "outline: it must not cross itself, but does: take fewer or larger teeth, or a lower "
+                "addendum_ratio"
+            )
+        return points
