@@ -33,12 +33,21 @@ def check_free(path: Path, force: bool) -> None:
 
 
 _FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive")
+_SYNTHESIS = (
+    "line_of_action",
+    "indices",
+    "field_great_radii",
+    "field_small_radii",
+    "field_directions",
+)
 _WRITTEN = {
     *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
     *("summary.csv", "summary.md"),
     *("policies.csv", "tooth_counts.csv", "maintenance.md"),
     *("methods.csv", "elasticities.csv"),
-    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
+    *("indices.csv", "line_of_action.csv", "pinion_profile.csv", "wheel_profile.csv"),
+    *("stress_fields.csv", "direction_fields.csv"),
+    *(f"{name}.{kind}" for name in (*_FIGURES, *_SYNTHESIS) for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""
 

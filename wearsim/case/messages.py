@@ -74,7 +74,7 @@ class Faults:
             )
             if entry["type"] == "conflicts":
                 for name, message in entry["ctx"]["faults"]:
-                    self.add(f"{key}.{name}", message)
+                    self.add(f"{key}.{name}".lstrip("."), message)
                 continue
             self.add(key, _message(dict(entry), key, names))
 

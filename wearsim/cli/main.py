@@ -21,6 +21,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.cli.synthesise import synthesise
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -56,6 +57,7 @@ for _command in (
     maintain,
     remaining,
     wave_drive,
+    synthesise,
     init,
     schema,
     list_table,
