@@ -56,6 +56,17 @@ def test_text(cli):
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_page_shows_what_is_printed(cli):
+    page = (CASES.parents[1] / "docs" / "synthesise.md").read_text()
+    whole, second = cli("synthesise", POLE).out, cli("synthesise", SEGMENTS).out
+    assert whole in page
+    phase = second[second.index("  Phase 2") : second.index("\n\n  Assumes")]
+    assert phase in page
+    keys = {key.rpartition(".")[2] for key in CHANGES}
+    assert all(f"`{key}`" in page for key in keys - {"title"})
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_json(cli):
     done = cli("synthesise", SEGMENTS, "--json")
     assert done.code == 0
@@ -93,7 +104,8 @@ def test_files(cli, tmp_path):
     assert len(fields) == 2 * 21**2
     real = fields["infeasibility"] == ""
     assert set(fields["infeasibility"]) == {"", "complex", "no torque", "no rolling"}
-    assert (fields["contact_stress_MPa"][~real] == "").all()
+    for column in ("contact_stress_MPa", "pole_distance_mm", "pinion_flank_radius_mm"):
+        assert (fields[column][~real] == "").all()
     assert (fields["contact_stress_MPa"][real].astype(float) - 454.1608627).abs().max() < 1e-6
     profile = pd.read_csv(out / "pinion_profile.csv")
     radius = np.hypot(profile["x_mm"], profile["y_mm"])
@@ -106,7 +118,7 @@ FAULTS = [
     (POLE, 'stress.contact_stress_MPa=364', 3,
      "phase 1: contact_stress_MPa: must be above 364.119 in the pole"),
     (SEGMENTS, 'phase=[{family = -1, start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 5}]', 3,
-     "phase 1: line of action: the family -1 from l = 10.4403 mm must end before l = 5.58564 mm"),
+     "phase 1: line of action: the family -1 from l = 10.44 mm must end before l = 5.58564 mm"),
     (SEGMENTS, 'phase=[{start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 0.01}]', 3,
      "must end before l = 0.0364695 mm, where its pressure angle comes to 0 deg"),
     (POLE, 'phase=[{family = -1, first_pole_distance_mm = -1, last_pole_distance_mm = 1}]', 2,
@@ -129,6 +141,8 @@ FAULTS = [
     (POLE, "stress={contact_stress_MPa = [5, 6], pole_distance_mm = [1, 0]}", 2, "must ascend (got 1, 0)"),
     (POLE, "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, 9]}", 2,
      "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to 9)"),
+    (POLE, "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, -1]}", 2,
+     "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to -1)"),
     (POLE, "load.face_width_mm=-1", 2, "load.face_width_mm: "),
     (POLE, "load={pinion_speed_rpm = 1}", 2, "load.pinion_torque_N_m: give pinion_torque_N_m and"),
     (POLE, "load.load_per_width_N_per_mm=60", 2, "load.pinion_torque_N_m: load_per_width"),
@@ -146,7 +160,7 @@ def test_faults(cli, case, setting, code, message):
     assert (done.code, done.out) == (code, "")
     shown = done.err.replace("--set ", "")
     assert message in shown
-    assert "Traceback" not in done.err
+    assert "Traceback" not in done.err and ": ." not in done.err
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -154,6 +168,15 @@ def test_failed_case_as_json(cli):
     done = cli("synthesise", POLE, "--json", "--set", "stress.contact_stress_MPa=300")
     found = json.loads(done.out)
     assert (done.code, found["error"]["kind"]) == (3, "GeometryError")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_line_through_the_pole_needs_the_stress_there(cli):
+    phase = "phase=[{first_pole_distance_mm = 3, last_pole_distance_mm = 9}]"
+    law = "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [LEAST, 10]}"
+    done = cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "3"))
+    assert done.code == 2 and "must reach from 0 to 9 as phase 1 does (got 3 to 10)" in done.err
+    assert cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "0")).code == 0
 
 
 def test_schema(cli):

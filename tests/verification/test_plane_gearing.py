@@ -530,7 +530,9 @@ def test_small_radii_end_before_the_pole():
     assert end == pytest.approx(5.585639, abs=1e-6)
     with pytest.raises(GeometryError, match=r"family -1 .* 5\.58564 mm.*90 deg.*reach 5"):
         segment(-1, 5)
-    assert segment(-1, 5.5857).contacts.pressure_angle[-1] > 1.5
+    assert segment(-1, 5.587).contacts.pressure_angle[-1] > 1.5
+    with pytest.raises(GeometryError, match=r"before l = 5\.5857 mm.* 89\.3 deg"):
+        segment(-1, 5.5857)
 
 
 def test_small_radii_end_before_the_pole_on_its_other_side():
@@ -583,6 +585,18 @@ TABLE = {"contact_stress_MPa": [560, 470, 440, 520], "pole_distance_mm": [-10, -
 CORNER = {"contact_stress_MPa": [560, 454, 520], "pole_distance_mm": [-10, 0, 10]}
 
 
+@pytest.mark.parametrize(
+    ("family", "nearest", "end"), [(1, 5, None), (-1, 5, 5.585639), (-1, 6, None)]
+)
+def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
+    law = {"contact_stress_MPa": [SIGMA, SIGMA], "pole_distance_mm": [nearest, 20]}
+    start = {"start_x_mm": 10, "start_y_mm": 3, "last_pole_distance_mm": 10.5, "nodes": 11}
+    given = tables(law, [{"family": family, **start}])
+    (phase,) = phases(loaded_pair(given), given)
+    found = phase.inner_end and phase.inner_end[0]
+    assert found == (end and pytest.approx(end, abs=1e-6))
+
+
 @pytest.mark.parametrize("law", [TABLE, CORNER])
 def test_stress_between_points(law):
     loaded = pair(law)
@@ -605,6 +619,8 @@ def test_slopes_on_both_sides_of_a_corner_in_the_pole():
     expected = np.array([crossing.turn_before, crossing.turn_after]) / advance
     assert extrapolated == pytest.approx(expected, rel=1e-4)
     assert expected[0] > 0 > expected[1]
+    beside = Synthesis(CIRCLES, loaded.law, 1).through_pole(crossing, [-1e-9, 1e-9])
+    assert tuple(beside.contacts.turn) == (crossing.turn_before, crossing.turn_after)
 
 
 def test_load_laws():

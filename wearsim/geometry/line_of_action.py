@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,9 +16,11 @@ from wearsim.geometry.profile import Vector
 Law = Callable[[float, float], float]
 """Reduced radius rho [mm] from the distance l [mm] from the pole and the pressure angle [rad]."""
 
-_RELATIVE, _ABSOLUTE = 1e-13, 1e-14
+_STEEPEST = math.radians(89.0)
+"""Pressure angle up to which lines are followed; they get stiff beyond it."""
+
 _NEAREST = 1e-6
-"""Distance from the pole at which a line through it is begun, over the pinion's pitch radius."""
+"""Distance from the pole at which a line through it is begun, over the reduced radius there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +142,7 @@ class Synthesis:
             The line ends before the last point.
         """
         l = np.asarray(pole_distance, dtype=float)
-        near = _NEAREST * self.circles.pinion_radius
+        near = _NEAREST * float(self.circles.pole_radius(crossing.pressure_angle))
         advance = self.circles.pinion_radius * math.cos(crossing.pressure_angle)
         turn = np.where(l < 0.0, crossing.turn_before, crossing.turn_after)
         roll = l / advance
@@ -193,10 +196,14 @@ class Synthesis:
         Returns
         -------
         tuple of float
-            l [mm] and alpha [rad] there; at ``last`` where the line goes on.
+            l [mm] to 1e-8 of it, and alpha [rad] there; at ``last`` where the line goes on.
         """
-        way, (angle, _) = self._solution((*start, 0.0), math.log(last / start[0]))
-        return start[0] * math.exp(way[-1]), float(angle[-1])
+        with np.errstate(invalid="ignore"):
+            found = solve_ivp(
+                partial(self._rate, start[0]), (0.0, math.log(last / start[0])), (start[1], 0.0),
+                "Radau", rtol=1e-9, atol=1e-12, events=_level,
+            )  # fmt: skip
+        return start[0] * math.exp(found.t[-1]), float(found.y[0, -1])
 
     def _turn(self, pole_distance: Vector, angle: Vector) -> Vector:
         radius = [self.law(l, a) for l, a in zip(pole_distance, angle, strict=True)]
@@ -205,37 +212,30 @@ class Synthesis:
     def _march(self, start: tuple[float, float, float], at: Vector) -> tuple[Vector, Vector]:
         """Return alpha and phi1 at some distances from the pole, or raise where the line ends."""
         way = np.log(at / start[0])
-        reached, (angle, roll) = self._solution(start, way[-1], way)
-        if reached.size < at.size:
-            l, last = self.end(start[:2], at[-1])
-            raise GeometryError(
-                f"line of action: the family {self.family:+d} from l = {start[0]:.6g} mm must end before "
-                f"l = {l:.6g} mm, where its pressure angle comes to {90 if last > 0.5 else 0} deg, but "
-                f"is to reach {at[-1]:.6g}: end it earlier or start it elsewhere"
-            )
-        return angle, roll
-
-    def _solution(
-        self, start: tuple[float, float, float], way: float, at: Vector | None = None
-    ) -> tuple[Vector, Vector]:
-        """Solve d(alpha)/d(ln l) = l d(alpha)/dl and d(phi1)/d(ln l) = l/(r1 cos(alpha)).
-
-        In ln(l) the way out from the pole has no singular point.
-        """
-        first, angle, roll = start
-
-        def _rate(x: float, y: Vector) -> tuple[float, float]:
-            l, alpha = first * math.exp(x), float(y[0])
-            advance = l / (self.circles.pinion_radius * math.cos(alpha))
-            turn = self.circles.turn(l, alpha, self.law(l, alpha), self.family)
-            return advance * float(turn), advance
-
         with np.errstate(invalid="ignore"):
             found = solve_ivp(
-                _rate, (0.0, way), (angle, roll), "DOP853", at,
-                rtol=_RELATIVE, atol=_ABSOLUTE, events=_level,
+                partial(self._rate, start[0]), (0.0, way[-1]), start[1:], "DOP853", way,
+                rtol=1e-13, atol=1e-14, events=(_level, _steep),
             )  # fmt: skip
-        return found.t, found.y
+        if len(found.t) < at.size:
+            l, last = self.end(start[:2], at[-1])
+            first, degrees = round(start[0], 3) + 0.0, abs(round(math.degrees(last), 1))
+            raise GeometryError(
+                f"line of action: the family {self.family:+d} from l = {first:.6g} mm must end before "
+                f"l = {l:.6g} mm, where its pressure angle comes to {degrees:g} deg, but "
+                f"is to reach {at[-1]:.6g}: end it earlier or start it elsewhere"
+            )
+        return found.y[0], found.y[1]
+
+    def _rate(self, first: float, x: float, y: Vector) -> tuple[float, float]:
+        """Return d(alpha)/dx = l d(alpha)/dl and d(phi1)/dx = l/(r1 cos(alpha)), x = ln(l/first).
+
+        In x the way out from the pole has no singular point.
+        """
+        l, angle = first * math.exp(x), float(y[0])
+        advance = l / (self.circles.pinion_radius * math.cos(angle))
+        turn = self.circles.turn(l, angle, self.law(l, angle), self.family)
+        return advance * float(turn), advance
 
 
 def _level(x: float, y: Vector) -> float:
@@ -243,4 +243,10 @@ def _level(x: float, y: Vector) -> float:
     return float(y[0])
 
 
-_level.terminal = True  # type: ignore[attr-defined]
+def _steep(x: float, y: Vector) -> float:
+    """Cross 0 where lines are followed no further, and stop there."""
+    return float(y[0]) - _STEEPEST
+
+
+for _event in (_level, _steep):
+    _event.terminal = True  # type: ignore[attr-defined]
