@@ -133,5 +133,21 @@ PositiveNumber = Annotated[
 ]
 """A number above zero without a unit."""
 
+Signed = Annotated[float, BeforeValidator(_number), WithJsonSchema(_schema(True))]
+"""A quantity of either sign, in the unit of its key."""
+
+
+def _numbers(value: object, info: ValidationInfo) -> tuple[float, ...]:
+    entries = value if isinstance(value, list | tuple) else [value]
+    return tuple(_number(entry, info) for entry in entries)
+
+
+Series = Annotated[
+    tuple[float, ...],
+    BeforeValidator(_numbers),
+    WithJsonSchema({"anyOf": [*_schema(True)["anyOf"], {"type": "array", "items": _schema(True)}]}),
+]
+"""One quantity or a list of them, of either sign, in the unit of the key."""
+
 Number = Annotated[float, BeforeValidator(_number), WithJsonSchema(_schema(False))]
 """A number without a unit."""

@@ -25,6 +25,7 @@ from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
+from wearsim.cli.synthesise import synthesise
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -64,6 +65,7 @@ for _command in (
     wave_drive,
     face_load,
     convex_concave,
+    synthesise,
     init,
     schema,
     list_table,

@@ -50,7 +50,8 @@ def first_met(x: Vector, y: Vector, ray: Vector, radius: float, reach: Vector) -
 def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> int:
     """Return the point that a ray meets first if that is found downhill from another, else -1.
 
-    It is the first of all where no other is inside the roller that touches it.
+    It is the first of all where no other is inside the roller that touches it, nor between there
+    and the start of the ray, passed by the roller on its way.
     """
     points, best = x.size, point
     least = way_to(x, y, best, ray, radius)
@@ -67,6 +68,11 @@ def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> in
     for j in range(points):
         ax, ay = cx - x[j], cy - y[j]
         inside += 1 if ax * ax + ay * ay < within else 0
+    for j in range(points):
+        ax, ay = ray[0] - x[j], ray[1] - y[j]
+        across, along = ax * ray[3] - ay * ray[2], ax * ray[2] + ay * ray[3]
+        passed = across * across < radius * radius and 0.0 < along < least
+        inside += 1 if passed or ax * ax + ay * ay < within else 0
     return -1 if inside > 0 else best
 
 

@@ -15,7 +15,7 @@ from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
-from wearsim.simulation.validity import few_cycles, low_contact_ratio, wide_contact
+from wearsim.simulation.validity import few_cycles, wide_contact
 from wearsim.wear.many import Flank, Worn, advance_many
 from wearsim.wear.running_in import RunningIn
 
@@ -139,11 +139,14 @@ _Batch = tuple[list[list[_Job]], "Future[list[Worn | None]]"]
 
 
 def _job(case: Case) -> _Job | None:
-    """Return the job of a case; None where it runs alone."""
+    """Return the job of a case; None where it runs alone, to its error if it has one."""
     if isinstance(case.drive, WrapDrive) or case.run.method != "advance":
         return None
-    mechanism = pointwise_mechanism(case)
-    asked = task(case, mechanism.contact)
+    try:
+        mechanism = pointwise_mechanism(case)
+        asked = task(case, mechanism.contact)
+    except WearsimError:
+        return None
     if len(asked.criteria) > 1:
         return None
     limit, coefficient = asked.criteria[0], asked.law.coefficient
@@ -184,19 +187,25 @@ def _lives(
                 found.update((id(job), worn) for job in group)
     for case, job in zip(cases, jobs, strict=True):
         worn = found.get(id(job))
-        yield _alone(case) if job is None or worn is None else _life(job, worn)
+        life = _life(job, worn) if job is not None and worn is not None else None
+        yield life or _alone(case)
 
 
-def _life(job: _Job, worn: Worn) -> CaseLife:
+def _life(job: _Job, worn: Worn) -> CaseLife | None:
+    """Return the life of a job; None where that of the batch does not tell all of it."""
     reached = worn.reached and worn.time <= job.flank.horizon
+    # Of jobs that share a run, one that ends at its own horizon was run to another's.
+    near = 1.0 + job.flank.life_tolerance
+    if worn.horizon > job.flank.horizon and near * worn.time > job.flank.horizon:
+        return None
     constant = np.array([worn.time if reached else job.flank.horizon]) / job.coefficient
     cycles = float(job.running_in.running_cycles(constant)[0])
     life = life_of(cycles, job.case.cycles_per_hour, reached)
     warnings = [*job.case.warnings, *wide_contact(job.flank.contact, worn.half_width)]
     if reached:
         warnings += few_cycles(cycles)
-    ratio = np.array([job.mechanism.worn_contact_ratio(worn.x, worn.y)])
-    warnings += low_contact_ratio(np.array([life.hours_run]), ratio)
+    if job.mechanism.worn_contact_ratio(worn.x, worn.y) < 1.0:
+        return None
     stop = job.limit if reached else "horizon_hours"
     error = worn.change * job.running_in.amplification
     return CaseLife(job.case.name, life, stop, error, tuple(warnings))

@@ -280,7 +280,8 @@ def _band(
     except WearsimError as reason:
         # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
-        cycles = float(run.cycles[-1]) / case.wear.high
+        constant = asked.running_in.constant_cycles(float(run.cycles[-1])) / case.wear.high
+        cycles = float(asked.running_in.running_cycles(np.array([constant]))[0])
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
 

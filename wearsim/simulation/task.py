@@ -100,7 +100,7 @@ def task(case: Case, contact: Contact) -> Task:
     warp = running_in(case.wear, _sliding_per_cycle(case, contact) if runs_in else 0.0)
     return Task(
         contact,
-        _law(case),
+        replace(_law(case), running_in=warp),
         (*tooth_criteria(case), *mate_criteria(case, contact)),
         warp,
         warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour),

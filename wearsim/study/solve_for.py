@@ -83,9 +83,11 @@ class _Lives:
         return self.found[value]
 
     def excess(self, value: float) -> float:
-        """Return the logarithm of life over required life at a value that can be run."""
+        """Return the logarithm of life over required life; raise where the case cannot be run."""
         trial = self.at(value)
-        assert trial is not None
+        if trial is None:
+            assert self.failure is not None
+            raise self.failure
         return math.log(trial.hours / self.required)
 
     def _run(self, value: float) -> Trial | None:
@@ -207,12 +209,18 @@ def _root(lives: _Lives, one: float, other: float) -> Trial:
 def _whole_root(lives: _Lives, low: float, high: float) -> Trial:
     """The whole number next to the root that lives as long as required."""
     rising = lives.excess(high) > 0.0
-    while high - low > 1.0:
-        middle = float(round(0.5 * (low + high)))
+    while (middle := _between(lives, low, high)) is not None:
         low, high = (low, middle) if (lives.excess(middle) > 0.0) == rising else (middle, high)
     found = lives.at(high if rising else low)
     assert found is not None
     return found
+
+
+def _between(lives: _Lives, low: float, high: float) -> float | None:
+    """The whole number nearest to the middle of two at which the case can be run, if there is one."""
+    middle = 0.5 * (low + high)
+    inside = sorted(range(int(low) + 1, int(high)), key=lambda value: abs(value - middle))
+    return next((float(value) for value in inside if lives.at(value) is not None), None)
 
 
 def _nearest(lives: _Lives) -> Trial:

@@ -11,7 +11,7 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector
-from wearsim.wear.trajectory import Trajectory, difference
+from wearsim.wear.trajectory import Trajectory, depth_at, difference
 
 AnyContact = TypeVar("AnyContact", Contact, Dwelling)
 
@@ -98,7 +98,8 @@ class GridStudy:
     points : tuple of int
         Of the grids, the finest first.
     quantity : str
-        What is compared: ``cycles``, or ``max_depth_mm`` where a run ends at the horizon.
+        What is compared: ``cycles``, or ``max_depth_mm`` when the first ends where a run ends at
+        the horizon.
     values : tuple of float
         On each grid.
     order : float
@@ -149,7 +150,8 @@ def grid_study(contact: AnyContact, run_on: Callable[[AnyContact], Trajectory]) 
     grids = [contact, half, half.coarsened()]
     runs = [run_on(grid) for grid in grids]
     reached = all(run.met is not None for run in runs)
-    values = [float(run.cycles[-1] if reached else run.depth[-1].max()) for run in runs]
+    end = min(float(run.cycles[-1]) for run in runs)
+    values = [float(run.cycles[-1]) if reached else depth_at(run, end) for run in runs]
     near, far = values[1] - values[0], values[2] - values[1]
     order = math.log2(far / near) if near * far > 0.0 else math.nan
     points = tuple(grid.profile.x.size for grid in grids)

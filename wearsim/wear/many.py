@@ -15,6 +15,7 @@ from wearsim.kernels.steps import CLOCK, STATE_ROWS
 from wearsim.kernels.wear import DEPTH_REACHED, RUNNING
 from wearsim.wear.advance import MOST_STEPS
 from wearsim.wear.law import Law
+from wearsim.wear.trajectory import turned_over
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +49,8 @@ class Worn:
 
     Attributes
     ----------
-    time : float
-        Cycles times coefficient of the run.
+    time, horizon : float
+        Cycles times coefficient of the run, and at which it would have ended in any case.
     reached : bool
         Whether it ended at the critical depth, not at the horizon.
     change : float
@@ -61,6 +62,7 @@ class Worn:
     """
 
     time: float
+    horizon: float
     reached: bool
     change: float
     half_width: float
@@ -108,9 +110,14 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
         np.empty((2, STATE_ROWS, points)), worn, found,
     )  # fmt: skip
     simple = shapely.is_simple(shapely.linestrings(worn[:, :2].transpose(0, 2, 1)))
+    simple &= [
+        not turned_over(*np.stack([start[:2], end[:2]], axis=1)).any()
+        for start, end in zip(starts, worn, strict=True)
+    ]
     return [
         Worn(
             time=float(row[TIME_RUN]),
+            horizon=given.horizon,
             reached=row[STATUS] == DEPTH_REACHED,
             change=float(row[CHANGE]),
             half_width=math.sqrt(4.0 * row[WIDEST] / (math.pi * contact.modulus)),
@@ -120,5 +127,7 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
         )
         if row[STATUS] != RUNNING and uncrossed
         else None
-        for row, flank, contact, uncrossed in zip(found, worn, contacts, simple, strict=True)
+        for row, flank, contact, given, uncrossed in zip(
+            found, worn, contacts, flanks, simple, strict=True
+        )
     ]

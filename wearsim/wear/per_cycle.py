@@ -59,7 +59,7 @@ class _Run:
         self.depth_limit = depth_limit
         self.contact = contact
         self.cycles_per_update = float(cycles_per_update)
-        self.law = law.numbers(contact.kind)
+        self.law, self.running_in = law.numbers(contact.kind), law.running_in
         self.diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
         self.x, self.y = contact.profile.x.copy(), contact.profile.y.copy()
         self.depth = np.zeros(self.x.size)
@@ -72,6 +72,11 @@ class _Run:
         return self.updates * self.cycles_per_update
 
     @property
+    def ran(self) -> float:
+        """Cycles run, for messages."""
+        return float(self.running_in.running_cycles(np.array([self.cycles]))[0])
+
+    @property
     def last_step(self) -> Vector:
         return np.asarray(self.work[9])
 
@@ -81,17 +86,17 @@ class _Run:
         while status == RUNNING and self.updates < last:
             status = self._block(depth, min(_BLOCK, last - self.updates))
         if status in (CONFORMING, VANISHED):
-            check_touch(self.contact, self.x, self.y, self.depth, self.cycles)
-            raise no_sliding(self.cycles)
+            check_touch(self.contact, self.x, self.y, self.depth, self.ran)
+            raise no_sliding(self.ran)
         if status == UNSTABLE:
             self._refuse()
         if status == BROKEN:
             place = self.contact.arc_length[int(np.isfinite(self.last_step).argmin())]
             raise ConvergenceError(
-                f"wear at cycle {self.cycles:.6g}, {place:.4g} mm from the root: the depth per cycle must "
+                f"wear at cycle {self.ran:.6g}, {place:.4g} mm from the root: the depth per cycle must "
                 "be a number, but is not: check load and sliding there"
             )
-        check_sawtooth(self.contact, self.depth, self.cycles, self.depth_limit)
+        check_sawtooth(self.contact, self.depth, self.ran, self.depth_limit)
 
     def _block(self, depth: float, updates: int) -> int:
         done = np.zeros(1)
@@ -112,7 +117,7 @@ class _Run:
         most = int(self.cycles_per_update * limit / step)
         remedy = f"cycles_per_update = {most}" if most else "fewer nodes"
         raise ConvergenceError(
-            f"wear at cycle {self.cycles:.6g}, {self.contact.arc_length[point]:.4g} mm from the root: "
+            f"wear at cycle {self.ran:.6g}, {self.contact.arc_length[point]:.4g} mm from the root: "
             f"the depth per update must stay below spacing^2/(2 e rho_H) = {limit:.3g} mm, is "
             f"{step:.3g} mm: the life would be wrong without notice; take {remedy} or method = "
             '"advance"'

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
@@ -49,11 +50,31 @@ def difference(run: Trajectory, other: Trajectory) -> float:
     Returns
     -------
     float
-        Of their lives; of their greatest depths where a run did not reach its limit.
+        Of their lives; where a run did not reach its limit of their greatest depths when the
+        first of them ends.
     """
     if run.met is not None and other.met is not None:
         return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
-    return abs(float(other.depth[-1].max() / run.depth[-1].max()) - 1.0)
+    end = min(float(run.cycles[-1]), float(other.cycles[-1]))
+    return abs(depth_at(other, end) / depth_at(run, end) - 1.0)
+
+
+def depth_at(run: Trajectory, cycles: float) -> float:
+    """Return the greatest depth after so many cycles of a run.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+    cycles : float
+        Up to its end.
+
+    Returns
+    -------
+    float
+        Depth [mm], on the line between two snapshots.
+    """
+    return float(np.interp(cycles, run.cycles, run.depth.max(axis=1)))
 
 
 def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float) -> None:
@@ -136,6 +157,14 @@ def check_fold(contact: Contact, run: Trajectory) -> None:
     ConvergenceError
         With the first snapshot that does and the place.
     """
+    turned = turned_over(run.x, run.y)
+    if turned.any():
+        shot, point = np.argwhere(turned)[0]
+        raise ConvergenceError(
+            f"wear at cycle {run.cycles[shot]:.6g}, {contact.arc_length[point]:.4g} mm from the root: the "
+            "worn flank must run the same way as the new one, but is worn beyond its centre of "
+            "curvature there: stop at a smaller critical_depth_mm"
+        )
     if Profile(run.x[-1], run.y[-1]).is_simple:
         return
     for cycles, x, y in zip(run.cycles, run.x, run.y, strict=True):
@@ -145,6 +174,24 @@ def check_fold(contact: Contact, run: Trajectory) -> None:
                 f"wear at cycle {cycles:.6g}, {contact.arc_length[flank.crossing]:.4g} mm from the root: "
                 "the worn flank must not cross itself, but does: stop at a smaller critical_depth_mm"
             )
+
+
+def turned_over(x: Vector, y: Vector) -> NDArray[np.bool_]:
+    """Return where a piece between two points runs against that of the new flank.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray
+        Flanks, the new one first [mm], shape (snapshots, points).
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (snapshots, points - 1).
+    """
+    dx, dy = np.diff(x, axis=1), np.diff(y, axis=1)
+    against: NDArray[np.bool_] = dx * dx[0] + dy * dy[0] <= 0.0
+    return against
 
 
 def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: float) -> None:

@@ -6,6 +6,7 @@ from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.case.schema.gear import GearTables
 from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
 from wearsim.case.schema.strength import StrengthTables
+from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
 CALCULATIONS: dict[str, type[CalculationTables]] = {
@@ -14,6 +15,7 @@ CALCULATIONS: dict[str, type[CalculationTables]] = {
     "wave-drive": WaveDriveTables,
     "face-load": FaceLoadTables,
     "convex-concave": ConvexConcaveTables,
+    "synthesise": SynthesisTables,
 }
 """By the command that reads them."""
 

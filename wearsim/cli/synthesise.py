@@ -1,0 +1,28 @@
+"""``wearsim synthesise``: profiles of a gear pair with a prescribed contact stress."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wearsim.cli.calculation import calculation
+
+if TYPE_CHECKING:
+    from wearsim.report.sheet import Sheet
+
+
+@calculation("synthesise", "Profiles of a gear pair with a prescribed contact stress.")
+def synthesise(case: Path, settings: tuple[str, ...]) -> "Sheet":
+    """Find lines of action and both profiles with the contact stress that CASE prescribes.
+
+    Phase by phase: through the pole, or from a point beside it, where two pairs of profiles
+    have the same stress. The involute of the same pair stands beside each; fields show where in
+    the plane of mesh there are such profiles, and of which kind.
+    """
+    from wearsim.case.calculation import load_calculation
+    from wearsim.case.schema.synthesis import SynthesisTables
+    from wearsim.report.synthesis import synthesis_sheet
+    from wearsim.sizing.plane_gearing import loaded_pair
+    from wearsim.sizing.synthesis import phases
+
+    tables = load_calculation(case, SynthesisTables, settings)
+    pair = loaded_pair(tables)
+    return synthesis_sheet(tables, pair, phases(pair, tables))
