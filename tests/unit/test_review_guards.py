@@ -82,17 +82,47 @@ def test_flank_that_is_turned_over_is_refused(tmp_path: Path) -> None:
     assert isinstance(found, ConvergenceError)
 
 
-def test_errors_name_the_cycles_run() -> None:
-    """With running-in fewer than those of constant coefficient: 10 times the wear at first."""
-    settings = ["wear.case_depth_mm=0.05", "wear.core_factor=10", "stop.critical_depth_mm=0.3"]
-    runs_in = ["wear.running_in_factor=10", "wear.running_in_distance_mm=1e9"]
+@pytest.mark.parametrize("factor", [0.2, 8.0, 30.0])
+def test_core_far_softer_than_its_layer_wears_on(factor: float) -> None:
+    """Against the loop over updates of 20 cycles."""
+    settings = [f"wear.core_factor={factor}", "wear.case_depth_mm=0.03", "run.life_tolerance=1e-3"]
+    long = wearsim.simulate(wearsim.load_case(STRAND, settings))
+    loop = ["run.method=per_cycle", "run.cycles_per_update=20"]
+    assert long.life.hours_run == pytest.approx(
+        wearsim.simulate(wearsim.load_case(STRAND, [*settings, *loop])).life.hours_run, rel=1e-3
+    )
 
-    def cycle(*more: str) -> float:
-        with pytest.raises(ConvergenceError) as error:
-            wearsim.simulate(wearsim.load_case(STRAND, [*settings, *more]))
-        return float(str(error.value).split("cycle ")[1].split(",")[0])
 
-    assert cycle(*runs_in) == pytest.approx(0.1 * cycle(), rel=1e-3)
+def alternating(folder: Path, **tables: Any) -> dict[str, Any]:
+    """A load that is rough from row to row: the depth alternates and the run is refused."""
+    arc = np.linspace(0.0, 4.0, 21)
+    columns = {
+        "arc_length_mm": arc,
+        "load_per_width_N_per_mm": 50.0 * (1.0 + 0.03 * (-1.0) ** np.arange(21)),
+        "flank_curvature_per_mm": np.zeros(21),
+        "sliding_distance_mm": np.full(21, 0.5),
+    }
+    wear = {"law": "power", "coefficient": 1e-12, "pressure_exponent": 2.0}
+    stop, run = {"critical_depth_mm": 0.05}, {"horizon_hours": 1e9}
+    return table(folder, columns, **{"wear": wear, "stop": stop, "run": run, **tables})
+
+
+RUNS_IN = ["wear.running_in_factor=10"]
+
+
+def refused_at(tables: dict[str, Any], *settings: str) -> float:
+    with pytest.raises(ConvergenceError) as error:
+        wearsim.simulate(wearsim.load_case(tables, settings))
+    return float(str(error.value).split("cycle ")[1].split(",")[0])
+
+
+@pytest.mark.parametrize("method", [(), ("run.method=per_cycle", "run.cycles_per_update=1")])
+def test_errors_name_the_cycles_run(tmp_path: Path, method: tuple[str, ...]) -> None:
+    """With running-in a tenth of those of constant coefficient: 10 times the wear at first."""
+    tables = alternating(tmp_path)
+    slow = refused_at(tables, *method)
+    fast = refused_at(tables, *RUNS_IN, "wear.running_in_distance_mm=1e12", *method)
+    assert fast == pytest.approx(0.1 * slow, rel=0.02)
 
 
 def test_grids_are_compared_at_the_same_time(tmp_path: Path) -> None:
@@ -130,13 +160,12 @@ def test_a_horizon_near_the_life_of_another_case_is_its_own() -> None:
         assert found.life == wearsim.simulate(case).life
 
 
-def test_lower_bound_of_a_drive_that_runs_in_is_one() -> None:
+def test_lower_bound_of_a_drive_that_runs_in_is_one(tmp_path: Path) -> None:
     """Where the run at the high coefficient fails: what was shown, in cycles of constant wear."""
-    settings = [
-        "wear.case_depth_mm=0.05", "wear.core_factor=10", "stop.critical_depth_mm=0.06",
-        "wear.running_in_factor=10", "wear.running_in_distance_mm=25000",
-    ]  # fmt: skip
-    case = wearsim.load_case(STRAND, [*settings, "run.horizon_hours=2.0"])
+    tables = alternating(tmp_path)
+    runs_in = [*RUNS_IN, f"wear.running_in_distance_mm={0.03 * refused_at(tables)!r}"]
+    hours = 0.6 * refused_at(tables, *runs_in) / 6000.0
+    case = wearsim.load_case(tables, [*runs_in, f"run.horizon_hours={hours!r}"])
     result = wearsim.simulate(case)
     assert isinstance(result.life_low, wearsim.LowerBound)
     assert any("high end" in text for text in result.warnings)

@@ -88,7 +88,7 @@ def test_matrix_is_the_derivative_of_the_rate() -> None:
     numbers, work = law.unit_numbers(contact.kind), np.zeros((WORK_ROWS, points))
     given = contact.constants, contact.columns, contact.modulus, numbers
     state = np.array([flank.x, flank.y, np.zeros(points)])
-    flank_rate(contact.kernel, state, *given, work)
+    flank_rate(contact.kernel, state, state[2], *given, work)
     start = np.array([*state, work[9], work[0], work[1], work[7], work[2]])
     slope_rate(contact.kernel, start, *given, work)
     rows = np.zeros((4, points))
@@ -97,7 +97,7 @@ def test_matrix_is_the_derivative_of_the_rate() -> None:
 
     def rate(way: np.ndarray) -> np.ndarray:
         moved = np.array([flank.x - way * start[4], flank.y - way * start[5], way])
-        flank_rate(contact.kernel, moved, *given, work)
+        flank_rate(contact.kernel, moved, moved[2], *given, work)
         found: np.ndarray = work[9] * (work[0] * start[4] + work[1] * start[5])
         return found
 

@@ -245,11 +245,25 @@ def test_vanished_contact_has_cycle_and_place() -> None:
         run_advance(flat_contact(vanishing), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
 
 
-def test_fold_has_cycle_and_place() -> None:
-    """The line through the points crosses itself between 2 and 3 mm in the second snapshot."""
+def test_flank_turned_over_has_cycle_and_place() -> None:
+    """Two points have changed places along a flat flank in the second snapshot."""
     x, y = np.tile(FLAT.x, (3, 1)), np.tile(FLAT.y, (3, 1))
     for i in (1, 2):
-        x[i, 2:4], y[i, 2:4] = (1.0, 1.0), (4.6, 1.5)
+        x[i, 3:5], y[i, 3:5] = x[0, 4:2:-1], y[0, 4:2:-1]
+    run = Trajectory(np.array([0.0, 7.0, 9.0]), x, y, 0.0 * x, None, 3)
+    with pytest.raises(
+        wearsim.ConvergenceError, match=r"cycle 7, [\d.]+ mm from the root.*centre of curvature"
+    ):
+        check_fold(flat_contact(prescribed_contact), run)
+
+
+def test_fold_has_cycle_and_place() -> None:
+    """A fin worn through from both sides in the second snapshot: its walls change places."""
+    wall, top = np.array([0.0, 0.0, 0.0]), np.array([0.25, 0.5, 0.75])
+    x = np.tile(np.concatenate([wall, top, wall + 1.0]), (3, 1))
+    y = np.tile([0.0, 1.0, 2.0, 2.1, 2.2, 2.1, 2.0, 1.0, 0.0], (3, 1))
+    for i in (1, 2):
+        x[i, 0:2], x[i, 7:9] = 0.7, 0.3
     run = Trajectory(np.array([0.0, 7.0, 9.0]), x, y, 0.0 * x, None, 3)
     contact = flat_contact(prescribed_contact)
     with pytest.raises(

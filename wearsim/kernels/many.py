@@ -135,7 +135,16 @@ def wear_many(
     most a tenth of the tolerance of the life; where none do, the status is RUNNING.
     """
     for i in range(starts.shape[0]):
-        flank_rate(contact, starts[i], constants[i], columns[i], numbers[i, MODULUS], laws[i], work)
+        flank_rate(
+            contact,
+            starts[i],
+            starts[i, 2],
+            constants[i],
+            columns[i],
+            numbers[i, MODULUS],
+            laws[i],
+            work,
+        )
         wide = widest(work)
         tolerance = PART_OF_TOLERANCE * numbers[i, LIFE_TOLERANCE]
         tolerance = min(LOOSEST, max(FINEST, tolerance))
@@ -158,7 +167,14 @@ def wear_many(
             # Where the steps do not suffice a tighter run takes even more.
             tolerance = 0.0 if status == RUNNING else 0.1 * tolerance
         status = flank_rate(
-            contact, worn[i, :3], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
+            contact,
+            worn[i, :3],
+            worn[i, 2],
+            constants[i],
+            columns[i],
+            numbers[i, MODULUS],
+            laws[i],
+            work,
         )
         if status != RUNNING:
             found[i, STATUS] = RUNNING

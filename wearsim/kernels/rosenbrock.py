@@ -198,7 +198,10 @@ def rosenbrock_step(
     trial: Vector,
     increments: Vector,
 ) -> float:
-    """Make one step from a state of the path, to ``trial``; return its error, nan where it fails."""
+    """Make one step from a state of the path, to ``trial``; return its error, nan where it fails.
+
+    Points are hard or soft all the step long, as they are at its start.
+    """
     rows, factors = work[11:15], work[15:19]
     begin, to = start[:3].ravel(), trial.ravel()
     slope_rate(contact, start, constants, columns, modulus, law, work)
@@ -209,7 +212,7 @@ def rosenbrock_step(
     for stage in range(STAGES):
         if stage > 0:
             stage_state(begin, increments, stage, to)
-            status = flank_rate(contact, trial, constants, columns, modulus, law, work)
+            status = flank_rate(contact, trial, start[2], constants, columns, modulus, law, work)
             if status in (CONFORMING, BROKEN):
                 return math.nan
         stage_increment(start, stage, step, work, factors, increments)

@@ -144,6 +144,38 @@ def keep_removed(start: Vector, state: Vector, step: float) -> int:
     return gained
 
 
+@kernel(float64(TABLE, TABLE, VECTOR, float64))
+def part_to_layer(start: Vector, state: Vector, law: Vector, allowed: float) -> float:
+    """Return the part of a step after which it should end, 1 where that is its end.
+
+    It ends where the first point passes through the hardened layer, so that what it wears
+    below as if it were hard is at most half of what is allowed there.
+    """
+    part = 1.0
+    if law[5] != 1.0:
+        below = allowed / abs(law[5] - 1.0)
+        for j in range(state.shape[1]):
+            if start[2, j] <= law[4] and state[2, j] > law[4] + below:
+                way = law[4] + 0.5 * below - start[2, j]
+                part = min(part, way / (state[2, j] - start[2, j]))
+    return part
+
+
+@kernel(void(TABLE, TABLE, VECTOR))
+def pass_layer(start: Vector, state: Vector, law: Vector) -> None:
+    """Let what a point has gone below the hardened layer in a step wear as the core does.
+
+    The step has taken it for hard to its end; the way below the layer is ``law[5]`` times as long.
+    """
+    if law[5] != 1.0:
+        for j in range(state.shape[1]):
+            if start[2, j] <= law[4] < state[2, j]:
+                more = (law[5] - 1.0) * (state[2, j] - law[4])
+                state[0, j] -= more * start[4, j]
+                state[1, j] -= more * start[5, j]
+                state[2, j] += more
+
+
 @kernel(
     int64(
         STEP_FUNCTION, CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64,
@@ -181,7 +213,7 @@ def wear_in_steps(
     and ``work`` are then those that failed. The step is handed in like the contact: linked
     in, it would be compiled twice.
     """
-    status = flank_rate(contact, state, constants, columns, modulus, law, work)
+    status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
     clock[RATES] += 1.0
     if clock[TIME] == 0.0:
         fastest = 0.0
@@ -214,15 +246,23 @@ def wear_in_steps(
             step = clock[STEP]
             error = make_step(contact, here, constants, columns, modulus, law, diffusion, ends,
                               step, work, state, increments) / (tolerance * depth_limit)  # fmt: skip
+            part = 1.0
             if error <= 1.0:
                 error = math.nan if keep_removed(here, state, step) > 0 else error
-                status = flank_rate(contact, state, constants, columns, modulus, law, work)
+                part = part_to_layer(here, state, law, tolerance * depth_limit)
+                pass_layer(here, state, law)
+                status = flank_rate(
+                    contact, state, state[2], constants, columns, modulus, law, work
+                )
             clock[RATES] += 5.0
-            if error <= 1.0 and status not in (CONFORMING, BROKEN):
+            if error <= 1.0 and part == 1.0 and status not in (CONFORMING, BROKEN):
                 break
             if step < LEAST_STEP * clock[TIME]:
                 return BROKEN
             grown = 1.0
+            if part < 1.0:
+                clock[STEP] = step * part
+                continue
             shorter = SAFETY / error ** (1.0 / 3.0) if error > 1.0 else LEAST
             clock[STEP] = step * max(LEAST, shorter)
         clock[TIME] += step

@@ -94,10 +94,11 @@ def update_status(
     return UNSTABLE if unstable > 0 else RUNNING
 
 
-@kernel(int64(CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, TABLE))
+@kernel(int64(CONTACT_FUNCTION, TABLE, VECTOR, VECTOR, TABLE, float64, VECTOR, TABLE))
 def flank_rate(
     contact: Callable[..., None],
     state: Vector,
+    layer: Vector,
     constants: Vector,
     columns: Vector,
     modulus: float,
@@ -106,6 +107,7 @@ def flank_rate(
 ) -> int:
     """Write the depth that each point of a state (x, y, depth) loses in a cycle; tell its status.
 
+    ``layer``: the depths that tell whether a point is below the hardened layer.
     ``work``, 10 rows: normals, curvature, squared spacing, load, slip, speed, relative
     curvature, pressure, depth per cycle.
     """
@@ -113,7 +115,7 @@ def flank_rate(
     contact(state[0], state[1], work[0], work[1], work[2], state[2], constants, columns,
             work[4], work[5], work[6], work[7])  # fmt: skip
     wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
-    soften(state[2], law, work[9])
+    soften(layer, law, work[9])
     return update_status(work[4], work[7], work[9], work[3], 0.0)
 
 

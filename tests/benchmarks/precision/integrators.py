@@ -107,7 +107,10 @@ def ros2_step(
     for j in range(to.size):
         to[j] = begin[j] + step * first[j]
     work[REPORT, 0] = 2.0
-    if flank_rate(contact, trial, constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
+        CONFORMING,
+        BROKEN,
+    ):
         return math.nan
     write_rate(work, second)
     for j in range(to.size):
@@ -142,7 +145,10 @@ def euler_step(
     for j in range(to.size):
         to[j] = begin[j] + half[j]
     work[REPORT, 0] = 2.0
-    if flank_rate(contact, trial, constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
+        CONFORMING,
+        BROKEN,
+    ):
         return math.nan
     write_rate(work, other)
     for j in range(to.size):
@@ -191,7 +197,7 @@ def chebyshev_step(
     work[REPORT, 0] = 0.0
     for _ in range(2, stages + 1):
         work[REPORT, 0] += 1.0
-        if flank_rate(contact, trial, constants, columns, modulus, law, work) in (
+        if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
             CONFORMING,
             BROKEN,
         ):
@@ -210,7 +216,10 @@ def chebyshev_step(
         t_older, t_old, d_older, d_old, s_older, s_old = t_old, t, d_old, d, s_old, s
         b_older, b_old = b_old, b
     work[REPORT, 0] += 1.0
-    if flank_rate(contact, trial, constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
+        CONFORMING,
+        BROKEN,
+    ):
         return math.nan
     write_rate(work, rate)
     greatest, total = 0.0, 0.0
@@ -231,7 +240,7 @@ def wear_under_control(
     tolerance, end, control, work, increments, clock, times, path,
 ):  # fmt: skip
     """Wear as ``wear_in_steps`` does, with the powers of the step control handed in."""
-    status = flank_rate(contact, state, constants, columns, modulus, law, work)
+    status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
     clock[RATES] += 1.0
     fastest, power = 0.0, control[POWER]
     for j in range(state.shape[1]):
@@ -263,7 +272,9 @@ def wear_under_control(
             clock[RATES] += work[REPORT, 0]
             if error <= 1.0:
                 error = math.nan if keep_removed(here, state, step) > 0 else error
-                status = flank_rate(contact, state, constants, columns, modulus, law, work)
+                status = flank_rate(
+                    contact, state, state[2], constants, columns, modulus, law, work
+                )
                 clock[RATES] += 1.0
             if error <= 1.0 and status not in (CONFORMING, BROKEN):
                 break
