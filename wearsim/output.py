@@ -32,12 +32,14 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive")
+_FIGURES = ("flanks", "along_flank", "depth_over_hours", "maintenance", "wave_drive", "hertz_check")
 _WRITTEN = {
     *("result.json", "case.lock.toml", "environment.json", "history.csv", "flank.csv", "inputs"),
     *("summary.csv", "summary.md"),
     *("policies.csv", "tooth_counts.csv", "maintenance.md"),
     *("methods.csv", "elasticities.csv"),
+    *("combinations.csv", "changes.csv", "comparison.csv", "axis_stresses.csv"),
+    *("meshes.csv", "fem_axis.csv", "fem_pressure.csv"),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""

@@ -35,6 +35,12 @@ UNITS = {
     "kg_per_m": "kg/m", "km_per_hour": "km/h", "tonnes_per_hour": "t/h", "s": "s",
 }  # fmt: skip
 
+HERTZ_CHECK_FEM = {
+    "meshes", "unknowns", "peak_pressure_error_percent", "half_width_error_percent",
+    "surface_error_percent", "from_middle_mm",
+}  # fmt: skip
+"""Columns of ``hertz-check --fem``, which takes scikit-fem."""
+
 
 def input_keys(model):
     for name, field in model.model_fields.items():
@@ -99,6 +105,7 @@ def written(tmp_path_factory):
         *wrapped(),
         *("time_s", "turned", "chains_per_sprocket", "last_chain_used", "stops"),
         *("cost_per_1000_h", "classes", "same_link_kind"),
+        *HERTZ_CHECK_FEM,
         *catalogue_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
     }

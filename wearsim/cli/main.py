@@ -12,6 +12,7 @@ import click
 import wearsim
 from wearsim.cli.check import check
 from wearsim.cli.compare import compare
+from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
@@ -56,6 +57,7 @@ for _command in (
     maintain,
     remaining,
     wave_drive,
+    hertz_check,
     init,
     schema,
     list_table,
