@@ -35,6 +35,7 @@ def check_free(path: Path, force: bool) -> None:
 _FIGURES = (
     *("flanks", "along_flank", "depth_over_hours", "maintenance"),
     *("wave_drive", "strength", "face_load", "stiffness_spectrum", "convex_concave"),
+    "hertz_check",
     *("line_of_action", "indices", "field_great_radii", "field_small_radii", "field_directions"),
 )
 _TABLES = (
@@ -42,6 +43,15 @@ _TABLES = (
     *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
     *("lines", "statics", "flanks", "rack", "rollers", "indices", "line_of_action"),
     *("pinion_profile", "wheel_profile", "stress_fields", "direction_fields"),
+    *(
+        "combinations",
+        "changes",
+        "comparison",
+        "axis_stresses",
+        "meshes",
+        "fem_axis",
+        "fem_pressure",
+    ),
 )
 _WRITTEN = {
     *(

@@ -56,6 +56,13 @@ def tables_in(annotation):
     return [table for inner in typing.get_args(annotation) for table in tables_in(inner)]
 
 
+HERTZ_CHECK_FEM = {
+    "meshes", "unknowns", "peak_pressure_error_percent", "half_width_error_percent",
+    "surface_error_percent", "from_middle_mm",
+}  # fmt: skip
+"""Columns of ``hertz-check --fem``, which takes scikit-fem."""
+
+
 def input_keys(model):
     for name, field in model.model_fields.items():
         tables = tables_in(field.annotation)
@@ -140,6 +147,7 @@ def written(tmp_path_factory):
         *FLANK_COLUMNS["gear_pair"],
         *("time_s", "turned", "chains_per_sprocket", "last_chain_used", "stops"),
         *("cost_per_1000_h", "classes", "same_link_kind"),
+        *HERTZ_CHECK_FEM,
         *catalogue_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
         *(

@@ -2,8 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,10 +22,11 @@ from wearsim.errors import WearsimError
 if TYPE_CHECKING:
     from wearsim.report.sheet import Sheet
 
-Compute = Callable[[Path, tuple[str, ...]], "Sheet"]
+Compute = Callable[..., "Sheet"]
+Option = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
-def calculation(name: str, short_help: str) -> Callable[[Compute], click.Command]:
+def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compute], click.Command]:
     """Make a command of a function from a case and overrides to a sheet.
 
     Parameters
@@ -33,6 +35,8 @@ def calculation(name: str, short_help: str) -> Callable[[Compute], click.Command
         Of the command.
     short_help : str
         Its line in the list of commands.
+    *options : callable
+        Options of its own, made by ``click.option``; the function gets them by their names.
 
     Returns
     -------
@@ -42,13 +46,19 @@ def calculation(name: str, short_help: str) -> Callable[[Compute], click.Command
 
     def _decorate(compute: Compute) -> click.Command:
         def _run(
-            case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]
+            case: Path,
+            out: Path | None,
+            force: bool,
+            as_json: bool,
+            settings: tuple[str, ...],
+            **own: object,
         ) -> None:
-            _show(compute, case, out, force, as_json, settings)
+            _show(partial(compute, **own), case, out, force, as_json, settings)
 
         _run.__doc__ = compute.__doc__
         command = standard(overrides(_run))
         for option in (
+            *options,
             click.option("--json", "as_json", is_flag=True, help="As one JSON object."),
             click.option("--force", is_flag=True, help="Replace what --out names."),
             click.option(

@@ -14,6 +14,7 @@ from wearsim.cli.check import check
 from wearsim.cli.compare import compare
 from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.face_load import face_load
+from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
@@ -66,6 +67,7 @@ for _command in (
     face_load,
     convex_concave,
     synthesise,
+    hertz_check,
     init,
     schema,
     list_table,

@@ -4,6 +4,7 @@ from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.convex_concave import ConvexConcaveTables
 from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.case.schema.gear import GearTables
+from wearsim.case.schema.hertz_check import HertzCheckTables
 from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
 from wearsim.case.schema.strength import StrengthTables
 from wearsim.case.schema.synthesis import SynthesisTables
@@ -16,6 +17,7 @@ CALCULATIONS: dict[str, type[CalculationTables]] = {
     "face-load": FaceLoadTables,
     "convex-concave": ConvexConcaveTables,
     "synthesise": SynthesisTables,
+    "hertz-check": HertzCheckTables,
 }
 """By the command that reads them."""
 
