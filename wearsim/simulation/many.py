@@ -15,7 +15,7 @@ from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
-from wearsim.simulation.validity import few_cycles, wide_contact
+from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.wear.many import Flank, Worn, advance_many
 from wearsim.wear.running_in import RunningIn
 
@@ -204,8 +204,7 @@ def _life(job: _Job, worn: Worn) -> CaseLife | None:
     warnings = [*job.case.warnings, *wide_contact(job.flank.contact, worn.half_width)]
     if reached:
         warnings += few_cycles(cycles)
-    if job.mechanism.worn_contact_ratio(worn.x, worn.y) < 1.0:
-        return None
+    warnings += low_contact_ratio_in_the_end(job.mechanism.worn_contact_ratio(worn.x, worn.y))
     stop = job.limit if reached else "horizon_hours"
     error = worn.change * job.running_in.amplification
     return CaseLife(job.case.name, life, stop, error, tuple(warnings))

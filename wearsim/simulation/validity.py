@@ -81,6 +81,27 @@ def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
     ]
 
 
+def low_contact_ratio_in_the_end(ratio: float) -> list[str]:
+    """Return the same warning where only the worn tooth in the end is known.
+
+    Parameters
+    ----------
+    ratio : float
+        Its contact ratio; nan where it has no meaning.
+
+    Returns
+    -------
+    list of str
+        One or none.
+    """
+    if not ratio < 1.0:
+        return []
+    return [
+        f"the worn contact ratio is {ratio:.3f} in the end, below 1: for that part of a pitch the roller "
+        "touches the edge of the tip, which is not modelled"
+    ]
+
+
 def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
     """Return a warning for every limit of the theory that a run passes.
 
