@@ -1,12 +1,9 @@
 """Changing any key of the input file changes the result, or raises an error that names it."""
 
-import typing
-
 import ezdxf
 import numpy as np
 import pandas as pd
 import pytest
-from pydantic import BaseModel
 
 import wearsim
 from wearsim.case.load import load_case
@@ -439,20 +436,7 @@ CHANGES |= {
 }
 
 
-def leaves(model, prefix=""):
-    for name, field in model.model_fields.items():
-        tables = [
-            kind
-            for kind in (field.annotation, *typing.get_args(field.annotation))
-            if isinstance(kind, type) and issubclass(kind, BaseModel)
-        ]
-        if tables:
-            yield from leaves(tables[0], f"{prefix}{name}.")
-        else:
-            yield f"{prefix}{name}"
-
-
-def test_every_key_is_covered_and_no_other():
+def test_every_key_is_covered_and_no_other(leaves):
     covered = [*CHANGES, *WITHOUT_EFFECT]
     assert sorted(covered) == sorted(leaves(CaseTables))
 

@@ -7,10 +7,9 @@ from wearsim.case.flank import evolute_tooth, points_tooth
 from wearsim.case.model import Block, PrescribedDrive, StrandDrive, WearInput, heaviest
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
+from wearsim.case.shared import FLANK_NODES
 from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import Chain
-
-FLANK_NODES = 201
 
 _SAFETY = 7.0
 """Breaking load over tension below which a chain is loaded beyond its endurance."""

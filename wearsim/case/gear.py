@@ -7,17 +7,19 @@ from wearsim.case.messages import Faults
 from wearsim.case.model import Case, GearDrive, GearSide
 from wearsim.case.resolution import Record
 from wearsim.case.schema.gear import GearFatigueTable, GearTable, GearTables
-from wearsim.case.shared import modulus_of, run_input, take_defaults, wear_input
+from wearsim.case.shared import (
+    FLANK_NODES,
+    TOLERANCE,
+    modulus_of,
+    run_input,
+    take_defaults,
+    wear_input,
+)
 from wearsim.errors import GeometryError
 from wearsim.geometry.involute import InvolutePair
 
-NODES = 201
-
 PAIR_STIFFNESS = 14.0
 """Of a pair of teeth [N/(mm um)], the single stiffness c' of ISO 6336-1 for usual steel gears."""
-
-TOLERANCE = 1e-3
-"""Relative tolerance of a life by default."""
 
 
 def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) -> Case:
@@ -56,7 +58,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
             f"(got {wear.pressure_exponent:g})",
         )
     pair = _pair(case, tables.gear)
-    nodes = tables.gear.nodes or NODES
+    nodes = tables.gear.nodes or FLANK_NODES
     if tables.gear.nodes is None:
         case.take("gear.nodes", nodes, "default")
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:

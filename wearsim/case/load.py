@@ -8,12 +8,10 @@ from pydantic import ValidationError
 
 from wearsim.case.calculation import checked
 from wearsim.case.document import Source, read_document
-from wearsim.case.gear import resolve_gear
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case
 from wearsim.case.resolve import resolve
 from wearsim.case.schema import CaseTables
-from wearsim.case.schema.gear import GearTables
 
 _STAND_INS: dict[str, Any] = {
     "format_version": 1,
@@ -60,6 +58,10 @@ def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
     document = read_document(source, overrides)
     name, folder, data, faults = document.name, document.folder, document.data, document.faults
     if "gear" in data:
+        # Models of tables take time to build, and most cases are not of gears.
+        from wearsim.case.gear import resolve_gear
+        from wearsim.case.schema.gear import GearTables
+
         return resolve_gear(checked(document, GearTables), name, folder, faults)
     _check_load(data, faults)
     try:

@@ -17,15 +17,15 @@ from wearsim.case.model import (
 )
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import CaseTables, ChainTable
-from wearsim.case.shared import modulus_of, run_input, take_defaults, wear_input
+from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults, wear_input
 from wearsim.case.wrap import resolve_wrap
 from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
-TOLERANCE, WRAP_TOLERANCE = 1e-3, 1e-2
-"""Relative tolerances of a life by default; that of a wrap costs more."""
+WRAP_TOLERANCE = 1e-2
+"""Relative tolerance of a life on a wrap by default, as it costs more."""
 
 
 def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:

@@ -12,6 +12,12 @@ from wearsim.contact.hertz import contact_modulus
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
 
+TOLERANCE = 1e-3
+"""Relative tolerance of a life by default."""
+
+FLANK_NODES = 201
+"""Points of a flank by default."""
+
 _PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
 
 _TOLD = {"wear": ("law",), "run": ("method", "horizon_hours")}

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.measuring import measurement_over_pins
@@ -31,6 +30,31 @@ def involute_function(angle: float) -> float:
     0.014904384
     """
     return math.tan(angle) - angle
+
+
+def angle_of_involute(value: float, tolerance: float) -> float:
+    """Return the angle whose involute function has a value.
+
+    Parameters
+    ----------
+    value : float
+        Above 0 [rad].
+    tolerance : float
+        Of the angle [rad].
+
+    Returns
+    -------
+    float
+        Angle [rad], up to 1.5.
+
+    Examples
+    --------
+    >>> round(math.degrees(angle_of_involute(0.014904383867, 1e-16)), 7)
+    20.0
+    """
+    from scipy.optimize import brentq  # takes 0.1 s, and most cases are not of gears
+
+    return float(brentq(lambda angle: involute_function(angle) - value, 0.0, 1.5, xtol=tolerance))
 
 
 @dataclass(frozen=True)
@@ -102,7 +126,7 @@ class InvolutePair:
                 f"gear pair: inv(alpha_w) must be above 0, but is {wanted:.4g}: raise the sum of the "
                 f"profile shifts, {sum(self.profile_shift):g}"
             )
-        return float(brentq(lambda angle: involute_function(angle) - wanted, 0.0, 1.5, xtol=1e-16))
+        return angle_of_involute(wanted, 1e-16)
 
     @property
     def centre_distance(self) -> float:
@@ -282,7 +306,7 @@ def involute_over_pins(
     target = involute_function(a) + (pin_diameter / math.cos(a) - gap) / (module * teeth)
     if not target > 0.0:
         return math.nan
-    at = float(brentq(lambda t: involute_function(t) - target, 0.0, 1.5, xtol=1e-15))
+    at = angle_of_involute(target, 1e-15)
     centre = 0.5 * module * teeth * math.cos(a) / math.cos(at)
     return measurement_over_pins(centre, pin_diameter, teeth)
 

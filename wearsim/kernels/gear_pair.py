@@ -24,6 +24,7 @@ from wearsim.kernels.gear_rows import (
     SPEED,
     STIFFNESS,
 )
+from wearsim.kernels.second_difference import add_second_difference
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def gear_pair_contact(
     The depth is that of the pinion; the wheel's is ``MATE_DEPTH`` times it at the point that it
     meets. The relative curvature is that of the new flanks plus the second differences of
     both depths, each over its own arc, but no less than ``LEAST_CURVATURE``; the end points keep
-    theirs. Without a stiffness
+    theirs (the wheel's depth stands in ``load`` until that is written). Without a stiffness
     the load is the given share of the line load. With one, the pairs of teeth in contact
     are equal springs in parallel, each closing its worn gap first, and beyond the ends of
     the path that of the tip's corner (``NEXT_GAP`` and ``LAST_GAP``, of the pairs one base pitch
@@ -104,16 +105,10 @@ def gear_pair_contact(
         slip[j], speed[j], relative[j] = columns[SLIP, j], columns[SPEED, j], columns[CURVATURE, j]
     for j in range(n):
         normal_x[j], normal_y[j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
-    for j in range(1, n - 1):
-        before, after = columns[ARC, j] - columns[ARC, j - 1], columns[ARC, j + 1] - columns[ARC, j]
-        rise, fall = (depth[j + 1] - depth[j]) / after, (depth[j] - depth[j - 1]) / before
-        relative[j] += 2.0 * (rise - fall) / (before + after)
-        before = columns[MATE_ARC, j] - columns[MATE_ARC, j - 1]
-        after = columns[MATE_ARC, j + 1] - columns[MATE_ARC, j]
-        here = columns[MATE_DEPTH, j] * depth[j]
-        rise = (columns[MATE_DEPTH, j + 1] * depth[j + 1] - here) / after
-        fall = (here - columns[MATE_DEPTH, j - 1] * depth[j - 1]) / before
-        relative[j] += 2.0 * (rise - fall) / (before + after)
+    add_second_difference(columns[ARC], depth, relative)
+    for j in range(n):
+        load[j] = columns[MATE_DEPTH, j] * depth[j]
+    add_second_difference(columns[MATE_ARC], load, relative)
     for j in range(n):
         relative[j] = max(relative[j], constants[LEAST_CURVATURE])
     if stiffness == 0.0:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.second_difference import add_second_difference
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def prescribed_contact(
     ``constants``: one over the roller radius. ``columns``: arc length, load, slip,
     speed, flank curvature, normal_x, normal_y.
     """
-    arc, flank_curvature = columns[0], columns[4]
+    flank_curvature = columns[4]
     n = depth.size
     for j in range(n):
         load[j], slip[j], speed[j] = columns[1, j], columns[2, j], columns[3, j]
@@ -43,7 +44,4 @@ def prescribed_contact(
         normal_x[j], normal_y[j] = columns[5, j], columns[6, j]
     for j in range(n):
         relative[j] = constants[0] + flank_curvature[j]
-    for j in range(1, n - 1):
-        before, after = arc[j] - arc[j - 1], arc[j + 1] - arc[j]
-        rise, fall = (depth[j + 1] - depth[j]) / after, (depth[j] - depth[j - 1]) / before
-        relative[j] += 2.0 * (rise - fall) / (before + after)
+    add_second_difference(columns[0], depth, relative)

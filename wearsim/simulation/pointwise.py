@@ -15,7 +15,6 @@ from wearsim.simulation.law import running_in_assumptions
 from wearsim.simulation.limits import limit_states
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, validity
-from wearsim.sizing.gear_fatigue import fatigue_lives
 from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
@@ -290,6 +289,10 @@ def _fatigue(
     case: Case, wear: Life | LowerBound, warnings: list[str]
 ) -> dict[str, Life | LowerBound]:
     """Return the lives of gears until pitting, in cycles of the pinion; none for others."""
+    if not isinstance(case.drive, GearDrive):
+        return {}
+    from wearsim.sizing.gear_fatigue import fatigue_lives
+
     endured, rate = fatigue_lives(case), case.cycles_per_hour
     for name, found in endured.items():
         if found.hours == 0.0:

@@ -57,6 +57,9 @@ def wide_contact(contact: Contact, half_width: float) -> list[str]:
     ]
 
 
+_EDGE = "for that part of a pitch the roller touches the edge of the tip, which is not modelled"
+
+
 def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
     """Return a warning of a worn tooth that lets its roller go too early.
 
@@ -76,8 +79,7 @@ def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
         return []
     return [
         f"the worn contact ratio is below 1 from about {hours[int((ratio < 1.0).argmax())]:.3g} h on, "
-        f"lowest {ratio.min():.3f}: for that part of a pitch the roller touches the edge of the tip, "
-        "which is not modelled"
+        f"lowest {ratio.min():.3f}: {_EDGE}"
     ]
 
 
@@ -96,10 +98,7 @@ def low_contact_ratio_in_the_end(ratio: float) -> list[str]:
     """
     if not ratio < 1.0:
         return []
-    return [
-        f"the worn contact ratio is {ratio:.3f} in the end, below 1: for that part of a pitch the roller "
-        "touches the edge of the tip, which is not modelled"
-    ]
+    return [f"the worn contact ratio is {ratio:.3f} in the end, below 1: {_EDGE}"]
 
 
 def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:

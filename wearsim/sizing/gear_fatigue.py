@@ -4,7 +4,7 @@ import math
 
 from wearsim.case.model import Case, GearDrive, GearSide
 from wearsim.contact.hertz import peak_pressure
-from wearsim.sizing.heat_treatment import HB_PER_HRC, treatments
+from wearsim.sizing.heat_treatment import in_brinell, treatments
 from wearsim.sizing.strength import (
     CONTACT_EXPONENT,
     Endurance,
@@ -62,9 +62,8 @@ def fatigue_lives(case: Case) -> dict[str, EnduredHours]:
 
 def _endurance(side: GearSide, per_hour: float, hours: float) -> Endurance:
     treatment = treatments()[side.treatment]
-    brinell = side.hardness * (1.0 if side.scale == "HB" else HB_PER_HRC)
-    hardness = brinell / (1.0 if treatment.scale == "HB" else HB_PER_HRC)
-    limit = side.contact_limit or treatment.contact_limit(hardness)
+    brinell = in_brinell(side.hardness, side.scale)
+    limit = side.contact_limit or treatment.contact_limit(treatment.own_hardness(brinell))
     curve = FatigueCurve(
         limit=limit / (side.contact_safety or treatment.contact_safety),
         base_cycles=contact_base_cycles(brinell),

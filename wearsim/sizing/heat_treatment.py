@@ -75,6 +75,21 @@ class Treatment:
         slope, offset = self.contact_line
         return slope * hardness + offset
 
+    def own_hardness(self, brinell: float) -> float:
+        """Return a hardness in the treatment's scale.
+
+        Parameters
+        ----------
+        brinell : float
+            In HB.
+
+        Returns
+        -------
+        float
+            HB or HRC.
+        """
+        return brinell if self.scale == "HB" else brinell / HB_PER_HRC
+
     def bending_limit(self, hardness: float) -> float:
         """Return the endurance limit in bending, sigma_Flim of table 2.3.
 
@@ -112,6 +127,24 @@ class Treatment:
         base = yield_strength if self.overload_of == "yield" else hardness
         greatest = self.overload_slope * base
         return greatest if math.isnan(greatest) else min(greatest, self.overload_cap)
+
+
+def in_brinell(hardness: float, scale: str) -> float:
+    """Return a hardness in HB, 10 to 1 HRC.
+
+    Parameters
+    ----------
+    hardness : float
+        As given.
+    scale : str
+        ``HB`` or ``HRC``.
+
+    Returns
+    -------
+    float
+        HB.
+    """
+    return hardness if scale == "HB" else HB_PER_HRC * hardness
 
 
 @cache

@@ -12,7 +12,7 @@ from wearsim.case.schema.strength import (
     StrengthTables,
 )
 from wearsim.contact.hertz import contact_modulus
-from wearsim.sizing.heat_treatment import HB_PER_HRC, Treatment, treatments
+from wearsim.sizing.heat_treatment import Treatment, in_brinell, treatments
 from wearsim.sizing.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
 from wearsim.sizing.strength import (
     CONTACT_EXPONENT,
@@ -257,8 +257,8 @@ def _gear(
     hours: float,
 ) -> Gear:
     treatment = treatments()[table.treatment]
-    brinell = table.hardness_HB or HB_PER_HRC * (table.hardness_HRC or 0.0)
-    hardness = brinell if treatment.scale == "HB" else brinell / HB_PER_HRC
+    brinell = table.hardness_HB or in_brinell(table.hardness_HRC or 0.0, "HRC")
+    hardness = treatment.own_hardness(brinell)
     found = []
     for limit, curve, greatest, exponent in (
         _contact(table, treatment, hardness, brinell, tables.fatigue),

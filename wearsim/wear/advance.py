@@ -246,10 +246,8 @@ def run_advance(
     problem = _Problem(contact, law, criteria, horizon * law.coefficient)
     x, y, depth = problem.start()
     check_touch(contact, x, y, depth, 0.0)
-    tolerance, change = (
-        float(np.clip(PART_OF_TOLERANCE * life_tolerance, FINEST, LOOSEST)),
-        math.inf,
-    )
+    tolerance = float(np.clip(PART_OF_TOLERANCE * life_tolerance, FINEST, LOOSEST))
+    change = math.inf
     before: _Solution | None = None
     failure: WearsimError | None = None
     while tolerance >= TIGHTEST:

@@ -7,7 +7,15 @@ from pydantic import Field
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.material import MaterialTable
 from wearsim.case.schema.run import RunTable
-from wearsim.case.schema.strength import AtLeastOne, Brinell, Rockwell, Stress, Treatment
+from wearsim.case.schema.strength import (
+    NITRIDED_LIMIT,
+    AtLeastOne,
+    Brinell,
+    Rockwell,
+    Stress,
+    Treatment,
+    one_hardness,
+)
 from wearsim.case.schema.table import Table
 from wearsim.case.schema.wear import WearTable
 from wearsim.case.units import Number, Positive, PositiveNumber
@@ -95,17 +103,9 @@ class GearSideTable(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        found = []
-        if (self.hardness_HB is None) == (self.hardness_HRC is None):
-            got = "none" if self.hardness_HB is None else "both"
-            message = f"give exactly one of hardness_HB and hardness_HRC (got {got})"
-            found.append(("hardness_HB", message))
+        found = one_hardness(self.hardness_HB, self.hardness_HRC)
         if self.treatment == "nitrided" and self.contact_limit_MPa is None:
-            message = (
-                "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take "
-                "1050 MPa"
-            )
-            found.append(("contact_limit_MPa", message))
+            found.append(NITRIDED_LIMIT)
         return found
 
 

@@ -96,6 +96,32 @@ class CyclogramStep(Table):
         return []
 
 
+NITRIDED_LIMIT = (
+    "contact_limit_MPa",
+    "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take 1050 MPa",
+)
+"""The fault of a nitrided gear without an endurance limit."""
+
+
+def one_hardness(brinell: float | None, rockwell: float | None) -> list[tuple[str, str]]:
+    """Return the fault of a gear whose hardness is given in no scale or in both.
+
+    Parameters
+    ----------
+    brinell, rockwell : float or None
+        HB and HRC as given.
+
+    Returns
+    -------
+    list of tuple of str
+        Key and message; none where one is given.
+    """
+    if (brinell is None) != (rockwell is None):
+        return []
+    got = "none" if brinell is None else "both"
+    return [("hardness_HB", f"give exactly one of hardness_HB and hardness_HRC (got {got})")]
+
+
 class GearTable(Table):
     """Material of pinion or wheel; what is left out follows from the treatment."""
 
@@ -126,11 +152,7 @@ class GearTable(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        found = []
-        if (self.hardness_HB is None) == (self.hardness_HRC is None):
-            got = "none" if self.hardness_HB is None else "both"
-            message = f"give exactly one of hardness_HB and hardness_HRC (got {got})"
-            found.append(("hardness_HB", message))
+        found = one_hardness(self.hardness_HB, self.hardness_HRC)
         if self.yield_strength_MPa is not None:
             found += self._of_yield()
         return found + self._of_nitriding()
@@ -151,11 +173,7 @@ class GearTable(Table):
             return [("core_hardness_HRC", message)] if core else []
         found = []
         if self.contact_limit_MPa is None:
-            message = (
-                "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take "
-                "1050 MPa"
-            )
-            found.append(("contact_limit_MPa", message))
+            found.append(NITRIDED_LIMIT)
         if core == (self.bending_limit_MPa is not None):
             message = (
                 "treatment = 'nitrided' needs exactly one of bending_limit_MPa and core_hardness_HRC "
