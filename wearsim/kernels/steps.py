@@ -250,6 +250,7 @@ def wear_in_steps(
             if error <= 1.0:
                 error = math.nan if keep_removed(here, state, step) > 0 else error
                 part = part_to_layer(here, state, law, tolerance * depth_limit)
+            if error <= 1.0 and part == 1.0:
                 pass_layer(here, state, law)
                 status = flank_rate(
                     contact, state, state[2], constants, columns, modulus, law, work
