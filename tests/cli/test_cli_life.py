@@ -242,7 +242,7 @@ def test_solve_for_without_an_answer_is_4(cli, drive, conforms):
     line = strict(done.out)
     conforms(line)
     assert not line["solve_for"]["met"]
-    assert "no value of sprocket.face_width_mm from " in done.err
+    assert "no value of sprocket.face_width_mm was found from " in done.err
     assert line["solve_for"]["value"] == pytest.approx(17.02, rel=1e-3)
 
 

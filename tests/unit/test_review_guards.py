@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.errors import ConvergenceError
+from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels.locus import met_near, way_to
 from wearsim.simulation import verify_grid
 from wearsim.simulation.many import CaseLife, simulate_many
@@ -123,6 +123,29 @@ def test_errors_name_the_cycles_run(tmp_path: Path, method: tuple[str, ...]) -> 
     slow = refused_at(tables, *method)
     fast = refused_at(tables, *RUNS_IN, "wear.running_in_distance_mm=1e12", *method)
     assert fast == pytest.approx(0.1 * slow, rel=0.02)
+
+
+def test_rough_table_is_named(tmp_path: Path) -> None:
+    """The depth alternates because the load does: fewer cycles per update would not help."""
+    with pytest.raises(ConvergenceError, match=r"load times sliding .* smooth the table of loads"):
+        wearsim.simulate(wearsim.load_case(alternating(tmp_path)))
+
+
+@pytest.mark.parametrize("exponent", [1.08, 1.15, 1.25])
+def test_flank_that_nearly_conforms_is_told(tmp_path: Path, exponent: float) -> None:
+    """The pressure that the wear feeds on fades: 1/rho_H falls to 0 without passing it."""
+    arc = np.linspace(0.0, 4.0, 41)
+    columns = {
+        "arc_length_mm": arc,
+        "load_per_width_N_per_mm": 50.0 * (0.4 + np.exp(-((arc - 1.6) ** 2))),
+        "flank_curvature_per_mm": np.full(41, -0.1998),
+        "slip_ratio": np.full(41, 0.5),
+    }
+    wear = {"law": "power", "coefficient": 1e-12, "pressure_exponent": exponent}
+    stop, run = {"critical_depth_mm": 0.4}, {"horizon_hours": 1e12}
+    case = wearsim.load_case(table(tmp_path, columns, wear=wear, stop=stop, run=run))
+    with pytest.raises(ContactError, match="conforms to the roller"):
+        wearsim.simulate(case)
 
 
 def test_grids_are_compared_at_the_same_time(tmp_path: Path) -> None:

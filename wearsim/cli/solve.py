@@ -90,7 +90,7 @@ def _show(
         click.echo(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
     if not solved.met:
         warn(
-            f"{path}: no value of {key} from {solved.low:.6g} to {solved.high:.6g} lives "
+            f"{path}: no value of {key} was found from {solved.low:.6g} to {solved.high:.6g} that lives "
             f"{grouped(hours)} h: shown is the nearest"
         )
 

@@ -77,7 +77,9 @@ def depth_at(run: Trajectory, cycles: float) -> float:
     return float(np.interp(cycles, run.cycles, run.depth.max(axis=1)))
 
 
-def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float) -> None:
+def check_touch(
+    contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float, least: float = 0.0
+) -> None:
     """Raise where the contact of a worn flank is outside Hertz's theory or gone.
 
     Parameters
@@ -88,6 +90,8 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
         The worn flank [mm].
     cycles : float
         Loading cycles so far, for the message.
+    least : float
+        Relative curvature [1/mm] up to which the flank is taken to conform.
 
     Raises
     ------
@@ -112,7 +116,7 @@ def check_touch(contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: f
             "touch the loaded stretch of the flank, but touches no point of it: check the contact range, "
             "or stop at a smaller depth"
         )
-    conforming = loaded & ~(touch.relative_curvature > 0.0)
+    conforming = loaded & ~(touch.relative_curvature > least)
     if conforming.any():
         point = int(conforming.argmax())
         raise ContactError(
@@ -217,9 +221,18 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: 
         Over a stretch of the flank the short difference is far larger than the long one.
     """
     point = sawtooth(np.ascontiguousarray(depth), depth_limit)
-    if point >= 0:
+    if point < 0:
+        return
+    place = f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root"
+    profile = contact.profile
+    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(depth.size))
+    given = touch.load_per_width * touch.slip
+    if sawtooth(given * (depth.max() / given.max()), depth_limit) >= 0:
         raise ConvergenceError(
-            f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the depth "
-            "must vary smoothly along the flank, but alternates from point to point, so the run is "
-            'unstable: take fewer cycles_per_update or method = "advance"'
+            f"{place}: load times sliding of the new flank must vary smoothly along it, but alternates "
+            "from point to point, and so does the depth: smooth the table of loads, or give it more rows"
         )
+    raise ConvergenceError(
+        f"{place}: the depth must vary smoothly along the flank, but alternates from point to point, so "
+        'the run is unstable: take fewer cycles_per_update or method = "advance"'
+    )

@@ -7,6 +7,7 @@ from pydantic import Field
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.material import MaterialTable
 from wearsim.case.schema.run import RunTable
+from wearsim.case.schema.stop import Depth
 from wearsim.case.schema.strength import (
     NITRIDED_LIMIT,
     AtLeastOne,
@@ -88,8 +89,8 @@ class GearWearTable(WearTable):
 class GearStopTable(Table):
     """Limits of the worn flanks; the first one met ends the life."""
 
-    critical_depth_mm: Positive
-    wheel_critical_depth_mm: Positive | None = None
+    critical_depth_mm: Depth
+    wheel_critical_depth_mm: Depth | None = None
 
 
 class GearSideTable(Table):

@@ -28,10 +28,10 @@ class WearTable(Table):
     condition: str | None = None
     specific_wear_rate_mm2_per_N: Positive | None = None
     coefficient: PositiveNumber | None = None
-    pressure_exponent: PositiveNumber | None = None
-    hardness_MPa: Positive | None = None
-    reference_speed_mm_per_s: Positive | None = None
-    speed_exponent: Number | None = None
+    pressure_exponent: Annotated[PositiveNumber, Field(le=20.0)] | None = None
+    hardness_MPa: Annotated[Positive, Field(ge=1e-3, le=1e6)] | None = None
+    reference_speed_mm_per_s: Annotated[Positive, Field(ge=1e-6, le=1e9)] | None = None
+    speed_exponent: Annotated[Number, Field(ge=-20.0, le=20.0)] | None = None
     case_depth_mm: Positive | None = None
     core_factor: PositiveNumber | None = None
     roller_wear_ratio: Annotated[Number, Field(ge=0.0)] | None = None
