@@ -50,8 +50,7 @@ def first_met(x: Vector, y: Vector, ray: Vector, radius: float, reach: Vector) -
 def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> int:
     """Return the point that a ray meets first if that is found downhill from another, else -1.
 
-    It is the first of all where no other is inside the roller that touches it, nor between there
-    and the start of the ray, passed by the roller on its way.
+    It is the first of all where no other is nearer than the radius to the way of the roller.
     """
     points, best = x.size, point
     least = way_to(x, y, best, ray, radius)
@@ -61,18 +60,15 @@ def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> in
             if not way < least:
                 break
             best, least = best + direction, way
-    if least == math.inf:
+    if not 0.0 <= least < math.inf:
         return -1
-    cx, cy = ray[0] - least * ray[2], ray[1] - least * ray[3]
     within, inside = _INSIDE * radius * radius, 0
+    bx, by, nx, ny = ray[0], ray[1], ray[2], ray[3]
     for j in range(points):
-        ax, ay = cx - x[j], cy - y[j]
-        inside += 1 if ax * ax + ay * ay < within else 0
-    for j in range(points):
-        ax, ay = ray[0] - x[j], ray[1] - y[j]
-        across, along = ax * ray[3] - ay * ray[2], ax * ray[2] + ay * ray[3]
-        passed = across * across < radius * radius and 0.0 < along < least
-        inside += 1 if passed or ax * ax + ay * ay < within else 0
+        ax, ay = bx - x[j], by - y[j]
+        across, along = ax * ny - ay * nx, ax * nx + ay * ny
+        beyond = max(max(along - least, -along), 0.0)
+        inside += 1 if across * across + beyond * beyond < within else 0
     return -1 if inside > 0 else best
 
 
