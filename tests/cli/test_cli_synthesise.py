@@ -20,8 +20,7 @@ from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.errors import CaseError
 from wearsim.quantities import quantities
 from wearsim.report.synthesis import synthesis_sheet
-from wearsim.sizing.plane_gearing import loaded_pair
-from wearsim.sizing.synthesis import phases
+from wearsim.sizing.synthesis import loaded_pair, phases
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"
 POLE = CASES / "synthesise-constant-stress.toml"

@@ -7,8 +7,12 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Contact, Kind, Mechanism
+from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw, SynthesisedPair
+from wearsim.geometry.convex_concave import ConvexConcave
 from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.mesh import ToothPair
+from wearsim.geometry.plane_gearing import PitchCircles
 from wearsim.geometry.points import flank_from_points
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
@@ -152,41 +156,59 @@ class Part:
 
 
 def gears(
-    stiffness: float, nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+    pair: ToothPair, stiffness: float, nodes: int, length: float, load: float, slip: float
 ) -> Mechanism:
-    """FZG C14 ten times as large; a part of the sliding, which a gear pair has no number for."""
-    size = 10.0 * length
-    pair = InvolutePair(
-        (16, 24), 4.5 * size, np.radians(20.0), (0.1817, 0.1715), (41.318 * size, 59.272 * size)
-    )
+    """Gears ten times as large; a part of the sliding, which a gear pair has no number for."""
+    torque = load * 400.0 / length * pair.circles.pinion_radius
+    stiffness /= length**2
     whole = GearPairMechanism(
-        pair,
-        load * 400.0 / length,
-        slip * 10.0,
-        MODULUS / length**2,
-        1.0,
-        stiffness / length**2,
-        nodes,
+        pair, torque, slip * 10.0, MODULUS / length**2, 1.0, stiffness, nodes
     )
     columns = whole.contact.columns.copy()
     columns[SLIP] *= slip
     return Part(whole, replace(whole.contact, columns=columns))
 
 
+def c14(size: float) -> ToothPair:
+    """FZG C14."""
+    return InvolutePair(
+        (16, 24), 4.5 * size, np.radians(20.0), (0.1817, 0.1715), (41.318 * size, 59.272 * size)
+    )
+
+
+def constant_stress(size: float) -> ToothPair:
+    load = LineLoad(size * 3000.0 / 54.0, 1)
+    stress = StressLaw(np.array([0.0]), np.array([454.16]))
+    loaded = LoadedPair(PitchCircles(135.0 * size, 1.5), MODULUS, load, stress, 0.0)
+    return SynthesisedPair(loaded, (36, 54), (-7.0 * size, 7.0 * size))
+
+
 def rigid_gears(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
-    return gears(0.0, nodes, length, load, slip)
+    return gears(c14(10.0 * length), 0.0, nodes, length, load, slip)
 
 
 def elastic_gears(
     nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
 ) -> Mechanism:
-    return gears(1400.0, nodes, length, load, slip)
+    return gears(c14(10.0 * length), 1400.0, nodes, length, load, slip)
+
+
+def convex_concave(
+    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+) -> Mechanism:
+    size = 10.0 * length
+    pair = ConvexConcave(4.5 * size, 17, 34, np.radians(20.0), 10.0 * size, 9.0 * size, 4.5 * size)
+    return gears(pair, 1400.0, nodes, length, load, slip)
+
+
+def synthesised(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
+    return gears(constant_stress(10.0 * length), 1400.0, nodes, length, load, slip)
 
 
 SMOOTH = (evolute, points, slip_ratio, sliding_distance, wrap)
 """Mechanisms with no kink in the middle of the flank, as gears have one at the pole."""
 
-MECHANISMS = (*SMOOTH, rigid_gears, elastic_gears)
+MECHANISMS = (*SMOOTH, rigid_gears, elastic_gears, convex_concave, synthesised)
 
 
 @pytest.fixture(params=MECHANISMS, ids=lambda build: build.__name__)

@@ -399,7 +399,7 @@ def test_wheel_is_the_envelope_of_the_pinion(pair, which):
     """
     zone = pair.zones[which]
     x, y = chebyshev(zone.pinion.points, zone.pinion.pole_angle, zone.end)
-    r1, r2 = 0.5 * pair.module * pair.teeth, 0.5 * pair.module * pair.mate_teeth
+    r1, r2 = 0.5 * pair.module * pair.pinion_teeth, 0.5 * pair.module * pair.wheel_teeth
 
     def on_wheel(a, phi):
         # Pinion turned by phi, seen from the wheel's axis half round, turned back by the wheel.

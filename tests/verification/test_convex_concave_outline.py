@@ -72,7 +72,7 @@ def test_fillet_goes_on_smoothly(pair, root, clearance):
     corner = np.abs((corner + math.pi) % (2.0 * math.pi) - math.pi)
     sharp = corner > 1e-3
     per_tooth = 4 if root == "radial" else 2
-    assert sharp.sum() == per_tooth * pair.teeth
+    assert sharp.sum() == per_tooth * pair.pinion_teeth
     assert corner[~sharp].max() < 1e-4
 
 
@@ -86,7 +86,7 @@ def test_gears_run_free(pair, root, clearance):
     assert max(tip_overlap(pair, pinion, wheel)) < 2e-4
     r1, r2 = pair.pinion.pitch_radius, pair.wheel.pitch_radius
     window = shapely.box(-12.0, r1 - 8.0, 12.0, r1 + 8.0)
-    for phi in np.linspace(0.0, 2.0 * math.pi / pair.teeth, 7):
+    for phi in np.linspace(0.0, 2.0 * math.pi / pair.pinion_teeth, 7):
         one = shapely.Polygon(turned(pinion, pair.pinion.turn + phi)) & window
         other = -turned(wheel, pair.wheel.turn - phi * r1 / r2) + (0.0, r1 + r2)
         common = one & (shapely.Polygon(other) & window)

@@ -23,7 +23,8 @@ from wearsim.wear.law import archard, power
 
 C14 = InvolutePair((16, 24), 4.5, math.radians(20.0), (0.1817, 0.1715), (41.318, 59.272))
 MODULUS = contact_modulus((2.06e5, 2.06e5), (0.3, 0.3))
-LINE_LOAD = 200e3 / C14.base_radius[0] / 14.0
+TORQUE = 200e3 / 14.0
+LINE_LOAD = TORQUE / C14.base_radius[0]
 RATE = 1e-10
 SHIPPED = Path(__file__).parents[2] / "cases" / "fzg-c14-16t-mild.toml"
 
@@ -45,7 +46,7 @@ TABLE = {
 
 
 def mechanism(stiffness: float = 0.0, points: int = 201) -> GearPairMechanism:
-    return GearPairMechanism(C14, LINE_LOAD, 10.0, MODULUS, 1.0, stiffness, points)
+    return GearPairMechanism(C14, TORQUE, 10.0, MODULUS, 1.0, stiffness, points)
 
 
 def engaged(of: GearPairMechanism, depth: np.ndarray | None = None) -> np.ndarray:
@@ -191,7 +192,7 @@ def test_driving_and_driven_gear_change_places() -> None:
     """The same pair with the wheel as pinion: its depths are those of the wheel, 1/u times as fast."""
     one = mechanism(14000.0, 401)
     swapped = InvolutePair((24, 16), 4.5, C14.pressure_angle, (0.1715, 0.1817), (59.272, 41.318))
-    other = GearPairMechanism(swapped, LINE_LOAD, 10.0 / 1.5, MODULUS, 1.0, 14000.0, 401)
+    other = GearPairMechanism(swapped, 1.5 * TORQUE, 10.0 / 1.5, MODULUS, 1.0, 14000.0, 401)
     law = archard(RATE)
     first, _ = run_advance(one.contact, law, (depth_criterion(1.0),), 1e6, 1e-5)
     second, _ = run_advance(other.contact, law, (depth_criterion(1.0),), 1e6 / 1.5, 1e-5)
@@ -202,7 +203,7 @@ def test_driving_and_driven_gear_change_places() -> None:
 
 
 def test_harder_wheel_wears_less_by_its_coefficient() -> None:
-    of = GearPairMechanism(C14, LINE_LOAD, 10.0, MODULUS, 0.25, 0.0, 101)
+    of = GearPairMechanism(C14, TORQUE, 10.0, MODULUS, 0.25, 0.0, 101)
     np.testing.assert_allclose(of.mate_depth, 0.25 * mechanism(points=101).mate_depth, rtol=1e-14)
 
 

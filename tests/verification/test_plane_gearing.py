@@ -16,11 +16,11 @@ from scipy.optimize import newton
 from wearsim.case.calculation import load_calculation
 from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.contact.hertz import contact_modulus, peak_pressure
+from wearsim.contact.prescribed_stress import LineLoad
 from wearsim.errors import GeometryError
 from wearsim.geometry.line_of_action import Synthesis, involute
 from wearsim.geometry.plane_gearing import Contacts, PitchCircles
-from wearsim.sizing.plane_gearing import LineLoad, loaded_pair
-from wearsim.sizing.synthesis import direction_fields, phases, stress_fields
+from wearsim.sizing.synthesis import direction_fields, loaded_pair, phases, stress_fields
 
 CIRCLES = PitchCircles(135.0, 1.5)
 STEEL = {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3}

@@ -1,12 +1,12 @@
 """From the tables of a gear pair as given to a complete case."""
 
-import math
 from pathlib import Path
 
+from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case, GearDrive, GearSide
 from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearFatigueTable, GearTable, GearTables
+from wearsim.case.schema.gear import GearFatigueTable, GearTables
 from wearsim.case.shared import (
     FLANK_NODES,
     TOLERANCE,
@@ -15,8 +15,6 @@ from wearsim.case.shared import (
     take_defaults,
     wear_input,
 )
-from wearsim.errors import GeometryError
-from wearsim.geometry.involute import InvolutePair
 
 PAIR_STIFFNESS = 14.0
 """Of a pair of teeth [N/(mm um)], the single stiffness c' of ISO 6336-1 for usual steel gears."""
@@ -57,10 +55,11 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
             "must be at least 1 on gears: below 1 a pit deepens itself and the problem is ill-posed "
             f"(got {wear.pressure_exponent:g})",
         )
-    pair = _pair(case, tables.gear)
     nodes = tables.gear.nodes or FLANK_NODES
     if tables.gear.nodes is None:
         case.take("gear.nodes", nodes, "default")
+    torque = 1000.0 * tables.load.torque_N_m
+    pair = resolve_teeth(case, tables.gear, nodes, torque, modulus)
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:
         case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
     stiffness = _stiffness(case, tables)
@@ -79,7 +78,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
         drive=GearDrive(
             pair=pair,
             face_width=tables.gear.face_width_mm,
-            torque=1000.0 * tables.load.torque_N_m,
+            torque=torque,
             stiffness=stiffness,
             wheel_wear_ratio=tables.wear.wheel_wear_ratio,
             points=nodes,
@@ -98,26 +97,6 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )
-
-
-def _pair(case: Record, table: GearTable) -> InvolutePair | None:
-    teeth, module = (table.pinion_teeth, table.wheel_teeth), table.module_mm
-    shifts, tips = (table.pinion_shift, table.wheel_shift), []
-    for gear, count, shift in zip(("pinion", "wheel"), teeth, shifts, strict=True):
-        radius = getattr(table, f"{gear}_tip_radius_mm")
-        if radius is None:
-            radius = module * (0.5 * count + 1.0 + shift)
-            case.take(f"gear.{gear}_tip_radius_mm", radius, "addendum of one module, plus shift")
-        tips.append(radius)
-    pair = InvolutePair(
-        teeth, module, math.radians(table.pressure_angle_deg), shifts, (tips[0], tips[1])
-    )
-    try:
-        pair.check()
-    except GeometryError as error:
-        case.faults.add("gear", str(error).removeprefix("gear pair: "))
-        return None
-    return pair
 
 
 def _materials(case: Record, table: GearFatigueTable | None) -> tuple[GearSide, GearSide] | None:

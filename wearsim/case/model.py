@@ -10,7 +10,7 @@ from wearsim.case.tables import PrescribedTable
 from wearsim.catalogue.tables import Chain
 from wearsim.geometry.drive_layout import DriveLayout
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.mesh import ToothPair
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.tooth import Tooth
 from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
@@ -343,7 +343,7 @@ class GearDrive:
 
     Attributes
     ----------
-    pair : InvolutePair
+    pair : ToothPair
         The new gears.
     face_width : float
         b [mm].
@@ -361,7 +361,7 @@ class GearDrive:
         Of pinion and wheel; None where contact fatigue is not asked for.
     """
 
-    pair: InvolutePair
+    pair: ToothPair
     face_width: float
     torque: float
     stiffness: float
@@ -371,9 +371,10 @@ class GearDrive:
     materials: tuple[GearSide, GearSide] | None = None
 
     @property
-    def line_load(self) -> float:
-        """Normal load over face width of all pairs of teeth in contact [N/mm]."""
-        return self.torque / (self.pair.base_radius[0] * self.face_width)
+    def pole_load(self) -> float:
+        """Normal load over face width of one pair of teeth in the pole [N/mm]."""
+        lever = self.pair.circles.pinion_radius * math.cos(self.pair.pole_angle)
+        return self.torque / (lever * self.face_width)
 
 
 ChainDrive = StrandDrive | PrescribedDrive | WrapDrive

@@ -20,8 +20,7 @@ def synthesise(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.case.calculation import load_calculation
     from wearsim.case.schema.synthesis import SynthesisTables
     from wearsim.report.synthesis import synthesis_sheet
-    from wearsim.sizing.plane_gearing import loaded_pair
-    from wearsim.sizing.synthesis import phases
+    from wearsim.sizing.synthesis import loaded_pair, phases
 
     tables = load_calculation(case, SynthesisTables, settings)
     pair = loaded_pair(tables)

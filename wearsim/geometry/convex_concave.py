@@ -15,6 +15,9 @@ from numpy.typing import ArrayLike
 
 from wearsim.geometry.convex_concave_flank import Flank
 from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
+from wearsim.geometry.line_of_action import LineOfAction
+from wearsim.geometry.mesh import Mesh, mesh_on
+from wearsim.geometry.plane_gearing import Contacts, PitchCircles
 from wearsim.geometry.profile import Vector
 
 
@@ -113,8 +116,8 @@ class ConvexConcave:
     ----------
     module : float
         Module m [mm].
-    teeth, mate_teeth : int
-        Numbers z1 and z2 of teeth of pinion and wheel.
+    pinion_teeth, wheel_teeth : int
+        Numbers z1 and z2.
     pole_angle : float
         Pressure angle alpha_C in the pole [rad].
     head_arc, foot_arc : float
@@ -134,8 +137,8 @@ class ConvexConcave:
     """
 
     module: float
-    teeth: int
-    mate_teeth: int
+    pinion_teeth: int
+    wheel_teeth: int
     pole_angle: float
     head_arc: float
     foot_arc: float
@@ -145,7 +148,7 @@ class ConvexConcave:
     @cached_property
     def pinion(self) -> ConvexConcaveGear:
         """The driving gear."""
-        return self._gear(self.teeth, self.head_arc, self.foot_arc)
+        return self._gear(self.pinion_teeth, self.head_arc, self.foot_arc)
 
     @cached_property
     def wheel(self) -> ConvexConcaveGear:
@@ -153,13 +156,23 @@ class ConvexConcave:
 
         In a frame of its own, turned half round, so that its flank passes the pole on +y too.
         """
-        return self._gear(self.mate_teeth, self.foot_arc, self.head_arc)
+        return self._gear(self.wheel_teeth, self.foot_arc, self.head_arc)
 
     def _gear(self, teeth: int, head_arc: float, foot_arc: float) -> ConvexConcaveGear:
         return ConvexConcaveGear(
             teeth, self.module, self.pole_angle, head_arc, foot_arc, self.addendum,
             0.5 * self.backlash,
         )  # fmt: skip
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """z1 and z2."""
+        return self.pinion_teeth, self.wheel_teeth
+
+    @property
+    def circles(self) -> PitchCircles:
+        """The pitch circles."""
+        return PitchCircles(self.centre_distance, self.wheel_teeth / self.pinion_teeth)
 
     @property
     def centre_distance(self) -> float:
@@ -206,3 +219,43 @@ class ConvexConcave:
             SignCondition(4, "rho_2a < 0", a.wheel, a.end),
             SignCondition(5, "rho_2b > 0", b.wheel, b.end),
         )
+
+    def line(self, points: int) -> LineOfAction:
+        """Return the line of action at points that are evenly turned.
+
+        Parameters
+        ----------
+        points : int
+            At least 5.
+
+        Returns
+        -------
+        LineOfAction
+            From the tip of the wheel to that of the pinion.
+        """
+        after, before = (zone.pinion for zone in self.zones)
+        last, first = (float(zone.pinion.rolled_length(zone.end)) for zone in self.zones)
+        rolled = np.linspace(first, last, points)
+        columns = []
+        for flank, part in ((before, rolled[rolled < 0.0]), (after, rolled[rolled >= 0.0])):
+            alpha = flank.angle_at_rolled_length(part)
+            columns.append((flank.path_coordinate(alpha), alpha, flank.turn(alpha)))
+        l, alpha, turn = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+        return LineOfAction(
+            Contacts(self.circles, l, alpha, turn), rolled / self.pinion.pitch_radius
+        )
+
+    def mesh(self, points: int) -> Mesh:
+        """Return the way of a pair of teeth through contact.
+
+        Parameters
+        ----------
+        points : int
+            Of the flanks, at least 5.
+
+        Returns
+        -------
+        Mesh
+            Its places are lengths rolled on the pitch circles.
+        """
+        return mesh_on(self.line(points), self.teeth)

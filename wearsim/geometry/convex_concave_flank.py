@@ -22,6 +22,8 @@ from wearsim.geometry.profile import Vector
 
 Part = Literal["head", "foot"]
 
+_NEWTON_STEPS = 12
+
 
 @dataclass(frozen=True)
 class Flank:
@@ -94,6 +96,48 @@ class Flank:
         a, c = np.asarray(alpha, dtype=float), self.pole_angle
         turned = (a - c) * math.cos(c) + math.sin(c) * np.log(math.cos(c) / np.cos(a))
         return np.asarray(2.0 * self.side * self.arc_radius * turned)
+
+    def angle_at_rolled_length(self, length: ArrayLike) -> Vector:
+        """Return the pressure angle after so much rolling from the pole, by Newton's method.
+
+        d(length)/d(alpha) = +-2 r_k cos(alpha - alpha_C)/cos(alpha) is above 0 and grows, so
+        that it comes down to the root from above.
+
+        Parameters
+        ----------
+        length : array_like
+            Length [mm], not positive on the foot and not negative on the head.
+
+        Returns
+        -------
+        numpy.ndarray
+            Angle [rad].
+        """
+        wanted = np.abs(np.asarray(length, dtype=float)) / (2.0 * self.arc_radius)
+        angle = np.minimum(self.pole_angle + wanted, 0.5 * math.pi - 1e-6)
+        for _ in range(_NEWTON_STEPS):
+            off = np.abs(self.rolled_length(angle)) / (2.0 * self.arc_radius) - wanted
+            angle = angle - off * np.cos(angle) / np.cos(angle - self.pole_angle)
+        return np.asarray(angle)
+
+    def turn(self, alpha: ArrayLike) -> Vector:
+        """Return the change of the pressure angle over the turn of the gear.
+
+        +-r cos alpha / (2 r_k cos(alpha - alpha_C)).
+
+        Parameters
+        ----------
+        alpha : array_like
+            Pressure angle [rad].
+
+        Returns
+        -------
+        numpy.ndarray
+            Radians per radian of this gear.
+        """
+        a = np.asarray(alpha, dtype=float)
+        change = self.pitch_radius * np.cos(a) / np.cos(a - self.pole_angle)
+        return np.asarray(0.5 * self.side * change / self.arc_radius)
 
     def roll_angle(self, alpha: ArrayLike) -> Vector:
         """Return the angle phi_r that the gear turns from contact in the pole.
@@ -182,9 +226,8 @@ class Flank:
     def curvature(self, alpha: ArrayLike) -> Vector:
         """Return the curvature, convex positive.
 
-        (1 + alpha') / (l (1 + alpha') + r sin alpha) with the change of the pressure angle over
-        the turn of the gear alpha' = +-r cos alpha / (2 r_k cos(alpha - alpha_C)), by Euler and
-        Savary. It jumps in the pole.
+        (1 + alpha') / (l (1 + alpha') + r sin alpha) with alpha' of ``turn``, by Euler and Savary.
+        It jumps in the pole.
 
         Parameters
         ----------
@@ -196,8 +239,7 @@ class Flank:
         numpy.ndarray
             Curvature [1/mm].
         """
-        a, r = np.asarray(alpha, dtype=float), self.pitch_radius
-        change = self.side * r * np.cos(a) / (2.0 * self.arc_radius * np.cos(a - self.pole_angle))
+        a, r, change = np.asarray(alpha, dtype=float), self.pitch_radius, self.turn(alpha)
         speed = self.path_coordinate(a) * (1.0 + change) + r * np.sin(a)
         return np.asarray((1.0 + change) / speed)
 

@@ -8,6 +8,8 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.measuring import measurement_over_pins
+from wearsim.geometry.mesh import Mesh, check_contact_ratio
+from wearsim.geometry.plane_gearing import PitchCircles
 from wearsim.geometry.profile import Profile, Vector
 
 
@@ -210,11 +212,49 @@ class InvolutePair:
                     f"gear pair: the {limit} {-least:.4g} mm beyond the base circle, where there is no "
                     f"involute: lower the tip radius of gear {name} by shift or a shorter addendum"
                 )
-        if not 1.0 <= self.contact_ratio < 2.0:
-            raise GeometryError(
-                "gear pair: the contact ratio must be at least 1 and below 2, but is "
-                f"{self.contact_ratio:.4g}: change tip radii or numbers of teeth"
-            )
+        check_contact_ratio(self.contact_ratio)
+
+    @property
+    def circles(self) -> PitchCircles:
+        """The pitch circles at which the gears work."""
+        return PitchCircles(self.centre_distance, self.ratio)
+
+    @property
+    def pole_angle(self) -> float:
+        """Pressure angle in the pole, alpha_w [rad]."""
+        return self.working_angle
+
+    def mesh(self, points: int) -> Mesh:
+        """Return the way of a pair of teeth through contact.
+
+        Parameters
+        ----------
+        points : int
+            Of the flanks, at least 5.
+
+        Returns
+        -------
+        Mesh
+            Its places are those on the path of contact, from A to E.
+        """
+        place = np.linspace(self.path_start, self.path_end, points)
+        rest, (own, other) = self.line_length - place, self.base_radius
+        lever = np.full(points, own)
+        return Mesh(
+            place=place,
+            pitch=self.base_pitch,
+            pole_distance=place - self.pole,
+            lever=lever,
+            rolling=np.array([place, rest / self.ratio]),
+            curvature=1.0 / np.array([place, rest]),
+            arc=0.5
+            * np.array([place**2 - place[0] ** 2, rest[0] ** 2 - rest**2])
+            / np.array([[own], [other]]),
+            flank=self.flank(place),
+            mate=self.mating_flank(place),
+            gaps=self.separation(place + self.base_pitch * np.array([[1.0], [-1.0]])),
+            levers=np.array([lever, lever]),
+        )
 
     def separation(self, place: Vector) -> Vector:
         """Return how far a pair of teeth beyond the ends of the path is apart.

@@ -8,21 +8,24 @@ from typing import TYPE_CHECKING
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.gear_rows import (
     ARC,
-    BASE_PITCH,
     CURVATURE,
     LAST_GAP,
+    LAST_LEVER,
     LEAST_CURVATURE,
-    LINE_LOAD,
+    LEVER,
     MATE_ARC,
     MATE_DEPTH,
     NEXT_GAP,
+    NEXT_LEVER,
     NORMAL_X,
     NORMAL_Y,
+    PITCH,
     PLACE,
     SHARE,
     SLIP,
     SPEED,
     STIFFNESS,
+    TORQUE,
 )
 from wearsim.kernels.second_difference import add_second_difference
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
@@ -48,29 +51,29 @@ def worn_gap(depth: Vector, columns: Vector, place: float, near: int) -> float:
     return gap
 
 
-@kernel(float64(float64, float64, float64, float64))
-def shared(load: float, own: float, next_gap: float, last_gap: float) -> float:
-    """Return what one of three springs of stiffness 1 takes of a load that closes their gaps.
+@kernel(float64(*(float64,) * 7))
+def turned(
+    torque: float,
+    gap: float,
+    lever: float,
+    next_gap: float,
+    next_lever: float,
+    last_gap: float,
+    last_lever: float,
+) -> float:
+    """Return the turn at which springs of stiffness 1 in contact carry a torque together.
 
-    ``load`` is over the stiffness; gaps are those before any load, infinite where there is no
-    spring. Springs close in the order of their gaps.
+    Spring i closes its gap g_i by the turn times its lever w_i and then presses. Where a set S of
+    springs presses, the turn is (torque + sum w g) / sum w^2; of all sets the right one gives the
+    least, as every other leaves out a spring that presses or takes one to pull. A gap is infinite
+    where there is no spring.
     """
-    low = min(own, min(next_gap, last_gap))
-    high = max(own, max(next_gap, last_gap))
-    if high < math.inf:
-        middle = own + next_gap + last_gap - low - high
-    elif own < math.inf and next_gap < math.inf:
-        middle = max(own, next_gap)
-    elif own < math.inf and last_gap < math.inf:
-        middle = max(own, last_gap)
-    else:
-        middle = math.inf
-    closing = load + low
-    if closing > middle:
-        closing = 0.5 * (load + low + middle)
-        if closing > high:
-            closing = (load + low + middle + high) / 3.0
-    return max(0.0, closing - own)
+    a, b, c = lever * gap, next_lever * next_gap, last_lever * last_gap
+    p, q, r = lever * lever, next_lever * next_lever, last_lever * last_lever
+    one = min((torque + a) / p, min((torque + b) / q, (torque + c) / r))
+    two = min((torque + a + b) / (p + q), (torque + a + c) / (p + r))
+    two = min(two, (torque + b + c) / (q + r))
+    return min(one, min(two, (torque + a + b + c) / (p + q + r)))
 
 
 @kernel(CONTACT)
@@ -94,13 +97,13 @@ def gear_pair_contact(
     meets. The relative curvature is that of the new flanks plus the second differences of
     both depths, each over its own arc, but no less than ``LEAST_CURVATURE``; the end points keep
     theirs (the wheel's depth stands in ``load`` until that is written). Without a stiffness
-    the load is the given share of the line load. With one, the pairs of teeth in contact
-    are equal springs in parallel, each closing its worn gap first, and beyond the ends of
-    the path that of the tip's corner (``NEXT_GAP`` and ``LAST_GAP``, of the pairs one base pitch
-    ahead and behind; infinite where there is none).
+    the load is the given share of the torque over the lever of the normal. With one, the pairs
+    of teeth in contact are equal springs turned by one torque, each closing its worn gap first,
+    and beyond the ends of the path that of the tip's corner (``NEXT_GAP`` and ``LAST_GAP``, of the
+    pairs one pitch ahead and behind; infinite where there is none).
     """
     n = depth.size
-    line_load, stiffness, pitch = constants[LINE_LOAD], constants[STIFFNESS], constants[BASE_PITCH]
+    torque, stiffness, pitch = constants[TORQUE], constants[STIFFNESS], constants[PITCH]
     for j in range(n):
         slip[j], speed[j], relative[j] = columns[SLIP, j], columns[SPEED, j], columns[CURVATURE, j]
     for j in range(n):
@@ -113,7 +116,7 @@ def gear_pair_contact(
         relative[j] = max(relative[j], constants[LEAST_CURVATURE])
     if stiffness == 0.0:
         for j in range(n):
-            load[j] = line_load * columns[SHARE, j]
+            load[j] = torque * columns[SHARE, j] / columns[LEVER, j]
         return
     ahead, behind = 0, 0
     for j in range(n):
@@ -122,10 +125,12 @@ def gear_pair_contact(
             ahead += 1
         while behind < n - 2 and columns[PLACE, behind + 1] < place - pitch:
             behind += 1
-        own = depth[j] * (1.0 + columns[MATE_DEPTH, j])
+        own, lever = depth[j] * (1.0 + columns[MATE_DEPTH, j]), columns[LEVER, j]
         next_gap, last_gap = columns[NEXT_GAP, j], columns[LAST_GAP, j]
         if next_gap < math.inf:
             next_gap += worn_gap(depth, columns, place + pitch, ahead)
         if last_gap < math.inf:
             last_gap += worn_gap(depth, columns, place - pitch, behind)
-        load[j] = stiffness * shared(line_load / stiffness, own, next_gap, last_gap)
+        turn = turned(torque / stiffness, own, lever, next_gap, columns[NEXT_LEVER, j],
+                      last_gap, columns[LAST_LEVER, j])  # fmt: skip
+        load[j] = stiffness * max(0.0, turn * lever - own)

@@ -2,8 +2,9 @@
 
 (
     ARC, MATE_ARC, CURVATURE, SLIP, SPEED, NORMAL_X, NORMAL_Y, MATE_DEPTH, SHARE, PLACE,
-    NEXT_GAP, LAST_GAP,
-) = range(12)  # fmt: skip
-COLUMNS = 12
+    NEXT_GAP, LAST_GAP, LEVER, NEXT_LEVER, LAST_LEVER,
+) = range(15)  # fmt: skip
+COLUMNS = 15
 
-LINE_LOAD, STIFFNESS, BASE_PITCH, LEAST_CURVATURE = range(4)
+TORQUE, STIFFNESS, PITCH, LEAST_CURVATURE = range(4)
+"""The torque and the stiffness of a pair of teeth are those per face width."""

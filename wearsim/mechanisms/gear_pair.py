@@ -1,4 +1,4 @@
-"""An involute spur pair whose flanks wear each other."""
+"""A pair of spur gears whose flanks wear each other."""
 
 import math
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.contact.hertz import half_width
-from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.mesh import Mesh, ToothPair
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.gear_pair import gear_pair_contact
 from wearsim.kernels.gear_rows import COLUMNS
@@ -25,17 +25,17 @@ class GearPairMechanism:
     One depth stands for both: flanks that meet at the same place share load, pressure and
     sliding speed, so the wheel's depth is at any time
 
-        h2/h1 = (k2/k1) (v_t1/v_t2) z1/z2 = (k2/k1) xi/(T1T2 - xi)
+        h2/h1 = (k2/k1) (v_t1/v_t2) z1/z2
 
-    of the pinion's, xi the place on the line of action: the wheel meets u times less often.
-    Every tooth meets the average of its mates, as with hunting teeth or teeth all alike.
+    of the pinion's: the wheel meets u times less often. Every tooth meets the average of its
+    mates, as with hunting teeth or teeth all alike.
 
     Attributes
     ----------
-    pair : InvolutePair
+    pair : ToothPair
         The new gears.
-    line_load : float
-        Normal load over face width of all pairs in contact, T1/(rb1 b) [N/mm].
+    torque : float
+        Of the pinion over the face width [N].
     angular_speed : float
         Of the pinion [rad/s].
     modulus : float
@@ -49,8 +49,8 @@ class GearPairMechanism:
         Of the flank, at least 5.
     """
 
-    pair: InvolutePair
-    line_load: float
+    pair: ToothPair
+    torque: float
     angular_speed: float
     modulus: float
     mate_coefficient: float
@@ -58,57 +58,63 @@ class GearPairMechanism:
     points: int
 
     @cached_property
+    def mesh(self) -> Mesh:
+        """The way of the new teeth through contact."""
+        return self.pair.mesh(self.points)
+
+    @property
     def place(self) -> Vector:
-        """Places of the points on the path of contact [mm]."""
-        return np.linspace(self.pair.path_start, self.pair.path_end, self.points)
+        """Places of the points, growing evenly with the turn [mm]."""
+        return self.mesh.place
 
     @property
     def mate_depth(self) -> Vector:
         """Depth of the wheel over that of the pinion at every point."""
-        return self.mate_coefficient * self.place / (self.pair.line_length - self.place)
+        own, other = self.mesh.rolling
+        return np.asarray(self.mate_coefficient * own / (other * self.pair.circles.gear_ratio))
 
     @property
     def slip_ratio(self) -> Vector:
         """|v_s|/v_t1 of the pinion, |1 - v_t2/v_t1|."""
-        ratio = (self.pair.line_length - self.place) / (self.pair.ratio * self.place)
-        return np.abs(1.0 - ratio)
+        own, other = self.mesh.rolling
+        return np.asarray(np.abs(1.0 - other / own))
 
     @property
     def sliding_speed(self) -> Vector:
         """|v_s| [mm/s]."""
-        relative = self.angular_speed * (1.0 + 1.0 / self.pair.ratio)
-        return np.abs(self.place - self.pair.pole) * relative
+        relative = self.angular_speed * (1.0 + 1.0 / self.pair.circles.gear_ratio)
+        return np.abs(self.mesh.pole_distance) * relative
 
     @property
     def curvature(self) -> Vector:
         """Relative curvature of the new flanks [1/mm]."""
-        return 1.0 / self.place + 1.0 / (self.pair.line_length - self.place)
+        return self.mesh.relative_curvature
 
     @property
     def share(self) -> Vector:
-        """Share of the line load that rigid teeth carry: 1, one half where two pairs touch.
+        """Share of the load that rigid teeth carry: 1, one half where two pairs touch.
 
         At the ends of single contact it passes from one to the other over the width of the
         contact, in which a point of the flank sees both.
         """
-        pair, place = self.pair, self.place
-        load = np.full(place.size, self.line_load)
-        width = 2.0 * float(half_width(load, self.curvature, self.modulus).max())
-        single = pair.path_end - pair.base_pitch, pair.path_start + pair.base_pitch
-        inside = np.minimum(place - single[0], single[1] - place) / max(width, 1e-9) + 0.5
+        mesh = self.mesh
+        first, last = mesh.place[-1] - mesh.pitch, mesh.place[0] + mesh.pitch
+        load = self.torque / mesh.lever
+        turned = mesh.pitch / (math.tau / self.pair.teeth[0]) / mesh.lever
+        width = 2.0 * float((half_width(load, self.curvature, self.modulus) * turned).max())
+        inside = np.minimum(mesh.place - first, last - mesh.place) / max(width, 1e-9) + 0.5
         share: Vector = 0.5 + 0.5 * np.clip(inside, 0.0, 1.0)
         return share
 
     @cached_property
     def contact(self) -> Contact:
         """The pinion's flank and its contact."""
-        pair, place, profile = self.pair, self.place, self.flank
-        (own, other), rest = pair.base_radius, pair.line_length - place
+        mesh, profile = self.mesh, self.mesh.flank
         least = _LEAST_CURVATURE * float(self.curvature.min())
-        columns = np.empty((COLUMNS, place.size))
+        columns = np.empty((COLUMNS, mesh.place.size))
         columns[:] = (
-            0.5 * place**2 / own,
-            0.5 * (rest[0] ** 2 - rest**2) / other,
+            mesh.arc[0],
+            mesh.arc[1],
             self.curvature,
             self.slip_ratio,
             self.sliding_speed,
@@ -116,18 +122,21 @@ class GearPairMechanism:
             profile.normal_y,
             self.mate_depth,
             self.share,
-            place,
-            self._gap(place + pair.base_pitch),
-            self._gap(place - pair.base_pitch),
+            mesh.place,
+            self._closable(mesh.gaps[0]),
+            self._closable(mesh.gaps[1]),
+            mesh.lever,
+            *mesh.levers,
         )
+        at_pole = int(np.argmin(np.abs(mesh.pole_distance)))
         return Contact(
             kind=Kind.TRAVELLING,
             kernel=gear_pair_contact,
-            constants=np.array([self.line_load, self.stiffness, pair.base_pitch, least]),
+            constants=np.array([self.torque, self.stiffness, mesh.pitch, least]),
             columns=columns,
             profile=profile,
-            arc_length=columns[0] - columns[0, 0],
-            roller_radius=float(rest[np.argmin(np.abs(place - pair.pole))]),
+            arc_length=columns[0],
+            roller_radius=1.0 / abs(float(mesh.curvature[1, at_pole])),
             modulus=self.modulus,
             slip_curvature_exponent=0.0,
             offset_form=False,
@@ -137,12 +146,12 @@ class GearPairMechanism:
     @property
     def flank(self) -> Profile:
         """The pinion's flank from the place where contact starts to its tip."""
-        return self.pair.flank(self.place)
+        return self.mesh.flank
 
-    def _gap(self, place: Vector) -> Vector:
+    def _closable(self, gap: Vector) -> Vector:
         """Gap of another pair; none as far beyond the path as that load cannot close it."""
-        gap = self.pair.separation(place)
-        deflection = self.line_load / self.stiffness if self.stiffness else 0.0
+        load = self.torque / self.mesh.lever.min()
+        deflection = load / self.stiffness if self.stiffness else 0.0
         return np.where(gap < 4.0 * deflection + 1e-9, gap, np.inf)
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
@@ -156,11 +165,11 @@ class GearPairMechanism:
         Returns
         -------
         dict of str to numpy.ndarray
-            Place on the line of action, points around the wheel's axis and depth.
+            Distance from the pole, points around the wheel's axis and depth.
         """
-        new, worn = self.pair.mating_flank(self.place), self.mate_depth * depth
+        new, worn = self.mesh.mate, self.mate_depth * depth
         return {
-            "path_mm": np.tile(self.place, depth.shape[0]),
+            "path_mm": np.tile(self.mesh.pole_distance, depth.shape[0]),
             "wheel_x_mm": (new.x[::-1] - worn * new.normal_x[::-1]).ravel(),
             "wheel_y_mm": (new.y[::-1] - worn * new.normal_y[::-1]).ravel(),
             "wheel_depth_mm": worn.ravel(),
@@ -179,7 +188,7 @@ class GearPairMechanism:
         float
             epsilon_alpha.
         """
-        return self.pair.contact_ratio
+        return self.mesh.contact_ratio
 
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted.

@@ -100,7 +100,9 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     centre_x = new.x[deepest] + radius * new.normal_x[deepest]
     centre_y = new.y[deepest] + radius * new.normal_y[deepest]
     panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
-    panel.add_patch(Circle((centre_x, centre_y), radius, fill=False, color="grey", linestyle="--"))
+    panel.add_patch(
+        Circle((centre_x, centre_y), abs(radius), fill=False, color="grey", linestyle="--")
+    )
     panel.text(centre_x, centre_y, mate, color="grey", ha="center", va="center", clip_on=True)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
@@ -126,13 +128,14 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
 
 
 def _mate(result: WearResult, arc_length: float) -> tuple[float, str]:
-    """Radius of what touches the flank at a place, and what it is."""
+    """Radius of what touches the flank at a place, below 0 if hollow, and what it is."""
     if "gear" in result.inputs:
         last = _snapshot(result, -1)
         place = float(np.interp(arc_length, last["arc_length_mm"], last["path_mm"]))
         drive = load_case(result.inputs).drive
         assert isinstance(drive, GearDrive)
-        return drive.pair.line_length - place, "wheel"
+        mesh = drive.pair.mesh(drive.points)
+        return 1.0 / float(np.interp(place, mesh.pole_distance, mesh.curvature[1])), "wheel"
     chain = result.inputs["chain"]
     if "designation" in chain:
         return 0.5 * chains()[chain["designation"]].roller_diameter, "roller"

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from wearsim.case.schema.synthesis import SynthesisTables
+from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.errors import GeometryError
 from wearsim.geometry.line_of_action import LineOfAction
 from wearsim.geometry.plane_gearing import Contacts
@@ -20,7 +21,6 @@ from wearsim.report.synthesis_figures import (
     indices_figure,
     line_figure,
 )
-from wearsim.sizing.plane_gearing import LoadedPair
 from wearsim.sizing.synthesis import MeshField, Phase, direction_fields, stress_fields
 
 _ASSUMPTIONS = (

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.geometry.line_of_action import LineOfAction
 from wearsim.geometry.plane_gearing import Family, PitchCircles
 from wearsim.geometry.profile import Vector
-from wearsim.sizing.plane_gearing import LoadedPair
 from wearsim.sizing.synthesis import MeshField, Phase
 
 _RADII = (2.0, 5.0, 10.0, 20.0, 50.0)

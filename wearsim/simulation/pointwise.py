@@ -143,7 +143,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
 
         return GearPairMechanism(
             pair=drive.pair,
-            line_load=drive.line_load,
+            torque=drive.torque / drive.face_width,
             angular_speed=2.0 * np.pi * case.speed_rpm / 60.0,
             modulus=case.modulus,
             mate_coefficient=drive.wheel_wear_ratio,

@@ -166,7 +166,7 @@ def convex_concave(tables: ConvexConcaveTables) -> Layout:
         given.addendum_ratio * given.module_mm,
         given.backlash_mm,
     )
-    teeth = pair.teeth, pair.mate_teeth
+    teeth = pair.teeth
     pinion_tip, wheel_tip = (0.5 * pair.module * count + pair.addendum for count in teeth)
     involute = InvolutePair(
         teeth, pair.module, pair.pole_angle, (0.0, 0.0), (pinion_tip, wheel_tip)

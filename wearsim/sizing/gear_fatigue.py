@@ -30,9 +30,8 @@ def pole_stress(case: Case, drive: GearDrive) -> float:
     float
         sigma_H of the new flanks with the load factor [MPa], source document 001.
     """
-    pair = drive.pair
-    curvature = 1.0 / pair.pole + 1.0 / (pair.line_length - pair.pole)
-    return float(peak_pressure(drive.load_factor * drive.line_load, curvature, case.modulus))
+    curvature = 1.0 / float(drive.pair.circles.pole_radius(drive.pair.pole_angle))
+    return float(peak_pressure(drive.load_factor * drive.pole_load, curvature, case.modulus))
 
 
 def fatigue_lives(case: Case) -> dict[str, EnduredHours]:
@@ -53,7 +52,7 @@ def fatigue_lives(case: Case) -> dict[str, EnduredHours]:
     if not isinstance(drive, GearDrive) or drive.materials is None:
         return {}
     stress = pole_stress(case, drive)
-    speeds = case.speed_rpm, case.speed_rpm / drive.pair.ratio
+    speeds = case.speed_rpm, case.speed_rpm / drive.pair.circles.gear_ratio
     return {
         name: _endurance(side, cycles_per_hour(speed), case.run.horizon_hours).life(stress)
         for name, side, speed in zip(("pinion", "wheel"), drive.materials, speeds, strict=True)

@@ -6,12 +6,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.case.schema.synthesis import MeshFieldTable, PhaseTable, SynthesisTables
+from wearsim.case.schema.material import MaterialTable
+from wearsim.case.schema.synthesis import (
+    MeshFieldTable,
+    MeshLoadTable,
+    PhaseTable,
+    SynthesisTables,
+)
+from wearsim.catalogue.tables import materials
+from wearsim.contact.hertz import contact_modulus
+from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.errors import GeometryError
 from wearsim.geometry.line_of_action import LineOfAction, Synthesis, involute
-from wearsim.geometry.plane_gearing import Contacts, Family
+from wearsim.geometry.plane_gearing import Contacts, Family, PitchCircles
 from wearsim.geometry.profile import Vector
-from wearsim.sizing.plane_gearing import LoadedPair
 
 _NEAREST = 1e-6
 """Distance from the pole down to which the inner end of a line is looked for, over its start's."""
@@ -68,6 +76,48 @@ class MeshField:
     contacts: Contacts
     contact_stress: NDArray[np.float64]
     infeasibility: NDArray[np.str_]
+
+
+def loaded_pair(tables: SynthesisTables) -> LoadedPair:
+    """Return the pair of an input.
+
+    Parameters
+    ----------
+    tables : SynthesisTables
+        The input.
+
+    Returns
+    -------
+    LoadedPair
+        In mm, N, MPa, rad/s.
+    """
+    circles = PitchCircles(tables.gears.centre_distance_mm, tables.gears.gear_ratio)
+    pinion, wheel = _elastic(tables.material.pinion), _elastic(tables.material.wheel)
+    stress = np.array(tables.stress.contact_stress_MPa)
+    distance = tables.stress.pole_distance_mm
+    return LoadedPair(
+        circles,
+        contact_modulus((pinion[0], wheel[0]), (pinion[1], wheel[1])),
+        _line_load(tables.load, circles.pinion_radius),
+        StressLaw(np.zeros_like(stress) if distance is None else np.array(distance), stress),
+        2.0 * math.pi * tables.load.pinion_speed_rpm / 60.0,
+    )
+
+
+def _line_load(table: MeshLoadTable, pinion_radius: float) -> LineLoad:
+    if table.pinion_torque_N_m is not None and table.face_width_mm is not None:
+        return LineLoad(1e3 * table.pinion_torque_N_m / (table.face_width_mm * pinion_radius), 1)
+    return LineLoad(float(table.load_per_width_N_per_mm or 0.0), 0)
+
+
+def _elastic(table: MaterialTable) -> tuple[float, float]:
+    """Return Young's modulus and Poisson's ratio, steel's where they are not given."""
+    known = materials()[table.name or "steel"]
+    modulus, ratio = table.youngs_modulus_MPa, table.poissons_ratio
+    return (
+        known.youngs_modulus if modulus is None else modulus,
+        known.poissons_ratio if ratio is None else ratio,
+    )
 
 
 def phases(pair: LoadedPair, tables: SynthesisTables) -> tuple[Phase, ...]:

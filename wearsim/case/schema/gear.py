@@ -17,26 +17,87 @@ from wearsim.case.schema.strength import (
     Treatment,
     one_hardness,
 )
+from wearsim.case.schema.synthesis import stress_conflicts
 from wearsim.case.schema.table import Table
 from wearsim.case.schema.wear import WearTable
-from wearsim.case.units import Number, Positive, PositiveNumber
+from wearsim.case.units import Number, Positive, PositiveNumber, Series, Signed
 
 Teeth = Annotated[int, Field(ge=5, le=1000)]
 
 
-class GearTable(Table):
-    """The pair: involute spur gears without backlash."""
+_KEYS = {
+    "involute": (
+        "pressure_angle_deg", "pinion_shift", "wheel_shift", "pinion_tip_radius_mm",
+        "wheel_tip_radius_mm",
+    ),
+    "convex_concave": (
+        "pole_angle_deg", "head_arc_radius_mm", "foot_arc_radius_mm", "addendum_ratio",
+    ),
+    "prescribed_stress": (
+        "contact_stress_MPa", "stress_pole_distance_mm", "design_torque_N_m",
+        "first_pole_distance_mm", "last_pole_distance_mm",
+    ),
+}  # fmt: skip
+_NEEDED = (
+    "head_arc_radius_mm", "contact_stress_MPa", "first_pole_distance_mm", "last_pole_distance_mm",
+)  # fmt: skip
 
+
+class GearTable(Table):
+    """The pair: spur gears without backlash, of a profile with its own keys."""
+
+    profile: Literal["involute", "convex_concave", "prescribed_stress"] = "involute"
     pinion_teeth: Teeth
     wheel_teeth: Teeth
     module_mm: Positive
-    pressure_angle_deg: Annotated[PositiveNumber, Field(ge=10.0, le=35.0)] = 20.0
-    pinion_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] = 0.0
-    wheel_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] = 0.0
-    pinion_tip_radius_mm: Positive | None = None
-    wheel_tip_radius_mm: Positive | None = None
     face_width_mm: Positive
     nodes: Annotated[int, Field(ge=21, le=2001)] | None = None
+    pressure_angle_deg: Annotated[PositiveNumber, Field(ge=10.0, le=35.0)] | None = None
+    pinion_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] | None = None
+    wheel_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] | None = None
+    pinion_tip_radius_mm: Positive | None = None
+    wheel_tip_radius_mm: Positive | None = None
+    pole_angle_deg: Annotated[Positive, Field(lt=45.0)] | None = None
+    head_arc_radius_mm: Positive | None = None
+    foot_arc_radius_mm: Positive | None = None
+    addendum_ratio: PositiveNumber | None = None
+    contact_stress_MPa: Series | None = None
+    stress_pole_distance_mm: Series | None = None
+    design_torque_N_m: Positive | None = None
+    first_pole_distance_mm: Annotated[Signed, Field(lt=0.0)] | None = None
+    last_pole_distance_mm: Annotated[Signed, Field(gt=0.0)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = [
+            (key, f"belongs to profile = {owner!r}: remove it")
+            for owner, keys in _KEYS.items()
+            if owner != self.profile
+            for key in keys
+            if getattr(self, key) is not None
+        ]
+        found += [
+            (key, f"profile = {self.profile!r} needs this key")
+            for key in _KEYS[self.profile]
+            if key in _NEEDED and getattr(self, key) is None
+        ]
+        if self.contact_stress_MPa is not None:
+            stress, distance = self.contact_stress_MPa, self.stress_pole_distance_mm
+            names = ("contact_stress_MPa", "stress_pole_distance_mm")
+            found += stress_conflicts(stress, distance, names)
+        if not found and self.stress_pole_distance_mm is not None:
+            given, ends = self.stress_pole_distance_mm, self.reach
+            if not given[0] <= ends[0] < ends[1] <= given[-1]:
+                message = f"must reach from {ends[0]:g} to {ends[1]:g} as contact does"
+                found.append(
+                    ("stress_pole_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})")
+                )
+        return found
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Distances from the pole at which contact starts and ends [mm]."""
+        return self.first_pole_distance_mm or 0.0, self.last_pole_distance_mm or 0.0
 
 
 class GearMaterialsTable(Table):

@@ -52,20 +52,42 @@ class StressTable(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        stress, distance = self.contact_stress_MPa, self.pole_distance_mm
-        found = []
-        if not all(value > 0.0 for value in stress) or not stress:
-            found.append(("contact_stress_MPa", f"must be above 0 (got {_listed(stress)})"))
-        if distance is None:
-            if len(stress) > 1:
-                found.append(("pole_distance_mm", "several stresses need one distance for each"))
-            return found
-        if len(distance) != len(stress):
-            message = f"must have one entry for each stress, {len(stress)} (got {len(distance)})"
-            found.append(("pole_distance_mm", message))
-        if not all(a < b for a, b in itertools.pairwise(distance)):
-            found.append(("pole_distance_mm", f"must ascend (got {_listed(distance)})"))
+        names = ("contact_stress_MPa", "pole_distance_mm")
+        return stress_conflicts(self.contact_stress_MPa, self.pole_distance_mm, names)
+
+
+def stress_conflicts(
+    stress: tuple[float, ...], distance: tuple[float, ...] | None, names: tuple[str, str]
+) -> list[tuple[str, str]]:
+    """Return what is wrong with stresses and the distances from the pole at which they are given.
+
+    Parameters
+    ----------
+    stress : tuple of float
+        sigma_H [MPa].
+    distance : tuple of float, optional
+        l [mm]; None for one stress everywhere.
+    names : tuple of str
+        Keys of both.
+
+    Returns
+    -------
+    list of tuple
+        Key and what must hold.
+    """
+    found = []
+    if not all(value > 0.0 for value in stress) or not stress:
+        found.append((names[0], f"must be above 0 (got {_listed(stress)})"))
+    if distance is None:
+        if len(stress) > 1:
+            found.append((names[1], "several stresses need one distance for each"))
         return found
+    if len(distance) != len(stress):
+        message = f"must have one entry for each stress, {len(stress)} (got {len(distance)})"
+        found.append((names[1], message))
+    if not all(a < b for a, b in itertools.pairwise(distance)):
+        found.append((names[1], f"must ascend (got {_listed(distance)})"))
+    return found
 
 
 class PhaseTable(Table):

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wearsim.case.schema.material import MaterialTable
-from wearsim.case.schema.synthesis import MeshLoadTable, SynthesisTables
-from wearsim.catalogue.tables import materials
-from wearsim.contact.hertz import contact_modulus, peak_pressure
+from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import GeometryError
-from wearsim.geometry.line_of_action import PoleCrossing
+from wearsim.geometry.line_of_action import LineOfAction, PoleCrossing, Synthesis
+from wearsim.geometry.mesh import Mesh, mesh_on
 from wearsim.geometry.plane_gearing import Contacts, PitchCircles
 from wearsim.geometry.profile import Vector
 
@@ -254,43 +252,74 @@ class LoadedPair:
         return PoleCrossing(angle, *turns)
 
 
-def loaded_pair(tables: SynthesisTables) -> LoadedPair:
-    """Return the pair of an input.
+@dataclass(frozen=True, eq=False)
+class SynthesisedPair:
+    """Gears whose line of action through the pole has a prescribed contact stress.
 
-    Parameters
+    Attributes
     ----------
-    tables : SynthesisTables
-        The input.
-
-    Returns
-    -------
-    LoadedPair
-        In mm, N, MPa, rad/s.
+    loaded : LoadedPair
+        The pair with its stress.
+    teeth : tuple of int
+        z1 and z2.
+    reach : tuple of float
+        Distances from the pole of the first and the last contact [mm], below and above 0: those
+        of the tips of wheel and pinion.
     """
-    circles = PitchCircles(tables.gears.centre_distance_mm, tables.gears.gear_ratio)
-    pinion, wheel = _elastic(tables.material.pinion), _elastic(tables.material.wheel)
-    stress = np.array(tables.stress.contact_stress_MPa)
-    distance = tables.stress.pole_distance_mm
-    return LoadedPair(
-        circles,
-        contact_modulus((pinion[0], wheel[0]), (pinion[1], wheel[1])),
-        _line_load(tables.load, circles.pinion_radius),
-        StressLaw(np.zeros_like(stress) if distance is None else np.array(distance), stress),
-        2.0 * math.pi * tables.load.pinion_speed_rpm / 60.0,
-    )
 
+    loaded: LoadedPair
+    teeth: tuple[int, int]
+    reach: tuple[float, float]
 
-def _line_load(table: MeshLoadTable, pinion_radius: float) -> LineLoad:
-    if table.pinion_torque_N_m is not None and table.face_width_mm is not None:
-        return LineLoad(1e3 * table.pinion_torque_N_m / (table.face_width_mm * pinion_radius), 1)
-    return LineLoad(float(table.load_per_width_N_per_mm or 0.0), 0)
+    @property
+    def circles(self) -> PitchCircles:
+        """The pitch circles."""
+        return self.loaded.circles
 
+    @property
+    def pole_angle(self) -> float:
+        """Pressure angle in the pole [rad]."""
+        return self.loaded.pole_crossing().pressure_angle
 
-def _elastic(table: MaterialTable) -> tuple[float, float]:
-    """Return Young's modulus and Poisson's ratio, steel's where they are not given."""
-    known = materials()[table.name or "steel"]
-    modulus, ratio = table.youngs_modulus_MPa, table.poissons_ratio
-    return (
-        known.youngs_modulus if modulus is None else modulus,
-        known.poissons_ratio if ratio is None else ratio,
-    )
+    def line(self, points: int) -> LineOfAction:
+        """Return the line of action at points that are nearly evenly turned.
+
+        Parameters
+        ----------
+        points : int
+            At least 5.
+
+        Returns
+        -------
+        LineOfAction
+            From the first contact to the last.
+        """
+        crossing, synthesis = (
+            self.loaded.pole_crossing(),
+            Synthesis(self.circles, self.loaded.law, 1),
+        )
+        tried = np.linspace(*self.reach, points)
+        roll = synthesis.through_pole(crossing, tried).roll_angle
+        even = np.interp(np.linspace(roll[0], roll[-1], points), roll, tried)
+        even[[0, -1]] = self.reach
+        return synthesis.through_pole(crossing, even)
+
+    def mesh(self, points: int) -> Mesh:
+        """Return the way of a pair of teeth through contact.
+
+        Parameters
+        ----------
+        points : int
+            Of the flanks, at least 5.
+
+        Returns
+        -------
+        Mesh
+            Its places are lengths rolled on the pitch circles.
+
+        Raises
+        ------
+        GeometryError
+            There is no such line, or its flanks interfere.
+        """
+        return mesh_on(self.line(points), self.teeth)
