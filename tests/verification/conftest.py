@@ -1,4 +1,5 @@
-"""The reference run of the project, and tables of load for prescribed contacts."""
+"""The reference run of the project, tables of load for prescribed contacts, and the assertion
+whose numbers stand in docs/validation.md."""
 
 import copy
 from collections.abc import Callable, Sequence
@@ -144,3 +145,48 @@ def b9(prescribed: Callable[..., wearsim.Case]) -> Callable[..., wearsim.Case]:
         )
 
     return case
+
+
+def furthest(off: np.ndarray, expected: np.ndarray) -> int:
+    """Place of the largest relative difference; of the largest value where all is rounding."""
+    relative = off / np.where(expected == 0.0, np.abs(expected).max() or 1.0, np.abs(expected))
+    return int(relative.argmax() if relative.max() > 1e-9 else np.abs(expected).argmax())
+
+
+@pytest.fixture
+def validated(request: pytest.FixtureRequest) -> Callable[..., None]:
+    """Return the assertion that a number agrees with one from outside, a row of the page.
+
+    The tolerance is relative, or in the unit of the value where ``absolute``. Of arrays the
+    value that is furthest off makes the row; ``page=False`` asserts without one.
+    """
+
+    def check(
+        quantity: str,
+        value: Any,
+        expected: Any,
+        tolerance: float,
+        source: str,
+        unit: str = "",
+        *,
+        absolute: bool = False,
+        page: bool = True,
+    ) -> None:
+        found, wanted = (
+            array.astype(float).ravel() for array in np.broadcast_arrays(value, expected)
+        )
+        allowed = np.full(wanted.size, tolerance) if absolute else tolerance * np.abs(wanted)
+        off = np.abs(found - wanted)
+        for at in np.flatnonzero(~(off <= allowed))[:1]:
+            pytest.fail(
+                f"{quantity}: is {found[at]:.12g} {unit}, expected {wanted[at]:.12g} ({source}), "
+                f"off by {off[at]:.3g}, allowed {allowed[at]:.3g}"
+            )
+        at = furthest(off, wanted)
+        row = {"value": found[at], "expected": wanted[at], "allowed": allowed[at]}
+        texts = {"quantity": quantity, "unit": unit, "source": source, "count": found.size}
+        if page and request.config.getoption("validation_page"):
+            numbers = {name: float(number) for name, number in row.items()}
+            request.node.user_properties.append(("validated", texts | numbers))
+
+    return check
