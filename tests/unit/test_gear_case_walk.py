@@ -53,7 +53,19 @@ def edited(*settings: tuple[str, Any], **tables: dict[str, Any]) -> dict[str, An
     return with_keys({**GEARS, **tables}, *settings)
 
 
+CONVEX = {
+    "profile": "convex_concave", "pinion_teeth": 17, "wheel_teeth": 34, "module_mm": 4.5,
+    "face_width_mm": 45, "head_arc_radius_mm": 10.0, "nodes": 61,
+}  # fmt: skip
+STRESS = {
+    "profile": "prescribed_stress", "pinion_teeth": 36, "wheel_teeth": 54, "module_mm": 3.0,
+    "face_width_mm": 76, "contact_stress_MPa": [460.0, 450.0, 460.0],
+    "stress_pole_distance_mm": [-9.0, 0.0, 9.0], "first_pole_distance_mm": -7.0,
+    "last_pole_distance_mm": 7.0, "nodes": 61,
+}  # fmt: skip
 BASES = {
+    "convex": edited(gear=CONVEX),
+    "stress": edited(gear=STRESS, load={"torque_N_m": 240, "speed_rpm": 100}),
     "archard": edited(),
     "power": edited(wear=POWER),
     "drozdov": edited(wear=DROZDOV),
@@ -69,8 +81,47 @@ BASES = {
 }  # fmt: skip
 """A life of each law, sharing and method."""
 
+# fmt: off
 CHANGES: dict[str, list[tuple[Any, ...]]] = {
-    "gear.pinion_teeth": [("archard", 17), ("archard", 4, "gear.pinion_teeth")],
+    "gear.profile": [
+        ("archard", "convex_concave", "gear.head_arc_radius_mm"),
+        ("stress", "involute", "gear.contact_stress_MPa"),
+        ("convex", "prescribed_stress", "gear.contact_stress_MPa"),
+    ],
+    "gear.pole_angle_deg": [("convex", 21.0), ("archard", 21.0, "gear.pole_angle_deg")],
+    "gear.head_arc_radius_mm": [("convex", 11.0), ("convex", 2.0, "gear")],
+    "gear.foot_arc_radius_mm": [("convex", 9.0), ("stress", 9.0, "gear.foot_arc_radius_mm")],
+    "gear.addendum_ratio": [
+        ("convex", 0.95),
+        ("convex", 0.5, "gear"),
+        ("archard", 0.9, "gear.addendum_ratio"),
+    ],
+    "gear.contact_stress_MPa": [
+        ("stress", [465.0, 455.0, 465.0]),
+        ("stress", 455.0, "gear.stress_pole_distance_mm"),
+        ("stress", [300.0, 300.0, 300.0], "gear"),
+    ],
+    "gear.stress_pole_distance_mm": [
+        ("stress", [-8.0, 0.0, 10.0]),
+        ("stress", [-5.0, 0.0, 9.0], "gear.stress_pole_distance_mm"),
+        ("stress", [0.0, -8.0, 9.0], "gear.stress_pole_distance_mm"),
+    ],
+    "gear.design_torque_N_m": [("stress", 235.0), ("archard", 200.0, "gear.design_torque_N_m")],
+    "gear.first_pole_distance_mm": [
+        ("stress", -7.5),
+        ("stress", 1.0, "gear.first_pole_distance_mm"),
+        ("stress", -1.0, "gear"),
+    ],
+    "gear.last_pole_distance_mm": [
+        ("stress", 7.5),
+        ("stress", -7.5, "gear.last_pole_distance_mm"),
+    ],
+    "gear.pinion_teeth": [
+        ("convex", 18),
+        ("stress", 35),
+        ("archard", 17),
+        ("archard", 4, "gear.pinion_teeth"),
+    ],
     "gear.wheel_teeth": [("archard", 25)],
     "gear.module_mm": [("archard", 4.6)],
     "gear.pressure_angle_deg": [("archard", 20.5), ("archard", 40.0, "gear.pressure_angle_deg")],
@@ -119,6 +170,7 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "run.life_tolerance": [("archard", 1e-5)],
     "run.horizon_hours": [("archard", 1.0)],
 }
+# fmt: on
 
 
 CHANGES |= {

@@ -16,7 +16,8 @@ from wearsim.geometry.circle_fit import fit_circle, rack_arc
 from wearsim.geometry.convex_concave import ConvexConcave
 from wearsim.geometry.convex_concave_flank import Flank
 from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.involute import InvolutePair, involute_over_pins
+from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.involute_function import involute_over_pins
 
 POLE = math.radians(20.0)
 R1 = 38.25

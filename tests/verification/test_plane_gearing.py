@@ -18,7 +18,8 @@ from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad
 from wearsim.errors import GeometryError
-from wearsim.geometry.line_of_action import Synthesis, involute
+from wearsim.geometry.line_of_action import involute
+from wearsim.geometry.line_synthesis import Synthesis
 from wearsim.geometry.plane_gearing import Contacts, PitchCircles
 from wearsim.sizing.synthesis import direction_fields, loaded_pair, phases, stress_fields
 

@@ -75,7 +75,7 @@ def test_wide_contact_is_warned_of_once(prescribed: CaseMaker) -> None:
             columns(load_per_width_N_per_mm=load, flank_curvature_per_mm=-0.1), ARCHARD, 0.01, 5.0
         )
         found = wearsim.simulate(case).warnings
-        assert sum("0.1 of the roller radius" in text for text in found) == int(warned)
+        assert sum("0.1 of the radius of roller or mate" in text for text in found) == int(warned)
 
 
 def test_coarse_grid_is_warned_of(reference: CaseMaker) -> None:

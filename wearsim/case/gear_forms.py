@@ -2,11 +2,14 @@
 
 import math
 
+import numpy as np
+
 from wearsim.case.resolution import Record
 from wearsim.case.schema.gear import GearTable
 from wearsim.errors import GeometryError
 from wearsim.geometry.involute import InvolutePair
 from wearsim.geometry.mesh import ToothPair, check_contact_ratio
+from wearsim.geometry.plane_gearing import PitchCircles
 
 
 def resolve_teeth(
@@ -86,15 +89,9 @@ def _convex_concave(case: Record, table: GearTable, torque: float, modulus: floa
 
 
 def _prescribed_stress(case: Record, table: GearTable, torque: float, modulus: float) -> ToothPair:
-    import numpy as np
-
-    from wearsim.contact.prescribed_stress import (  # takes 0.2 s, for scipy
-        LineLoad,
-        LoadedPair,
-        StressLaw,
-        SynthesisedPair,
-    )
-    from wearsim.geometry.plane_gearing import PitchCircles
+    # They take 0.2 s, for scipy.
+    from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
+    from wearsim.contact.synthesised_pair import SynthesisedPair
 
     teeth, stress = (table.pinion_teeth, table.wheel_teeth), table.contact_stress_MPa
     circles = PitchCircles(0.5 * table.module_mm * sum(teeth), teeth[1] / teeth[0])

@@ -166,7 +166,7 @@ class ConvexConcave:
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """z1 and z2."""
+        """Numbers of teeth z1 and z2."""
         return self.pinion_teeth, self.wheel_teeth
 
     @property

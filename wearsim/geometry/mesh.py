@@ -74,7 +74,7 @@ class ToothPair(Protocol):
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """z1 and z2."""
+        """Numbers of teeth z1 and z2."""
 
     @property
     def circles(self) -> PitchCircles:
@@ -163,8 +163,8 @@ def _check_tips(line: LineOfAction, teeth: tuple[int, int]) -> None:
         left = 0.5 * math.pi / count - math.atan2(x, y)
         if not left > 0.0:
             raise GeometryError(
-                f"gear pair: the tip of the {name} must have some width, but its flanks cross "
-                f"{-2.0 * left * math.hypot(x, y):.3g} mm before: end contact earlier, or take fewer teeth"
+                f"gear pair: the width of the tip of the {name} must be above 0 mm, but is "
+                f"{2.0 * left * math.hypot(x, y):.3g} mm: end contact earlier, or take fewer teeth"
             )
 
 

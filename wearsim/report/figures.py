@@ -1,5 +1,6 @@
 """Figures of worn flanks; matplotlib without pyplot, so nothing is global."""
 
+import math
 import textwrap
 from pathlib import Path
 
@@ -96,14 +97,8 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     x = new.x + enlarged * (last["x_mm"] - new.x)
     y = new.y + enlarged * (last["y_mm"] - new.y)
     deepest = int(last["depth_mm"].argmax())
-    radius, mate = _mate(result, float(last["arc_length_mm"][deepest]))
-    centre_x = new.x[deepest] + radius * new.normal_x[deepest]
-    centre_y = new.y[deepest] + radius * new.normal_y[deepest]
     panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
-    panel.add_patch(
-        Circle((centre_x, centre_y), abs(radius), fill=False, color="grey", linestyle="--")
-    )
-    panel.text(centre_x, centre_y, mate, color="grey", ha="center", va="center", clip_on=True)
+    radius, centre_x, centre_y = _draw_mate(panel, result, new, deepest)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
     panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
@@ -125,6 +120,21 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     title = textwrap.fill(result.title, 42)
     panel.set_title(f"{title}\nafter {_run_time(result)}", fontsize=9)
     panel.legend(loc="lower center", frameon=False, fontsize=8)
+
+
+def _draw_mate(
+    panel: Axes, result: WearResult, new: Profile, deepest: int
+) -> tuple[float, float, float]:
+    """Draw the circle that touches the new flank where it wears most; return its radius and centre."""
+    radius, mate = _mate(result, float(_snapshot(result, -1)["arc_length_mm"][deepest]))
+    x, y = new.x[deepest], new.y[deepest]
+    normal_x, normal_y = new.normal_x[deepest], new.normal_y[deepest]
+    centre = x + radius * normal_x, y + radius * normal_y
+    panel.add_patch(Circle(centre, abs(radius), fill=False, color="grey", linestyle="--"))
+    way = math.copysign(min(abs(radius), max(np.ptp(new.x), np.ptp(new.y))), radius)
+    place = x + way * normal_x, y + way * normal_y
+    panel.text(*place, mate, color="grey", ha="center", va="center", clip_on=True)
+    return abs(radius), *centre
 
 
 def _mate(result: WearResult, arc_length: float) -> tuple[float, str]:
@@ -185,7 +195,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Pressure and sliding of the new flank are dashed.
+        Pressure and sliding of the new flank are dashed, the depth of a mating wheel is dotted.
     """
     shown = [("depth_mm", "depth, mm")]
     if any("pressure_MPa" in result.flank_columns for result in results):
@@ -198,6 +208,9 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     for result in results:
         first, last = _snapshot(result, 0), _snapshot(result, -1)
         (line,) = panels[0].plot(last["arc_length_mm"], last["depth_mm"], label=result.title)
+        if "wheel_depth_mm" in last:
+            wheel = last["arc_length_mm"], last["wheel_depth_mm"]
+            panels[0].plot(*wheel, ":", color=line.get_color(), lw=1.2)
         for panel, (name, _) in zip(panels[1:], shown[1:], strict=True):
             if name in last:
                 panel.plot(last["arc_length_mm"], last[name], color=line.get_color())
@@ -209,6 +222,9 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
         panel.grid(alpha=0.3)
         panel.set_ylim(bottom=0.0)
     panels[0].legend(frameon=False, fontsize=8)
+    if any("wheel_depth_mm" in result.flank_columns for result in results):
+        text = "solid: pinion, dotted: wheel where it meets that place"
+        panels[0].set_title(text, fontsize=9, loc="left")
     if len(shown) > 1:
         panels[1].set_title("solid: at the end of the run, dashed: new", fontsize=9, loc="left")
     panels[-1].set_xlabel(

@@ -52,7 +52,7 @@ def wide_contact(contact: Contact, half_width: float) -> list[str]:
     if half_width <= _WIDE * contact.roller_radius:
         return []
     return [
-        f"contact half-width up to {half_width:.3g} mm is more than 0.1 of the roller radius: "
+        f"contact half-width up to {half_width:.3g} mm is more than 0.1 of the radius of roller or mate: "
         "Hertz's pressure is too high there"
     ]
 

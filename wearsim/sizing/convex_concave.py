@@ -11,7 +11,8 @@ from wearsim.geometry.convex_concave import ConvexConcave, Zone
 from wearsim.geometry.convex_concave_flank import Flank
 from wearsim.geometry.convex_concave_gear import ConvexConcaveGear, Roller
 from wearsim.geometry.convex_concave_outline import gear_outline, root_radius, tip_overlap
-from wearsim.geometry.involute import InvolutePair, involute_over_pins
+from wearsim.geometry.involute import InvolutePair
+from wearsim.geometry.involute_function import involute_over_pins
 from wearsim.geometry.outline import Outline
 
 OUTLINE_TOLERANCE = 1e-4

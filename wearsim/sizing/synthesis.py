@@ -17,7 +17,8 @@ from wearsim.catalogue.tables import materials
 from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.errors import GeometryError
-from wearsim.geometry.line_of_action import LineOfAction, Synthesis, involute
+from wearsim.geometry.line_of_action import LineOfAction, involute
+from wearsim.geometry.line_synthesis import Synthesis
 from wearsim.geometry.plane_gearing import Contacts, Family, PitchCircles
 from wearsim.geometry.profile import Vector
 
