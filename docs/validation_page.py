@@ -22,7 +22,7 @@ SECTIONS = {
     "Elongation of the chain": ("test_elongation",),
     "Layout of a chain drive": ("test_drive_layout",),
     "Ratings of a chain drive": ("test_selection",),
-    "Wear of gear pairs": ("test_gear_pair",),
+    "Wear of gear pairs": ("test_gear_pair", "test_gear_forms"),
     "Convex-concave gears": ("test_convex_concave",),
     "Profiles for a contact stress": ("test_plane_gearing",),
     "Hertz against finite elements": ("test_hertz_check",),
@@ -80,17 +80,20 @@ def table(rows: Iterable[list[str]]) -> str:
 
 
 def page(rows: Iterable[tuple[str, int, Mapping[str, object]]]) -> str:
-    """The whole page of rows as test, line of the test, and what the fixture recorded."""
-    by_file: dict[str, list[tuple[int, str, list[str]]]] = {}
+    """The whole page of rows as test, line of the test, and what the fixture recorded.
+
+    Rows of one test stay in their order: pytest runs the tests of a file on one worker.
+    """
+    by_file: dict[str, list[tuple[int, list[str]]]] = {}
     for place, line, row in rows:
         stem = Path(place.split("::")[0]).stem
-        by_file.setdefault(stem, []).append((line, place, cells(place, row)))
+        by_file.setdefault(stem, []).append((line, cells(place, row)))
     parts = [HEAD.read_text(encoding="utf-8").rstrip("\n")]
     for heading, files in SECTIONS.items():
         found = [
             row
             for file in files
-            for *_, row in sorted(by_file.pop(file, []), key=lambda entry: entry[:2])
+            for _, row in sorted(by_file.pop(file, []), key=lambda entry: entry[0])
         ]
         if found:
             parts.append(f"## {heading}\n\n{table(found)}")

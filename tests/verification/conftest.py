@@ -147,10 +147,28 @@ def b9(prescribed: Callable[..., wearsim.Case]) -> Callable[..., wearsim.Case]:
     return case
 
 
-def furthest(off: np.ndarray, expected: np.ndarray) -> int:
-    """Place of the largest relative difference; of the largest value where all is rounding."""
-    relative = off / np.where(expected == 0.0, np.abs(expected).max() or 1.0, np.abs(expected))
-    return int(relative.argmax() if relative.max() > 1e-9 else np.abs(expected).argmax())
+def agreement(
+    what: tuple[str, str, str], value: Any, expected: Any, tolerance: float, absolute: bool
+) -> dict[str, Any]:
+    """Assert that all values agree; return the row of the one that is furthest off.
+
+    Where all differences are rounding it is the largest value, which is the same everywhere.
+    """
+    quantity, source, unit = what
+    found, wanted = (array.astype(float).ravel() for array in np.broadcast_arrays(value, expected))
+    size = np.abs(wanted)
+    off, allowed = np.abs(found - wanted), np.full(size.shape, tolerance)
+    allowed *= 1.0 if absolute else size
+    for at in np.flatnonzero(~(off <= allowed))[:1]:
+        pytest.fail(
+            f"{quantity}: is {found[at]:.12g} {unit}, expected {wanted[at]:.12g} ({source}), "
+            f"off by {off[at]:.3g}, tolerance {tolerance:.3g} {unit if absolute else 'relative'}"
+        )
+    relative = off / np.where(size > 0.0, size, size.max() or 1.0)
+    at = int(relative.argmax() if relative.max() > 1e-9 else size.argmax())
+    texts = {"quantity": quantity, "source": source, "unit": unit, "count": found.size}
+    numbers = {"value": found[at], "expected": wanted[at], "allowed": allowed[at]}
+    return texts | {name: float(number) for name, number in numbers.items()}
 
 
 @pytest.fixture
@@ -172,21 +190,8 @@ def validated(request: pytest.FixtureRequest) -> Callable[..., None]:
         absolute: bool = False,
         page: bool = True,
     ) -> None:
-        found, wanted = (
-            array.astype(float).ravel() for array in np.broadcast_arrays(value, expected)
-        )
-        allowed = np.full(wanted.size, tolerance) if absolute else tolerance * np.abs(wanted)
-        off = np.abs(found - wanted)
-        for at in np.flatnonzero(~(off <= allowed))[:1]:
-            pytest.fail(
-                f"{quantity}: is {found[at]:.12g} {unit}, expected {wanted[at]:.12g} ({source}), "
-                f"off by {off[at]:.3g}, allowed {allowed[at]:.3g}"
-            )
-        at = furthest(off, wanted)
-        row = {"value": found[at], "expected": wanted[at], "allowed": allowed[at]}
-        texts = {"quantity": quantity, "unit": unit, "source": source, "count": found.size}
+        row = agreement((quantity, source, unit), value, expected, tolerance, absolute)
         if page and request.config.getoption("validation_page"):
-            numbers = {name: float(number) for name, number in row.items()}
-            request.node.user_properties.append(("validated", texts | numbers))
+            request.node.user_properties.append(("validated", row))
 
     return check

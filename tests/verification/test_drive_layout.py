@@ -173,7 +173,7 @@ def test_chain_speed(
     """Cases A to D [m/s]."""
     layout = layout_with_links(pitch, teeth, 51, 122)
     quantity, source = f"chain speed, {teeth} teeth at {rpm} rpm", "printed answer of the handbook"
-    found, shown = 1e-3 * layout.chain_speed(radians_per_second(rpm)), teeth in (17, 27)
+    found, shown = 1e-3 * layout.chain_speed(radians_per_second(rpm)), teeth == 27
     validated(quantity, found, speed, 5e-4, source, "m/s", absolute=True, page=shown)
 
 
@@ -185,7 +185,7 @@ def test_pitch_diameter_of_unit_pitch(
 ) -> None:
     """ISO 606, annex A."""
     quantity, found = f"pitch diameter over pitch, {teeth} teeth", pitch_diameter(1.0, teeth)
-    shown = teeth in (17, 57)
+    shown = teeth == 17
     validated(quantity, found, diameter, 5e-5, "ISO 606, annex A", absolute=True, page=shown)
 
 

@@ -103,7 +103,8 @@ def test_scar_of_a_resting_roller(validated, sliding):
     half, depth = closed_form(sliding)
     run = slid(sliding)
     name, source = f"by the engine after {sliding:g} mm", "closed form, see docs/physics.md"
-    validated(f"depth of the scar {name}", run.depth[-1].max(), depth, 5e-3, source, "mm")
+    quantity, shown = f"depth of the scar {name}", sliding != 324
+    validated(quantity, run.depth[-1].max(), depth, 5e-3, source, "mm", page=shown)
     validated(f"half-width {name}", half_width(run), half, 1e-2, source, "mm", page=sliding == 162)
 
 

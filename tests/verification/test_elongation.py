@@ -86,7 +86,7 @@ def test_equation_4_1_of_random_drives(validated: Callable[..., None], seed: int
     expected = closed_form(teeth, mate, links, tight, slack, rpm, rate, elongation)
     quantity = f"hours of a chain to {elongation:.2g} %, {teeth} and {mate} teeth"
     source, found = "equation (4.1) by hand", chain_hours(case)
-    validated(quantity, found, expected, 1e-9, source, "h", page=seed in (0, 1))
+    validated(quantity, found, expected, 1e-9, source, "h", page=seed == 0)
 
 
 def test_driver_and_driven_give_one_chain_life() -> None:
@@ -127,7 +127,8 @@ def test_life_of_the_chain_is_that_of_the_run(validated: Callable[..., None], ro
     chain = result.parts["chain"]
     assert isinstance(chain, wearsim.Life)
     quantity = f"hours of the chain in a whole run, {role} sprocket"
-    validated(quantity, chain.hours, expected, 1e-9, "equation (4.1) by hand", "h")
+    source, shown = "equation (4.1) by hand", role == "driver"
+    validated(quantity, chain.hours, expected, 1e-9, source, "h", page=shown)
     assert (result.stop, result.stop_value) == ("elongation_percent", 1.0)
     assert result.life == chain
     assert result.history_columns["chain"][-1] == 2.0

@@ -175,6 +175,7 @@ def test_exit_cut_of_the_example(
         f"cut of the leaving roller at an offset of {offset:g} mm",
         *(exit_cut(strand, END, start), cut, within, "independent sweep", "mm"),
         absolute=True,
+        page=offset == 4.0,
     )
 
 

@@ -41,7 +41,7 @@ def test_literal_inputs(validated, check):
     for one, (torque, ratio, width, stress) in zip(check.literal, LITERAL, strict=True):
         assert (one.torque / 1e3, one.gear_ratio, one.face_width) == (torque, ratio, width)
         quantity = f"stress by the printed formula, {torque} N m, u = {ratio:g}, b = {width} mm"
-        how = {"absolute": True, "page": (ratio, width) in ((1.5, 76), (5, 82))}
+        how = {"absolute": True, "page": (ratio, width) == (1.5, 76)}
         validated(quantity, one.printed_stress, stress, 5e-7, source, "MPa", **how)
     nearest = min(check.literal, key=lambda one: abs(one.printed_stress - 464.0))
     assert nearest == check.contact == BASE
@@ -62,7 +62,8 @@ def test_loads_and_radii():
 
 def test_exact_coefficient_is_that_of_hertz(validated):
     source, how = "independent program", {"absolute": True}
-    validated("exact coefficient", BASE.exact_coefficient, 0.4182051433, 5e-11, source, **how)
+    found = BASE.exact_coefficient
+    validated("exact coefficient", found, 0.4182051433, 5e-11, source, page=False, **how)
     quantity = "stress in the pole by the exact coefficient"
     validated(quantity, BASE.peak_pressure, 454.160863, 5e-7, source, "MPa", **how)
     for contact in (BASE, PRINTED, replace(BASE, youngs_modulus=(2e5, 1.1e5), poissons_ratio=0.25)):

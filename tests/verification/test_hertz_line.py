@@ -31,7 +31,8 @@ def test_pressure_and_half_width(
     source = "Johnson, Contact Mechanics, 4.2"
     found = float(peak_pressure(100.0, relative, STEEL)), float(half_width(100.0, relative, STEEL))
     validated(f"peak pressure on a {kind} flank", found[0], pressure, 1e-6, source, "MPa")
-    validated(f"half-width on a {kind} flank", found[1], width, 1e-5, source, "mm")
+    shown = kind == "concave"
+    validated(f"half-width on a {kind} flank", found[1], width, 1e-5, source, "mm", page=shown)
 
 
 def test_contact_modulus_of_steel() -> None:

@@ -100,7 +100,7 @@ def test_life_equals_the_closed_form(
         result.cycles,
         DEPTH / (factor * SIGMA**exponent * path),
         *(1e-9, "closed form at constant load, curvature and slip", "cycles"),
-        page=(column, method) == ("slip_ratio", "advance") and exponent in (1.0, 1.2, 2.0),
+        page=(column, method) == ("slip_ratio", "advance") and exponent in (1.2, 1.5, 3.3),
     )
     assert result.initial_peak_pressure == pytest.approx(SIGMA, rel=1e-12)
     assert result.final_peak_pressure == pytest.approx(SIGMA, rel=1e-6)

@@ -103,7 +103,8 @@ def test_form_of_the_gear_standards():
 def test_pole_angle(validated, stress, angle):
     found = math.degrees(pair(stress).pole_crossing().pressure_angle)
     quantity, source = f"pressure angle in the pole at {stress:g} MPa", "independent program"
-    validated(quantity, found, float(angle), half_unit(angle), source, "deg", absolute=True)
+    how = {"absolute": True, "page": stress != 400}
+    validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
 
 
 def test_least_stress_in_the_pole(validated):
@@ -143,7 +144,8 @@ def test_involute(validated, l, rho, sigma, theta1, theta2):
     assert 1 / contacts.relative_curvature[0] == exactly(rho)
     found, within = pair().contact_stress(contacts)[0], half_unit(sigma)
     quantity, source = f"stress of an involute, l = {l} mm", "independent program"
-    validated(quantity, found, float(sigma), within, source, "MPa", absolute=True)
+    shown = l > 0
+    validated(quantity, found, float(sigma), within, source, "MPa", absolute=True, page=shown)
     assert contacts.pinion_specific_sliding[0] == exactly(theta1)
     assert contacts.wheel_specific_sliding[0] == exactly(theta2)
     assert W1 * contacts.sliding[0] / 1e3 == exactly("1.3962634" if l > 0 else "-1.3962634")
@@ -207,7 +209,7 @@ def test_duality(validated, x, y, stress, family, printed):
     found = measures(touching(x, y, stress, family))
     where, source = f"at ({x}, {y}), {stress:.6g} MPa, family {family:+d}", "independent program"
     for name, text in printed.items():
-        shown = name == "rho1" and (x, stress) in ((10, 600), (-8, 400))
+        shown = name == "rho1" and (x, stress) == (10, 600)
         how = {"absolute": True, "page": shown}
         quantity, unit = f"{name} {where}", "mm" if name.startswith("rho") else ""
         validated(quantity, float(found[name]), float(text), half_unit(text), source, unit, **how)
@@ -357,7 +359,8 @@ def test_line_through_the_pole(validated):
     for at, (_, angle, roll, first, second, rho1, rho2, compared) in enumerate(LINE):
         found, source = np.degrees(line.contacts.pressure_angle[at]), "independent program"
         quantity = f"angle of the line of constant stress, l = {LINE[at][0]} mm"
-        validated(quantity, found, float(angle), half_unit(angle), source, "deg", absolute=True)
+        how = {"absolute": True, "page": at in (0, 3)}
+        validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
         assert line.roll_angle[at] == exactly(roll)
         assert tuple(line.pinion_profile[at]) == tuple(exactly(text) for text in first)
         assert tuple(line.wheel_profile[at]) == tuple(exactly(text) for text in second)
@@ -504,7 +507,7 @@ def test_stress_from_the_points_of_both_profiles(validated, name):
     stress = 191.6456725064184 * np.sqrt(load * (first + second))
     asked = 600.0 if "600" in name else SIGMA
     quantity, source = f"stress along the line {name!r}", "curvature of the points of both profiles"
-    shown = name in ("pole", "+1 at 600 MPa")
+    shown = name == "+1 at 600 MPa"
     validated(quantity, asked, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
 
 

@@ -115,4 +115,5 @@ def test_budget_of_a_result_closes(
         ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]
     )
     quantity, source = f"removed area of {name}", "shoelace formula on its flanks"
-    validated(quantity, result.removed_area, abs(shoelace), 1e-9, source, "mm2")
+    shown = name != "hertz-arc-prescribed"
+    validated(quantity, result.removed_area, abs(shoelace), 1e-9, source, "mm2", page=shown)

@@ -93,7 +93,7 @@ def test_no_41_by_a_printed_table(
     """0.0022 and Kr = 3.4 for the light chain; the last two are governed by the rollers."""
     rating = power_rating(12.7, teeth, speed, light=True) / HORSEPOWER
     quantity, source = f"rating of no. 41, {teeth} teeth, {speed} rpm", "printed table"
-    shown = speed in (400, 1400)
+    shown = speed == 1400
     validated(quantity, rating, horsepower, 6e-3, source, "hp", absolute=True, page=shown)
 
 
@@ -229,7 +229,7 @@ def test_loads_of_the_worked_drives(validated: Callable[..., None], case: str) -
     speed = layout.chain_speed(2 * math.pi * rpm / 60)
     pull = 1e6 * power / speed
     assert round(1e-3 * speed, 3) == speed_printed
-    within, how = 5.0 if case == "A" else 0.5, {"absolute": True, "page": case in "ABD"}
+    within, how = 5.0 if case == "A" else 0.5, {"absolute": True, "page": case in "AD"}
     source = "printed answer, see the test"
     validated(f"pull of drive {case}", pull, pull_printed, within, source, "N", **how)
     assert RatedDrive(chain.pitch, one, rpm, power).pull == pytest.approx(pull, rel=1e-12)

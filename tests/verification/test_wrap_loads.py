@@ -135,7 +135,8 @@ def test_table_of_08b(
     assert loads.tension[: len(expected)] == pytest.approx(expected, abs=1.0)
     name, source = f"08B, {form}, {100 * elongation:g} %", "table of an independent program"
     first = loads.force[0]
-    validated(f"first tooth force, {name}", first, force, 1.0, source, "N", absolute=True)
+    how = {"absolute": True, "page": elongation == 0.0}
+    validated(f"first tooth force, {name}", first, force, 1.0, source, "N", **how)
     assert math.degrees(loads.pressure_angle[0]) == pytest.approx(angle, abs=0.06)
     assert loads.force.size == 9
     if (form, elongation) == ("ISO min", 0.03):
@@ -335,7 +336,8 @@ def test_independent_minimum_on_exact_arcs(
     assert loads.tension[1:] == pytest.approx(tension, abs=1.0)
     name, source = f"{form}, {teeth} teeth, {100 * elongation:g} %", "minimum on exact arcs"
     expected = np.hypot(*force.T)
-    validated(f"tooth forces, {name}", loads.force, expected, 1.0, source, "N", absolute=True)
+    how = {"absolute": True, "page": phase == 1.0}
+    validated(f"tooth forces, {name}", loads.force, expected, 1.0, source, "N", **how)
     assert loads.centre == pytest.approx(places, abs=2e-4)
     assert potential.forces(loads.centre)[0] == pytest.approx(found.fun, abs=5e-3)
     random = np.random.default_rng(3)
