@@ -1,8 +1,8 @@
 """The validation page: what the rows of the verification tests are printed as.
 
 The tests hand their rows over where pytest runs with ``--validation-page FILE``; see
-tests/conftest.py and the fixture ``validated`` of tests/verification. Numbers are printed to six
-digits and differences to a decade, so that the page is the same on any machine.
+tests/conftest.py and the fixture ``validated`` of tests/verification. Numbers are printed to at
+most six digits and differences to a decade, so that the page is the same on any machine.
 """
 
 import math
@@ -34,14 +34,20 @@ SECTIONS = {
 """Heading, and the files whose rows stand under it."""
 
 NEGLIGIBLE = 1e-9
-"""Relative differences below it are not told apart: they are those of a machine."""
+"""Relative differences below it, or a thousandth of the tolerance, are those of a machine."""
 
 COLUMNS = ("quantity", "wearsim", "expected", "difference", "tolerance", "source", "test")
 
 
 def number(value: float, digits: int = 6) -> str:
-    """A number to so many digits, exponents without zeros."""
-    return re.sub(r"e([+-])0*(\d)", lambda e: f"e{e[1].strip('+')}{e[2]}", f"{value:.{digits}g}")
+    """A number rounded to so many digits, at most six, exponents without zeros."""
+    text = f"{float(f'{value:.{digits}g}'):.6g}"
+    return re.sub(r"e([+-])0*(\d)", lambda e: f"e{e[1].strip('+')}{e[2]}", text)
+
+
+def digits_for(tolerance: float) -> int:
+    """Digits that show a hundredth of a relative tolerance, 3 to 6."""
+    return min(6, max(3, math.ceil(-math.log10(tolerance)) + 2))
 
 
 def below(difference: float, tolerance: float, least: float) -> str:
@@ -55,17 +61,16 @@ def cells(place: str, row: Mapping[str, object]) -> list[str]:
     """A row of a table; differences are absolute, in its unit, only where zero is expected."""
     value, expected, tolerance = row["value"], row["expected"], row["allowed"]
     off, unit = abs(value - expected), f" {row['unit']}" if row["unit"] else ""
+    digits, least, kind = 3, 1e-3 * tolerance, unit
     if expected:
         off, tolerance, kind = off / abs(expected), tolerance / abs(expected), ""
-        least = NEGLIGIBLE
-    else:
-        least, kind = tolerance / 10.0, unit
+        digits, least = digits_for(tolerance), max(NEGLIGIBLE, 1e-3 * tolerance)
     file, *names = place.split("[")[0].split("::")
     count = f" ({row['count']} values)" if row["count"] > 1 else ""
     return [
         f"{row['quantity']}{count}",
-        number(value) + unit,
-        number(expected) + unit,
+        number(value, digits) + unit,
+        number(expected, digits) + unit,
         below(off, tolerance, least) + kind,
         number(tolerance, 2) + kind,
         row["source"],

@@ -31,11 +31,24 @@ def test_page_has_every_test_with_the_fixture_and_no_other():
 
 
 @pytest.mark.parametrize(
-    ("value", "printed"),
-    [(453.938082, "453.938"), (26_102_090.0, "2.61021e7"), (7.93e-8, "7.93e-8"), (0.0, "0")],
+    ("value", "digits", "printed"),
+    [
+        (453.938082, 6, "453.938"),
+        (26_102_090.0, 6, "2.61021e7"),
+        (7.93e-8, 6, "7.93e-8"),
+        (0.0, 6, "0"),
+        (14_603.7, 4, "14600"),
+    ],
 )
-def test_numbers(value, printed):
-    assert WRITER["number"](value) == printed
+def test_numbers(value, digits, printed):
+    assert WRITER["number"](value, digits) == printed
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "digits"), [(0.29, 3), (0.05, 4), (5e-3, 5), (1e-4, 6), (1e-14, 6)]
+)
+def test_digits_show_a_hundredth_of_the_tolerance(tolerance, digits):
+    assert WRITER["digits_for"](tolerance) == digits
 
 
 ROW = {"quantity": "life", "value": 1001.0, "expected": 1000.0, "unit": "h", "source": "by hand"}
@@ -45,10 +58,11 @@ ROW = {"quantity": "life", "value": 1001.0, "expected": 1000.0, "unit": "h", "so
     ("changes", "difference", "tolerance"),
     [
         ({}, "< 0.001", "0.01"),
-        ({"value": 1000.0}, "< 1e-9", "0.01"),
+        ({"value": 1000.0}, "< 1e-5", "0.01"),
+        ({"value": 1000.0, "allowed": 1e-5}, "< 1e-9", "1e-8"),
         ({"value": 1003.0}, "< 0.01", "0.01"),
         ({"value": 1003.0, "allowed": 5.0}, "< 0.005", "0.005"),
-        ({"value": 1e-6, "expected": 0.0, "allowed": 1e-3}, "< 0.0001 h", "0.001 h"),
+        ({"value": 1e-6, "expected": 0.0, "allowed": 1e-3}, "< 1e-6 h", "0.001 h"),
     ],
 )
 def test_difference_is_a_decade_within_the_tolerance(changes, difference, tolerance):
