@@ -101,7 +101,7 @@ def test_backlash_is_what_the_wheel_can_turn():
     r1, r2 = LOOSE.pinion.pitch_radius, LOOSE.wheel.pitch_radius
     turn = LOOSE.wheel.turn
     window = shapely.box(-12.0, r1 - 8.0, 12.0, r1 + 8.0)
-    for phi in np.linspace(0.0, 2.0 * math.pi / LOOSE.teeth, 5):
+    for phi in np.linspace(0.0, 2.0 * math.pi / LOOSE.pinion_teeth, 5):
         one = shapely.Polygon(turned(pinion, LOOSE.pinion.turn + phi)) & window
 
         def overlap(part, one=one, phi=phi):
