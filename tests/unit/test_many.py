@@ -147,7 +147,7 @@ def test_warnings_of_the_worn_flank_are_kept() -> None:
     worn = strand("stop.critical_depth_mm=0.5")
     quick = strand("wear.specific_wear_rate_mm2_per_N=1e-4")
     found = list(simulate_many([wide, worn, quick]))
-    for one, text in zip(found, ("0.1 of the roller", "in the end, below 1", "only"), strict=True):
+    for one, text in zip(found, ("0.1 of the radius", "in the end, below 1", "only"), strict=True):
         assert isinstance(one, CaseLife)
         assert any(text in warning for warning in one.warnings)
 
