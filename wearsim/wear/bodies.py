@@ -253,10 +253,47 @@ def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, floa
     ConvergenceError
         A pressure cannot be found.
     """
+    pressure, table = _pressed(contact, law, start)
+    return pressure, highest_speed(table)
+
+
+def highest_pressure(contact: Dwelling, law: Law, load_factor: float) -> float:
+    """Return the highest pressure of all events of a cycle on new outlines.
+
+    Parameters
+    ----------
+    contact : Dwelling
+        The outlines and their contacts.
+    law : Law
+        The wear law.
+    load_factor : float
+        On the load of every event: pressure goes with its root where the contact is narrow, with
+        the load itself where roller and seat conform.
+
+    Returns
+    -------
+    float
+        Pressure [MPa]; 0 where nothing is loaded.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    return _pressed(contact, law, None, load_factor)[0]
+
+
+def _pressed(
+    contact: Dwelling, law: Law, start: Start | None, load_factor: float = 1.0
+) -> tuple[float, Rows]:
+    """Return the highest pressure of a cycle, and its events."""
     bodies = Bodies(contact, law, start)
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
+    table[EVENT_LOAD] *= load_factor
     bodies.press(table, 0.0)
-    return float(bodies.findings[PEAK_PRESSURE]), highest_speed(table)
+    return float(bodies.findings[PEAK_PRESSURE]), table
 
 
 def highest_speed(table: Rows) -> float:
