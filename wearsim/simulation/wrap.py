@@ -22,7 +22,7 @@ from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.sizing.rating import rating_warnings
 from wearsim.wear.accuracy import GridStudy, grid_study
-from wearsim.wear.bodies import Rows, Start, highest_load, highest_pressure
+from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.halving import advance_dwelling, halve_steps, run_together
@@ -361,7 +361,7 @@ def _fatigue(
 
     factor = case.fatigue.load_factor
     stresses = [
-        (highest_pressure(replace(contact, blocks=(block,)), law, factor), block.share)
+        (highest_load(replace(contact, blocks=(block,)), law, None, factor)[0], block.share)
         for block in contact.blocks
     ]
     lives, found = fatigue_parts(case, case.fatigue, stresses, *wear)

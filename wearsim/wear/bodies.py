@@ -229,7 +229,9 @@ class Bodies:
             )
 
 
-def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, float]:
+def highest_load(
+    contact: Dwelling, law: Law, start: Start | None, load_factor: float = 1.0
+) -> tuple[float, float]:
     """Return the highest pressure and sliding speed of all events of a cycle.
 
     Parameters
@@ -238,42 +240,16 @@ def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, floa
         The outlines and their contacts.
     law : Law
         The wear law.
-    start : Start
-        What has worn off them.
-
-    Returns
-    -------
-    tuple of float
-        Pressure [MPa] of the outlines as they are, and speed [mm/s].
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    ConvergenceError
-        A pressure cannot be found.
-    """
-    pressure, table = _pressed(contact, law, start)
-    return pressure, highest_speed(table)
-
-
-def highest_pressure(contact: Dwelling, law: Law, load_factor: float) -> float:
-    """Return the highest pressure of all events of a cycle on new outlines.
-
-    Parameters
-    ----------
-    contact : Dwelling
-        The outlines and their contacts.
-    law : Law
-        The wear law.
+    start : Start or None
+        What has worn off them; None for new ones.
     load_factor : float
         On the load of every event: pressure goes with its root where the contact is narrow, with
         the load itself where roller and seat conform.
 
     Returns
     -------
-    float
-        Pressure [MPa]; 0 where nothing is loaded.
+    tuple of float
+        Pressure [MPa] of the outlines as they are, and speed [mm/s]; 0 where nothing is loaded.
 
     Raises
     ------
@@ -282,18 +258,11 @@ def highest_pressure(contact: Dwelling, law: Law, load_factor: float) -> float:
     ConvergenceError
         A pressure cannot be found.
     """
-    return _pressed(contact, law, None, load_factor)[0]
-
-
-def _pressed(
-    contact: Dwelling, law: Law, start: Start | None, load_factor: float = 1.0
-) -> tuple[float, Rows]:
-    """Return the highest pressure of a cycle, and its events."""
     bodies = Bodies(contact, law, start)
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
     table[EVENT_LOAD] *= load_factor
     bodies.press(table, 0.0)
-    return float(bodies.findings[PEAK_PRESSURE]), table
+    return float(bodies.findings[PEAK_PRESSURE]), highest_speed(table)
 
 
 def highest_speed(table: Rows) -> float:
@@ -307,6 +276,6 @@ def highest_speed(table: Rows) -> float:
     Returns
     -------
     float
-        Speed [mm/s].
+        Speed [mm/s]; 0 where none is loaded.
     """
-    return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max())
+    return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max(initial=0.0))
