@@ -283,17 +283,20 @@ def test_contact_fatigue_beside_the_wear(validated: Callable[..., None]) -> None
     assert result.parts["wheel_fatigue"].hours_run == pytest.approx(1.5 * hours, rel=1e-4)
     assert result.summary()["pinion_fatigue_life_hours"] == pytest.approx(hours, rel=1e-4)
     assert not [text for text in result.warnings if "fatigue" in text]
+    assert result.governing == "wear"
     loaded = ["load.torque_N_m=450", "wear.specific_wear_rate_mm2_per_N=1e-12"]
     first = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, loaded)).warnings)
     assert "contact fatigue of the pinion comes before the wear" in first
     most = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
     assert "more than the pinion endures for any time" in " ".join(most.warnings)
-    assert most.parts == {}
+    assert set(most.parts.values()) == {wearsim.Life(0.0, 0.0)}
+    assert most.governing == "pinion_fatigue"
 
 
 def test_fatigue_that_never_comes_is_a_bound() -> None:
     result = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=100"]))
     assert isinstance(result.parts["pinion_fatigue"], wearsim.LowerBound)
+    assert result.governing == "wear"
 
 
 def test_ridges_and_hollows_are_told() -> None:
