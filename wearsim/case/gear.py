@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from wearsim.case.fatigue import resolve_fatigue
 from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.messages import Faults
@@ -16,9 +18,13 @@ from wearsim.case.shared import (
     take_defaults,
     wear_input,
 )
+from wearsim.contact.hertz import contact_modulus
+from wearsim.geometry.mesh import Mesh
 
 PAIR_STIFFNESS = 14.0
 """Of a pair of teeth [N/(mm um)], the single stiffness c' of ISO 6336-1 for usual steel gears."""
+
+_STEEL = contact_modulus((206_000.0, 206_000.0), (0.3, 0.3))
 
 
 def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) -> Case:
@@ -63,10 +69,12 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
     pair = resolve_teeth(case, tables.gear, nodes, torque, modulus)
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:
         case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
-    stiffness = _stiffness(case, tables)
+    stiffness = _stiffness(case, tables, modulus)
     run = run_input(case, tables.run, TOLERANCE)
     faults.check()
     assert pair is not None
+    line_load = torque / tables.gear.face_width_mm
+    case.warnings += _third_pair(pair.mesh(nodes), line_load, stiffness)
     limit = tables.stop.wheel_critical_depth_mm
     if limit is None:
         limit = tables.stop.critical_depth_mm
@@ -100,7 +108,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
     )
 
 
-def _stiffness(case: Record, tables: GearTables) -> float:
+def _stiffness(case: Record, tables: GearTables, modulus: float) -> float:
     """Stiffness of a pair of teeth per face width [N/mm2]; 0 for rigid teeth."""
     table = tables.mechanism
     if "load_sharing" not in table.model_fields_set:
@@ -109,7 +117,19 @@ def _stiffness(case: Record, tables: GearTables) -> float:
         return 0.0
     given = table.pair_stiffness_N_per_mm_um
     if given is None:
-        given = PAIR_STIFFNESS
-        why = "single stiffness of usual steel gears, ISO 6336-1"
+        given = PAIR_STIFFNESS * modulus / _STEEL
+        why = "ISO 6336-1: 14 for usual gears of steel with 206 000 MPa, times their moduli over it"
         case.take("mechanism.pair_stiffness_N_per_mm_um", given, why)
     return 1000.0 * given
+
+
+def _third_pair(mesh: Mesh, torque: float, stiffness: float) -> list[str]:
+    """Warn where a pair of teeth beyond two would come to bear; the torque is over the face width."""
+    place = mesh.place[0] + mesh.pitch
+    gap = float(np.interp(place, mesh.place, mesh.gaps[0]))
+    if stiffness == 0.0 or gap * stiffness * float(mesh.lever.min()) >= torque:
+        return []
+    return [
+        f"with a contact ratio of {mesh.contact_ratio:.3f} a third pair of teeth comes to bear under this "
+        "load, which is left out: loads and wear are less than stated"
+    ]

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     import pint
 
 
+_LEAST, _MOST = 1e-30, 1e15
+"""Sizes of a quantity between which numbers stay numbers in every formula."""
+
 _NUMBER_AND_UNIT = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:/([1-9]\d*))?\s*([^\d\s.,].*?)\s*"
 )
@@ -102,6 +105,8 @@ def _number(value: object, info: ValidationInfo) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise ValueError("must be a finite number")
+    if number and not _LEAST <= abs(number) <= _MOST:
+        raise ValueError(f"must be 0 or from {_LEAST:g} to {_MOST:g} in size")
     return number
 
 

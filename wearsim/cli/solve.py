@@ -86,7 +86,8 @@ def _show(
         content = {**life_json(result), "solve_for": _json(solved, key, hours)}
         print_json(content, path, result.warnings)
     else:
-        click.echo(f"  Solved     {_sentence(solved, key, hours)}")
+        label = "Solved " if solved.met else "Nearest"
+        click.echo(f"  {label}    {_sentence(solved, key, hours)}")
         click.echo(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
     if not solved.met:
         warn(

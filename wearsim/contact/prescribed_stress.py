@@ -236,7 +236,7 @@ class LoadedPair:
             raise GeometryError(
                 f"contact_stress_MPa: must be above {least:.6g} in the pole, the least at any pressure "
                 f"angle (it is that at {math.degrees(self.load.best_pole_angle):g} deg), but is "
-                f"{asked:g}: raise it, lower the load, or start the phase beside the pole by start_x_mm"
+                f"{asked:g}: raise it or lower the load (a phase of synthesise may start beside the pole)"
             )
         angle = math.asin((least / asked) ** 2) / (1 + self.load.power)
         radius = float(self.circles.pole_radius(angle))

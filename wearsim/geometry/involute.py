@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.involute_function import angle_of_involute, involute_function
-from wearsim.geometry.mesh import Mesh, check_contact_ratio
+from wearsim.geometry.mesh import Mesh, check_contact_ratio, check_tip
 from wearsim.geometry.plane_gearing import PitchCircles
 from wearsim.geometry.profile import Profile, Vector
 
@@ -155,7 +155,8 @@ class InvolutePair:
         Raises
         ------
         GeometryError
-            Interference beyond a base circle, or a contact ratio below 1 or of 2 and more.
+            Interference beyond a base circle, a contact ratio below 1 or of 2 and more, or a pointed
+            tooth.
         """
         for name, least, limit in (
             ("2", self.path_start, "path of contact starts"),
@@ -167,6 +168,29 @@ class InvolutePair:
                     f"involute: lower the tip radius of gear {name} by shift or a shorter addendum"
                 )
         check_contact_ratio(self.contact_ratio)
+        for gear in (0, 1):
+            check_tip(("pinion", "wheel")[gear], self.tip_width(gear))
+
+    def tip_width(self, gear: int) -> float:
+        """Return the thickness of a tooth on its tip circle.
+
+        2 r_a (pi/(2 z) + 2 x tan(alpha)/z + inv(alpha) - inv(alpha_a)), cos(alpha_a) = r_b/r_a.
+
+        Parameters
+        ----------
+        gear : int
+            0 for the pinion, 1 for the wheel.
+
+        Returns
+        -------
+        float
+            Thickness [mm]; below 0 where the flanks cross before.
+        """
+        z, shift, tip = self.teeth[gear], self.profile_shift[gear], self.tip_radius[gear]
+        at_tip = math.acos(self.base_radius[gear] / tip)
+        half = (0.5 * math.pi + 2.0 * shift * math.tan(self.pressure_angle)) / z
+        left = involute_function(self.pressure_angle) - involute_function(at_tip)
+        return 2.0 * tip * (half + left)
 
     @property
     def circles(self) -> PitchCircles:

@@ -160,12 +160,30 @@ def _check_tips(line: LineOfAction, teeth: tuple[int, int]) -> None:
     """Raise where both flanks of a tooth, half a pitch apart on the pitch circle, cross below its tip."""
     corners = line.pinion_profile[-1] * (-1.0, 1.0), line.wheel_profile[0] * (1.0, -1.0)
     for name, (x, y), count in zip(("pinion", "wheel"), corners, teeth, strict=True):
-        left = 0.5 * math.pi / count - math.atan2(x, y)
-        if not left > 0.0:
-            raise GeometryError(
-                f"gear pair: the width of the tip of the {name} must be above 0 mm, but is "
-                f"{2.0 * left * math.hypot(x, y):.3g} mm: end contact earlier, or take fewer teeth"
-            )
+        half = 0.5 * math.pi / count - math.atan2(x, y)
+        check_tip(name, 2.0 * half * math.hypot(x, y))
+
+
+def check_tip(name: str, width: float) -> None:
+    """Raise where a tooth is pointed.
+
+    Parameters
+    ----------
+    name : str
+        ``pinion`` or ``wheel``.
+    width : float
+        Of its tip [mm].
+
+    Raises
+    ------
+    GeometryError
+        It is not above 0.
+    """
+    if not width > 0.0:
+        raise GeometryError(
+            f"gear pair: the width of the tip of the {name} must be above 0 mm, but is {width:.3g} mm: "
+            "end contact earlier (lower the tip), or take less shift or fewer teeth"
+        )
 
 
 def check_contact_ratio(ratio: float) -> None:
@@ -221,10 +239,14 @@ def _corner(corner: Vector, turn: Vector, mate_turn: Vector, axis: float, mate: 
     at = complex(*corner) * np.exp(1j * turn) + 1j * axis
     own = at * np.exp(-1j * mate_turn)
     flank = mate[:, 0] + 1j * mate[:, 1]
-    order, middle = np.argsort(np.abs(flank)), flank[flank.size // 2]
-    angle = PchipInterpolator(
-        np.abs(flank)[order], np.angle(flank / middle)[order], extrapolate=False
-    )
+    radius, middle = np.abs(flank), flank[flank.size // 2]
+    order = np.argsort(radius)
+    if not (np.diff(radius[order]) > 0.0).all():
+        raise GeometryError(
+            "gear pair: a flank must come nearer to or farther from its axis from point to point, but "
+            "two points are equally far: ask a lower stress, or take fewer nodes"
+        )
+    angle = PchipInterpolator(radius[order], np.angle(flank / middle)[order], extrapolate=False)
     gap = angle(np.abs(own)) - np.angle(own / middle)
     if (gap < -_INTERFERES).any():
         raise GeometryError(

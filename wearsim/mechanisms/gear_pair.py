@@ -123,8 +123,7 @@ class GearPairMechanism:
             self.mate_depth,
             self.share,
             mesh.place,
-            self._closable(mesh.gaps[0]),
-            self._closable(mesh.gaps[1]),
+            *mesh.gaps,
             mesh.lever,
             *mesh.levers,
         )
@@ -147,12 +146,6 @@ class GearPairMechanism:
     def flank(self) -> Profile:
         """The pinion's flank from the place where contact starts to its tip."""
         return self.mesh.flank
-
-    def _closable(self, gap: Vector) -> Vector:
-        """Gap of another pair; none as far beyond the path as that load cannot close it."""
-        load = self.torque / self.mesh.lever.min()
-        deflection = load / self.stiffness if self.stiffness else 0.0
-        return np.where(gap < 4.0 * deflection + 1e-9, gap, np.inf)
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return the wheel's flank as it wears, at the points that meet those of the pinion.

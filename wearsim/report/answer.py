@@ -199,6 +199,7 @@ def _life(result: WearResult) -> str:
     if isinstance(result.life, Life):
         what = {
             "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
+            "wheel_critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off the wheel",
             "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
             "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
             "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",

@@ -55,7 +55,7 @@ def fatigue_parts(
         Its materials.
     stresses : sequence of tuple of float
         Pairs of a pressure on the new flank with the load factor [MPa] and its share of the
-        cycles; not used for gears, where the stress at the pole counts.
+        cycles.
     life, sprocket : Life or LowerBound
         By wear: of the case, and of its sprocket (or gears) where the chain is replaced.
 
@@ -69,14 +69,14 @@ def fatigue_parts(
     """
     drive, rate = case.drive, case.cycles_per_hour
     if isinstance(drive, GearDrive):
-        endured, place = gear_fatigue_lives(case, drive, fatigue), "at the pole"
+        highest = stresses[0][0] / fatigue.load_factor**0.5
+        endured = gear_fatigue_lives(case, drive, fatigue, highest)
     else:
         material = fatigue.materials["sprocket"]
         endured = {"sprocket": fatigue_life(material, stresses, rate, case.run.horizon_hours)}
-        place = "on the new flank"
     warnings = doubtful_hardness(fatigue.materials)
     for name, found in endured.items():
-        warnings += _early(name, place, found, life, sprocket)
+        warnings += _early(name, found, life, sprocket)
     lives = {
         f"{name}_fatigue": life_of(found.hours * rate, rate, not found.bound)
         for name, found in endured.items()
@@ -86,13 +86,14 @@ def fatigue_parts(
 
 def _early(
     name: str,
-    place: str,
     found: EnduredHours,
     life: Life | LowerBound,
     sprocket: Life | LowerBound,
 ) -> list[str]:
     if found.hours == 0.0:
-        return [f"contact fatigue: the stress {place} is more than the {name} endures for any time"]
+        return [
+            f"contact fatigue: the stress on the new flank is more than the {name} endures for any time"
+        ]
     if found.bound or found.hours >= sprocket.hours_run:
         return []
     after = f"after {found.hours:.3g} h"

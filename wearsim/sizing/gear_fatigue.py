@@ -29,9 +29,12 @@ def pole_stress(drive: GearDrive, load_factor: float, modulus: float) -> float:
 
 
 def gear_fatigue_lives(
-    case: Case, drive: GearDrive, fatigue: FatigueInput
+    case: Case, drive: GearDrive, fatigue: FatigueInput, peak_pressure: float
 ) -> dict[str, EnduredHours]:
-    """Return the hours for which the contact stress at the pole is allowed.
+    """Return the hours for which the contact stress of the new flanks is allowed.
+
+    It is that at the pole of source document 001, or the highest on the path of contact if
+    that is more.
 
     Parameters
     ----------
@@ -41,6 +44,8 @@ def gear_fatigue_lives(
         Its gears.
     fatigue : FatigueInput
         Their materials.
+    peak_pressure : float
+        Highest on the new flanks as they share the load, without the load factor [MPa].
 
     Returns
     -------
@@ -48,7 +53,8 @@ def gear_fatigue_lives(
         ``pinion`` and ``wheel``, by formulas (21) to (26) of source document 001 under the constant
         load.
     """
-    stress = pole_stress(drive, fatigue.load_factor, case.modulus)
+    factor = fatigue.load_factor
+    stress = max(pole_stress(drive, factor, case.modulus), factor**0.5 * peak_pressure)
     speeds = {"pinion": case.speed_rpm, "wheel": case.speed_rpm / drive.pair.circles.gear_ratio}
     return {
         name: fatigue_life(

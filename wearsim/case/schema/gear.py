@@ -104,7 +104,7 @@ class GearMechanismTable(Table):
 
     kind: Literal["gear_pair"] = "gear_pair"
     load_sharing: Literal["elastic", "rigid"] = "elastic"
-    pair_stiffness_N_per_mm_um: Positive | None = None
+    pair_stiffness_N_per_mm_um: Annotated[Positive, Field(le=1000.0)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -125,7 +125,7 @@ class GearLoadTable(Table):
 class GearWearTable(WearTable):
     """The wear law of the pinion, and the wheel's coefficient over its."""
 
-    wheel_wear_ratio: PositiveNumber = 1.0
+    wheel_wear_ratio: Annotated[PositiveNumber, Field(ge=1e-4, le=1e4)] = 1.0
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
