@@ -29,6 +29,7 @@ def objects(schema):
 OPTIONAL = (
     "chain_life_hours", "sprocket_life_hours", "service", "km", "tonnes", "days", "date", "grid",
     "solve_for", "pinion_fatigue_life_hours", "wheel_fatigue_life_hours",
+    "sprocket_fatigue_life_hours", "governing_life", "governing_life_hours",
 )  # fmt: skip
 
 

@@ -76,12 +76,13 @@ def result():
     return wearsim.simulate(wearsim.load_case(ROOT / CASE))
 
 
+FATIGUE = "fatigue.sprocket={treatment='surface_hardened', hardness_HRC=45}"
 WRAP = ["mechanism.kind=wrap", "mechanism.phases=2", "sprocket.nodes=101", "run.horizon_hours=50"]
 
 
 @pytest.fixture(scope="module")
 def wrapped():
-    case = wearsim.load_case(ROOT / "cases" / "08b-19t-wrap.toml", WRAP)
+    case = wearsim.load_case(ROOT / "cases" / "08b-19t-wrap.toml", [*WRAP, FATIGUE])
     return case, wearsim.simulate(case)
 
 

@@ -140,6 +140,50 @@ def test_no_fault_follows_from_another(faults):
     assert [line.split(": ")[1] for line in faults(text)] == ["chain.designation"]
 
 
+FATIGUE_FAULTS = {
+    "treatment = 'nitrided'\nhardness_HRC = 60": {
+        "fatigue.sprocket.contact_limit_MPa": "needs this key",
+    },
+    "treatment = 'improved'\nhardness_HB = 300\nhardness_HRC = 30": {
+        "fatigue.sprocket.hardness_HB": "exactly one of hardness_HB and hardness_HRC (got both)",
+    },
+    "treatment = 'nitrided'": {
+        "fatigue.sprocket.hardness_HB": "(got none)",
+        "fatigue.sprocket.contact_limit_MPa": "needs this key",
+    },
+    "treatment = 'carburized'\nhardness_HRC = 60": {
+        "fatigue.sprocket.treatment": "did you mean 'carburised'",
+    },
+}
+
+
+@pytest.mark.parametrize("table", FATIGUE_FAULTS)
+def test_faults_of_fatigue_hide_no_others(faults, table):
+    text = MINIMAL + f"[stop]\nmin_tip_land_mm = 500\n[fatigue.sprocket]\n{table}\n"
+    found = {line.split(": ")[1]: line for line in faults(text)}
+    expected = {"stop.min_tip_land_mm": "below", **FATIGUE_FAULTS[table]}
+    assert set(found) == set(expected)
+    assert all(words in found[key] for key, words in expected.items())
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ("[fatigue]\nload_factor = 1.2", "fatigue.sprocket", "this table is required and missing"),
+        (
+            "[fatigue.sprocket]\ntreatment = 'carburised'\nhardness_HRC = 60\n"
+            "[fatigue.pinion]\ntreatment = 'carburised'\nhardness_HRC = 60",
+            "fatigue.pinion",
+            "unknown table",
+        ),
+    ],
+)
+def test_tables_of_fatigue(faults, table, key, words):
+    (line,) = faults(MINIMAL + table + "\n")
+    assert line.split(": ")[1] == key
+    assert words in line
+
+
 def test_at_most_twenty_faults_and_a_count(faults):
     lines = faults(MINIMAL + "[run]\n" + "".join(f"zz{i} = 1\n" for i in range(25)))
     assert [line.split(":")[1] for line in lines[:-1]] == [str(13 + i) for i in range(20)]

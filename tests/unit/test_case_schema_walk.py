@@ -201,6 +201,15 @@ BASES |= {
     "regime": edited(STRAND, load={"tension_N": 5000, "speed_rpm": 100, "regime": "II"}),
 }
 
+FATIGUE = {"load_factor": 1.1, "sprocket": {"treatment": "surface_hardened", "hardness_HRC": 45.0}}
+SOFT = {**FATIGUE, "sprocket": {"treatment": "improved", "hardness_HB": 300.0}}
+BASES |= {
+    "fatigue": edited(STRAND, fatigue=FATIGUE),
+    "soft fatigue": edited(STRAND, fatigue=SOFT),
+    "prescribed fatigue": edited(BASES["prescribed"], fatigue=SOFT),
+    "wrap fatigue": edited(WRAP, load={"tension_N": 2500, "speed_rpm": 200}, fatigue=SOFT),
+}
+
 # Key: (base, another value) for a change of the result, (base, value, fault's key) for an error.
 CHANGES = {
     "format_version": [("strand", 2, "format_version")],
@@ -432,6 +441,31 @@ CHANGES |= {
     "duty.wear_factor": [("duty", 2), ("duty", 0, "duty.1.wear_factor")],
     "load.regime": [("regime", "III"), ("duty", "I", "load.regime")],
     "load.duty_file": [("log", "other_duty.csv"), ("strand", "duty.csv", "load.tension_N")],
+    "fatigue.load_factor": [
+        ("fatigue", 1.2),
+        ("wrap fatigue", 1.2),
+        ("prescribed fatigue", 1.2),
+        ("fatigue", 0.9, "fatigue.load_factor"),
+    ],
+    "fatigue.sprocket.treatment": [
+        ("fatigue", "carburised"),
+        ("fatigue", "nitrided", "fatigue.sprocket.contact_limit_MPa"),
+    ],
+    "fatigue.sprocket.hardness_HB": [
+        ("soft fatigue", 310.0),
+        ("prescribed fatigue", 310.0),
+        ("fatigue", 450.0, "fatigue.sprocket.hardness_HB"),
+    ],
+    "fatigue.sprocket.hardness_HRC": [
+        ("fatigue", 46.0),
+        ("soft fatigue", 30.0, "fatigue.sprocket.hardness_HB"),
+        ("fatigue", 71.0, "fatigue.sprocket.hardness_HRC"),
+    ],
+    "fatigue.sprocket.contact_limit_MPa": [("fatigue", 900.0), ("wrap fatigue", 600.0)],
+    "fatigue.sprocket.contact_safety": [
+        ("fatigue", 1.3),
+        ("fatigue", 0.9, "fatigue.sprocket.contact_safety"),
+    ],
     "load.duty_bins": [("log", [1, 1]), ("strand", [4, 4], "load.duty_bins")],
 }
 
@@ -495,7 +529,7 @@ def run(tmp_path_factory):
 
 def numbers(result):
     """Every number of a result that is not an echo of the input."""
-    lives = [result.life, result.life_low, result.life_high]
+    lives = [result.life, result.life_low, result.life_high, *result.parts.values()]
     return [
         *(value for life in lives for value in vars(life).values()),
         result.updates,

@@ -1,4 +1,5 @@
-"""The reference run of the project, and tables of load for prescribed contacts."""
+"""The reference run of the project, tables of load for prescribed contacts, and the assertion
+whose numbers stand in docs/validation.md."""
 
 import copy
 from collections.abc import Callable, Sequence
@@ -144,3 +145,53 @@ def b9(prescribed: Callable[..., wearsim.Case]) -> Callable[..., wearsim.Case]:
         )
 
     return case
+
+
+def agreement(
+    what: tuple[str, str, str], value: Any, expected: Any, tolerance: float, absolute: bool
+) -> dict[str, Any]:
+    """Assert that all values agree; return the row of the one that is furthest off.
+
+    Where all differences are rounding it is the largest value, which is the same everywhere.
+    """
+    quantity, source, unit = what
+    found, wanted = (array.astype(float).ravel() for array in np.broadcast_arrays(value, expected))
+    size = np.abs(wanted)
+    off, allowed = np.abs(found - wanted), np.full(size.shape, tolerance)
+    allowed *= 1.0 if absolute else size
+    for at in np.flatnonzero(~(off <= allowed))[:1]:
+        pytest.fail(
+            f"{quantity}: is {found[at]:.12g} {unit}, expected {wanted[at]:.12g} ({source}), "
+            f"off by {off[at]:.3g}, tolerance {tolerance:.3g} {unit if absolute else 'relative'}"
+        )
+    relative = off / np.where(size > 0.0, size, size.max() or 1.0)
+    at = int(relative.argmax() if relative.max() > 1e-9 else size.argmax())
+    texts = {"quantity": quantity, "source": source, "unit": unit, "count": found.size}
+    numbers = {"value": found[at], "expected": wanted[at], "allowed": allowed[at]}
+    return texts | {name: float(number) for name, number in numbers.items()}
+
+
+@pytest.fixture
+def validated(request: pytest.FixtureRequest) -> Callable[..., None]:
+    """Return the assertion that a number agrees with one from outside, a row of the page.
+
+    The tolerance is relative, or in the unit of the value where ``absolute``. Of arrays the
+    value that is furthest off makes the row; ``page=False`` asserts without one.
+    """
+
+    def check(
+        quantity: str,
+        value: Any,
+        expected: Any,
+        tolerance: float,
+        source: str,
+        unit: str = "",
+        *,
+        absolute: bool = False,
+        page: bool = True,
+    ) -> None:
+        row = agreement((quantity, source, unit), value, expected, tolerance, absolute)
+        if page and request.config.getoption("validation_page"):
+            request.node.user_properties.append(("validated", row))
+
+    return check

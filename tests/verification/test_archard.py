@@ -51,7 +51,9 @@ def last_depths(result: wearsim.WearResult) -> np.ndarray:
 
 
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
-def test_b2_block_on_flat(prescribed: CaseMaker, method: str) -> None:
+def test_b2_block_on_flat(
+    validated: Callable[..., None], prescribed: CaseMaker, method: str
+) -> None:
     """A flat of 10 x 10 mm under 1 MPa everywhere, slid over 100 mm a cycle."""
     roller_radius = 5.0
     case = prescribed(
@@ -67,14 +69,19 @@ def test_b2_block_on_flat(prescribed: CaseMaker, method: str) -> None:
         [f"run.method={method}"],
     )
     result = wearsim.simulate(case)
-    assert 100.0 * result.cycles == pytest.approx(1e6, rel=1e-9)
+    validated(
+        "sliding of a block on a flat until 0.1 mm is worn off",
+        *(100.0 * result.cycles, 1e6, 1e-9, "h = k F s/A by hand", "mm"),
+        page=method == "advance",
+    )
     assert 10.0 * result.history_columns["removed_area_mm2"][-1] == pytest.approx(10.0, rel=1e-9)
 
 
-def test_b8i_depth_is_k_q_lambda() -> None:
+def test_b8i_depth_is_k_q_lambda(validated: Callable[..., None]) -> None:
     """FZG C14 pinion at point A: k 1e-10, q 211.146 N/mm, |1 - v2/v1| 3.7556: 7.930e-8 mm."""
     depth = depth_per_cycle(np.array([211.146]), np.array([3.7556]), np.array([0.17]), 1e-10)
-    assert depth[0] == pytest.approx(7.930e-8, rel=5e-5)
+    source = "h = k q lambda by hand, FZG C14 at A"
+    validated("depth of one passage", depth[0], 7.930e-8, 5e-5, source, "mm")
 
 
 def test_m1_intensity_on_the_strand_is_k_q_slip_ratio(
@@ -88,7 +95,9 @@ def test_m1_intensity_on_the_strand_is_k_q_slip_ratio(
 
 
 @pytest.mark.parametrize("curvature", [0.0, 0.05, 0.05 * np.cos(ARC)])
-def test_b8ii_worn_area_is_k_q_s(prescribed: CaseMaker, curvature: object) -> None:
+def test_b8ii_worn_area_is_k_q_s(
+    validated: Callable[..., None], prescribed: CaseMaker, curvature: object
+) -> None:
     """One passage slides over the integral of the slip ratio along the flank."""
     slip = 0.5 + 0.3 * np.sin(ARC)
     case = prescribed(
@@ -105,7 +114,11 @@ def test_b8ii_worn_area_is_k_q_s(prescribed: CaseMaker, curvature: object) -> No
     result = wearsim.simulate(case)
     area = np.trapezoid(last_depths(result), ARC)
     sliding = result.cycles * np.trapezoid(slip, ARC)
-    assert area == pytest.approx(1e-9 * 100.0 * sliding, rel=1e-9)
+    validated(
+        "worn area on a flank whose curvature changes its sign",
+        *(area, 1e-9 * 100.0 * sliding, 1e-9, "k q s, whatever the pressure", "mm2"),
+        page=np.min(curvature) < 0.0,
+    )
 
 
 @pytest.mark.parametrize(("exponent", "factor"), [(1, 3.0), (1.5, 0.01), (2, 7.0)])

@@ -76,8 +76,10 @@ def test_points_of_the_head(line):
         (30, 1.01357754, 40.08662486),
     ],
 )
-def test_points_at_whole_degrees(degrees, x, y):
-    assert HEAD.points(math.radians(degrees)) == pytest.approx([x, y], abs=1e-8)
+def test_points_at_whole_degrees(validated, degrees, x, y):
+    quantity, points = f"point of the head at {degrees} deg", HEAD.points(math.radians(degrees))
+    source, shown = "independent program", degrees == 25
+    validated(quantity, points, [x, y], 1e-8, source, "mm", absolute=True, page=shown)
 
 
 def test_functions_take_arrays():
@@ -97,9 +99,12 @@ def test_roll_angle(degrees, phi):
     assert FOOT.roll_angle(math.radians(degrees)) == pytest.approx(-phi, abs=5e-11)
 
 
-def test_tip():
+def test_tip(validated):
     alpha = HEAD.angle_at_radius(42.75)
-    assert math.degrees(alpha) == pytest.approx(39.31884049730, abs=1e-11)
+    found, source = math.degrees(alpha), "independent program"
+    validated(
+        "pressure angle of the tip", found, 39.3188404973, 1e-11, source, "deg", absolute=True
+    )
     assert HEAD.path_coordinate(alpha) == pytest.approx(6.6164944738, abs=5e-11)
     assert HEAD.roll_angle(alpha) == pytest.approx(0.2004450626, abs=5e-11)
     # The chord of the tip is s = pi m / 2 at the pitch circle.
@@ -128,8 +133,11 @@ def test_foot():
         (FOOT, 30, -31.5227129024),
     ],
 )
-def test_curvature_radius(flank, degrees, rho):
-    assert flank.curvature_radius(math.radians(degrees)) == pytest.approx(rho, abs=5e-11)
+def test_curvature_radius(validated, flank, degrees, rho):
+    quantity, found = f"radius of the {flank.part}", flank.curvature_radius(math.radians(degrees))
+    source, shown = "independent program", degrees == 25
+    quantity = f"{quantity} at {degrees} deg"
+    validated(quantity, found, rho, 5e-11, source, "mm", absolute=True, page=shown)
 
 
 def printed_points(alpha):
@@ -218,11 +226,12 @@ def test_rack_does_not_depend_on_the_teeth():
 @pytest.mark.parametrize(
     ("mate", "rho"), [(17, 6.5411352411), (34, 8.7215136548), (51, 9.8117028617)]
 )
-def test_reduced_radius_in_the_pole_is_the_same_on_both_sides(mate, rho):
+def test_reduced_radius_in_the_pole_is_the_same_on_both_sides(validated, mate, rho):
     pair = ConvexConcave(4.5, 17, mate, POLE, 10.0, 10.0, 4.5)
     # For 51 teeth the reference prints 9.8117026617: the closed form below has another digit.
-    for zone in pair.zones:
-        assert zone.reduced_radius(POLE) == pytest.approx(rho, abs=5e-11)
+    found = [float(zone.reduced_radius(POLE)) for zone in pair.zones]
+    quantity, source = f"reduced radius in the pole, 17 and {mate} teeth", "independent program"
+    validated(quantity, found, rho, 5e-11, source, "mm", absolute=True, page=mate == 34)
     r2 = 2.25 * mate
     assert rho == pytest.approx(math.sin(POLE) / (1.0 / R1 + 1.0 / r2), abs=5e-11)
 
@@ -232,13 +241,16 @@ def test_reduced_radius_at_30_degrees():
     assert (a, b) == pytest.approx((23.0281132806, 20.0056919886), abs=5e-11)
 
 
-def test_contact_ratio():
-    assert PAIR.contact_ratio == pytest.approx(1.0987962846, abs=5e-11)
+def test_contact_ratio(validated):
+    source, how = "independent program", {"absolute": True}
+    quantity, found = "contact ratio, 17 and 34 teeth", PAIR.contact_ratio
+    validated(quantity, found, 1.0987962846, 5e-11, source, **how)
     assert PAIR.recess_ratio == pytest.approx(0.5423309831, abs=5e-11)
     assert PAIR.approach_ratio == pytest.approx(0.5564653014, abs=5e-11)
     assert math.degrees(PAIR.wheel.tip_angle) == pytest.approx(39.78722157, abs=5e-9)
     involute = InvolutePair((17, 34), 4.5, POLE, (0.0, 0.0), (42.75, 81.0))
-    assert involute.contact_ratio == pytest.approx(1.5976848350, abs=5e-11)
+    quantity, found = "contact ratio of the involute pair", involute.contact_ratio
+    validated(quantity, found, 1.5976848350, 5e-11, source, **how)
     assert involute.reduced_radius(involute.pole) == pytest.approx(8.7215136548, abs=5e-11)
 
 
@@ -249,12 +261,13 @@ def test_involute_path_ends_at_the_base_circle():
     assert few.reduced_radius(few.pole - few.approach) == pytest.approx(0.0, abs=1e-13)
 
 
-def test_arc_for_the_rack_as_in_the_reference():
+def test_arc_for_the_rack_as_in_the_reference(validated):
     """The reference takes 401 points even in alpha, without saying so: the figures are those."""
     end = FOOT.angle_at_depth(4.5)
     points = HEAD.rack_points(np.linspace(POLE, end, 401))
     found = fit_circle(points)
-    assert found.radius == pytest.approx(15.82884540, abs=5e-9)
+    quantity, source = "radius of the arc for the rack", "independent program"
+    validated(quantity, found.radius, 15.82884540, 5e-9, source, "mm", absolute=True)
     assert found.centre == pytest.approx((14.60119035, -6.07606704), abs=5e-9)
     assert np.abs(found.distances(points)).max() == pytest.approx(0.01436295, abs=5e-9)
     assert found.rms == pytest.approx(0.0056, abs=5e-7)
@@ -276,13 +289,15 @@ def test_arc_for_the_rack_over_its_length():
 
 
 @pytest.mark.parametrize("diameter", ROLLERS)
-def test_over_rollers(diameter):
+def test_over_rollers(validated, diameter):
     part, alpha, centre, over = ROLLERS[diameter]
     found = PAIR.pinion.over_rollers(diameter)
     assert found.part == part
     assert math.degrees(found.alpha) == pytest.approx(alpha, abs=5e-9)
     assert found.centre_radius == pytest.approx(centre, abs=5e-9)
-    assert found.over == pytest.approx(over, abs=5e-9)
+    quantity, source = f"size over rollers of {diameter} mm", "independent program"
+    shown = diameter in (6.5, 8.5)
+    validated(quantity, found.over, over, 5e-9, source, "mm", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize("gear", [PAIR.pinion, PAIR.wheel, OTHER.pinion, OTHER.wheel])
@@ -392,7 +407,7 @@ def turn(points, angle):
 
 @pytest.mark.parametrize("pair", [PAIR, OTHER])
 @pytest.mark.parametrize("which", [0, 1])
-def test_wheel_is_the_envelope_of_the_pinion(pair, which):
+def test_wheel_is_the_envelope_of_the_pinion(validated, pair, which):
     """The pinion's flank rolls in the wheel's frame; where it stands still across, it envelops.
 
     Only values of the pinion's flank go in: tangents by a polynomial, motion by differences of
@@ -415,6 +430,7 @@ def test_wheel_is_the_envelope_of_the_pinion(pair, which):
         moved = (near[0] - 8.0 * near[1] + 8.0 * near[2] - near[3]) / (12.0 * step)
         return along[0] * moved[1] - along[1] * moved[0]
 
+    points = []
     for alpha in np.linspace(zone.pinion.pole_angle, zone.end, 12)[1:-1]:
         guess = float(zone.pinion.roll_angle(alpha))
         phi = brentq(lambda p, a=alpha: determinant(a, p), guess - 0.02, guess + 0.02, xtol=1e-14)
@@ -424,7 +440,10 @@ def test_wheel_is_the_envelope_of_the_pinion(pair, which):
             bounds=(alpha - 1e-3, alpha + 1e-3), method="bounded", options={"xatol": 1e-12},
         )  # fmt: skip
         assert math.sqrt(away.fun) < 1e-8
-        assert touching == pytest.approx(zone.wheel.points(alpha), abs=1e-8)
+        points.append((touching, zone.wheel.points(alpha)))
+    quantity, (envelope, found) = "points of the wheel", np.swapaxes(points, 0, 1)
+    shown, how = pair is PAIR and which == 0, "envelope of the pinion"
+    validated(quantity, found, envelope, 1e-8, how, "mm", absolute=True, page=shown)
 
 
 def test_backlash_turns_the_flank():

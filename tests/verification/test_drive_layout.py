@@ -6,6 +6,7 @@ and 63 teeth, 36 pitches. C: no. 80, 20 and 60 teeth, 40 pitches. D: a conveyor 
 """
 
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -44,9 +45,13 @@ def radians_per_second(rpm: float) -> float:
 @pytest.mark.parametrize(
     ("drive", "links", "digits"), [("A", 75.793, 3), ("B", 114.801, 3), ("D", 99.49, 2)]
 )
-def test_handbook_links(drive: str, links: float, digits: int) -> None:
+def test_handbook_links(
+    validated: Callable[..., None], drive: str, links: float, digits: int
+) -> None:
     one, two, centre, _ = DRIVES[drive]
-    assert round(handbook_links(one, two, centre), digits) == links
+    quantity, source = f"links of drive {drive}", "printed answer of the handbook"
+    found, within = handbook_links(one, two, centre), 0.5 * 10.0**-digits
+    validated(quantity, found, links, within, source, "pitches", absolute=True)
 
 
 @pytest.mark.parametrize(
@@ -57,9 +62,10 @@ def test_handbook_centre(drive: str, centre: float, digits: int) -> None:
     assert round(handbook_centre(one, two, links), digits) == round(centre, digits)
 
 
-def test_belt_of_case_b() -> None:
+def test_belt_of_case_b(validated: Callable[..., None]) -> None:
     """Three spans and arcs added up: 70.690 + 8.784 + 35.331 pitches."""
-    assert round(belt_links(20, 63, 36.0), 3) == 114.805
+    quantity, source = "links of drive B by the exact belt", "spans and arcs added up by hand"
+    validated(quantity, belt_links(20, 63, 36.0), 114.805, 5e-4, source, "pitches", absolute=True)
     assert round(belt_centre(20, 63, 114), 3) == 35.590
     inclination = math.asin((1 / math.sin(math.pi / 63) - 1 / math.sin(math.pi / 20)) / 72.0)
     straight = 2.0 * 36.0 * math.cos(inclination)
@@ -127,10 +133,11 @@ def test_whole_links_stay() -> None:
         assert layout_with_centre(12.7, 19, 41, centre).links == links
 
 
-def test_wrap_of_case_a() -> None:
+def test_wrap_of_case_a(validated: Callable[..., None]) -> None:
     """167.6 degrees at 25 pitches; both wraps make a full turn, 17 * 167.61/360 pitches engaged."""
     layout = DriveLayout(44.45, 17, 34, 76, 25 * 44.45)
-    assert round(math.degrees(layout.wrap_1), 1) == 167.6
+    found, source = math.degrees(layout.wrap_1), "Shigley, example 17-5"
+    validated("wrap of drive A", found, 167.6, 0.05, source, "deg", absolute=True)
     assert layout.wrap_1 + layout.wrap_2 == pytest.approx(2 * math.pi, rel=1e-15)
     assert layout.engaged_1 == pytest.approx(17 * 167.6097 / 360, rel=1e-6)
     assert layout.engaged_2 == pytest.approx(34 * (360 - 167.6097) / 360, rel=1e-6)
@@ -160,18 +167,26 @@ def test_driver_may_be_the_larger_sprocket() -> None:
         (25.4, 27, 114, 1.303),
     ],
 )
-def test_chain_speed(pitch: float, teeth: int, rpm: float, speed: float) -> None:
+def test_chain_speed(
+    validated: Callable[..., None], pitch: float, teeth: int, rpm: float, speed: float
+) -> None:
     """Cases A to D [m/s]."""
     layout = layout_with_links(pitch, teeth, 51, 122)
-    assert round(1e-3 * layout.chain_speed(radians_per_second(rpm)), 3) == speed
+    quantity, source = f"chain speed, {teeth} teeth at {rpm} rpm", "printed answer of the handbook"
+    found, shown = 1e-3 * layout.chain_speed(radians_per_second(rpm)), teeth == 27
+    validated(quantity, found, speed, 5e-4, source, "m/s", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize(
     ("teeth", "diameter"), [(9, 2.9238), (17, 5.4422), (19, 6.0755), (25, 7.9787), (57, 18.1529)]
 )
-def test_pitch_diameter_of_unit_pitch(teeth: int, diameter: float) -> None:
+def test_pitch_diameter_of_unit_pitch(
+    validated: Callable[..., None], teeth: int, diameter: float
+) -> None:
     """ISO 606, annex A."""
-    assert round(pitch_diameter(1.0, teeth), 4) == diameter
+    quantity, found = f"pitch diameter over pitch, {teeth} teeth", pitch_diameter(1.0, teeth)
+    shown = teeth == 17
+    validated(quantity, found, diameter, 5e-5, "ISO 606, annex A", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize(
@@ -204,7 +219,7 @@ def test_meetings_belong_to_their_sprocket() -> None:
 
 
 @pytest.mark.parametrize("sag", [0.005, 0.01, 0.02, 0.03])
-def test_catenary(sag: float) -> None:
+def test_catenary(validated: Callable[..., None], sag: float) -> None:
     """f = c (cosh(a/2c) - 1) with H = c q g, solved by bisection: the parabola is 4 f^2/3a^2 low."""
     low, high = 1.0, 1.0e4
     for _ in range(100):
@@ -215,7 +230,8 @@ def test_catenary(sag: float) -> None:
     mass, span = 2.6e-6, 800.0
     horizontal = low * mass * 9806.65 * span
     found = catenary_tension(mass, span, sag)
-    assert found == pytest.approx(horizontal, rel=1.5 * sag**2)
+    quantity, source = f"tension of a strand that sags {100 * sag:g} %", "catenary by bisection"
+    validated(quantity, found, horizontal, 1.5 * sag**2, source, "N", page=sag == 0.02)
     assert found < horizontal
 
 

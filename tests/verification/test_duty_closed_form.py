@@ -101,12 +101,14 @@ def test_one_block_on_a_wrap_is_the_constant_run(kind):
 
 
 @EVERY_LAW
-def test_two_blocks_take_their_parts_of_the_life(law):
+def test_two_blocks_take_their_parts_of_the_life(validated, law):
     """The factor 0.25 is a state of lubrication; a quarter of the cycles are at 6000 N."""
     life = strand(law, duty=[block(0.25, 6000, 60), block(0.75, 2500, 180, 0.25)]).life
     heavy, light = constant(law, 6000, 60), constant(law, 2500, 180)
     cycles = 1 / (0.25 / heavy.cycles + 0.75 * 0.25 / light.cycles)
-    assert life.cycles == pytest.approx(cycles, rel=1e-6)
+    quantity, source = f"life under two blocks, {law}", "1/N = sum c_i f_i/N_i of constant runs"
+    shown = law in ("archard", "drozdov")
+    validated(quantity, life.cycles, cycles, 1e-6, source, "cycles", page=shown)
     assert life.hours == pytest.approx(cycles / 60 * (0.25 / 60 + 0.75 / 180), rel=1e-6)
 
 
@@ -147,10 +149,12 @@ def test_constant_speed_makes_the_shares_alike():
 
 
 @pytest.mark.parametrize(("name", "mean", "within"), [("II", 0.4, 5e-4), ("0", 1.0, 1e-12)])
-def test_typical_regime_on_a_strand(name, mean, within):
+def test_typical_regime_on_a_strand(validated, name, mean, within):
     """All loads equally probable, m = 2: the mean of x^1.5 is 2/5."""
     life = strand("m 2", load={"tension_N": 6000, "speed_rpm": 60, "regime": name}).life
-    assert life.hours == pytest.approx(constant("m 2", 6000, 60).hours / mean, rel=within)
+    hours, source = constant("m 2", 6000, 60).hours / mean, "mean of x^1.5 over the regime by hand"
+    quantity, shown = f"life in the regime {name}, m = 2", name == "II"
+    validated(quantity, life.hours, hours, within, source, "h", page=shown)
 
 
 @pytest.fixture(scope="module")
@@ -176,7 +180,7 @@ def log(tmp_path_factory):
         ("drozdov", [100, 100], 3e-5),
     ],
 )
-def test_log_against_the_integral_over_it(law, bins, within, log):
+def test_log_against_the_integral_over_it(validated, law, bins, within, log):
     """Hours from the wear of every second, integral of F^((m+1)/2) n^(1+n_v) over the time."""
     path, step, tension, speed = log
     _, m, n = LAWS[law]
@@ -184,7 +188,9 @@ def test_log_against_the_integral_over_it(law, bins, within, log):
     reference = 6000 ** ((m + 1) / 2) * 60 ** (1 + n)
     hours = constant(law, 6000, 60).hours * reference / rate
     life = strand(law, load={"duty_file": str(path), "duty_bins": bins}).life
-    assert life.hours == pytest.approx(hours, rel=within)
+    quantity, source = f"life under a log of 300 steps, {law}", "integral of the wear over the log"
+    shown = bins == [100, 100]
+    validated(quantity, life.hours, hours, within, source, "h", page=shown)
     mean = np.average(speed, weights=step)
     assert life.cycles == pytest.approx(life.hours * 60 * mean, rel=1e-12)
 

@@ -98,16 +98,20 @@ def teeth(depth):
 
 
 @pytest.mark.parametrize("sliding", [162.0, 324.0, 1000.0])
-def test_scar_of_a_resting_roller(sliding):
+def test_scar_of_a_resting_roller(validated, sliding):
     """Depth within 0.5 %, width within 1 % from s = 162 on."""
     half, depth = closed_form(sliding)
     run = slid(sliding)
-    assert run.depth[-1].max() == pytest.approx(depth, rel=5e-3)
-    assert half_width(run) == pytest.approx(half, rel=1e-2)
+    name, source = f"by the engine after {sliding:g} mm", "closed form, see docs/physics.md"
+    quantity, shown = f"depth of the scar {name}", sliding != 324
+    validated(quantity, run.depth[-1].max(), depth, 5e-3, source, "mm", page=shown)
+    validated(f"half-width {name}", half_width(run), half, 1e-2, source, "mm", page=sliding == 162)
 
 
-def test_scar_of_a_dense_solve():
-    assert slid(162.0, level=3).depth[-1].max() == pytest.approx(4.8526e-3, rel=1e-3)
+def test_scar_of_a_dense_solve(validated):
+    depth = slid(162.0, level=3).depth[-1].max()
+    source = "dense solve of the free half-space"
+    validated("depth of the scar, fine steps", depth, 4.8526e-3, 1e-3, source, "mm")
 
 
 def test_printed_numbers_of_the_closed_form():
@@ -152,7 +156,7 @@ def test_grid_of_the_scar():
 
 
 @pytest.mark.parametrize("level", [0, 2])
-def test_area_is_k_q_s(level):
+def test_area_is_k_q_s(validated, level):
     """A roller so large that its radii are parallel: k sum(q s count) cycles, to rounding."""
     places = (
         (0.0, 1.0e-3, 1.0, 1.0, 0),
@@ -166,7 +170,8 @@ def test_area_is_k_q_s(level):
     cycles = run.cycles[-1]
     assert run.met is not None and cycles < 300.0
     # The last step is cut at the limit, in a straight line: the area is too.
-    assert run.area == pytest.approx(1e-4 * worn * cycles, rel=1e-12)
+    quantity, found = "area worn off by rollers of several loads", 1e-4 * worn * cycles
+    validated(quantity, run.area, found, 1e-12, "k sum(q s)", "mm2", page=level == 0)
     x = contact.profile.x
     outlines = sum(area_between(x, 0.0 * x, x, -depth) for depth in run.all_depth[-1])
     assert outlines == pytest.approx(run.area, rel=1e-9)

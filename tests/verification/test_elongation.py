@@ -6,6 +6,7 @@ sprockets. Chain no. 40: p 12.7 mm, d2 3.98 mm, 3.98 x 11.17 = 44.5 mm2, 0.60 kg
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -79,11 +80,13 @@ def random_drive(seed: int) -> tuple[int, int, int, str, float, float, float, fl
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_equation_4_1_of_random_drives(seed: int) -> None:
+def test_equation_4_1_of_random_drives(validated: Callable[..., None], seed: int) -> None:
     teeth, mate, links, role, tight, slack, rpm, rate, elongation = random_drive(seed)
     case = load_case(teeth, mate, links, role, tight, slack, rpm, rate, elongation)
     expected = closed_form(teeth, mate, links, tight, slack, rpm, rate, elongation)
-    assert chain_hours(case) == pytest.approx(expected, rel=1e-9)
+    quantity = f"hours of a chain to {elongation:.2g} %, {teeth} and {mate} teeth"
+    source, found = "equation (4.1) by hand", chain_hours(case)
+    validated(quantity, found, expected, 1e-9, source, "h", page=seed == 0)
 
 
 def test_driver_and_driven_give_one_chain_life() -> None:
@@ -115,7 +118,7 @@ def test_mean_elongation_is_that_of_the_joints(pitch: str) -> None:
 
 
 @pytest.mark.parametrize("role", ["driver", "driven"])
-def test_life_of_the_chain_is_that_of_the_run(role: str) -> None:
+def test_life_of_the_chain_is_that_of_the_run(validated: Callable[..., None], role: str) -> None:
     """Through ``simulate``: hours of the chain, stop, and the elongation in the history."""
     teeth, mate, rpm = (19, 57, 900.0) if role == "driver" else (57, 19, 300.0)
     drive = (teeth, mate, 120, role, 900.0, 60.0, rpm, 1e-9, 1.0)
@@ -123,7 +126,9 @@ def test_life_of_the_chain_is_that_of_the_run(role: str) -> None:
     result = wearsim.simulate(load_case(*drive, horizon=1.5 * expected))
     chain = result.parts["chain"]
     assert isinstance(chain, wearsim.Life)
-    assert chain.hours == pytest.approx(expected, rel=1e-9)
+    quantity = f"hours of the chain in a whole run, {role} sprocket"
+    source, shown = "equation (4.1) by hand", role == "driver"
+    validated(quantity, chain.hours, expected, 1e-9, source, "h", page=shown)
     assert (result.stop, result.stop_value) == ("elongation_percent", 1.0)
     assert result.life == chain
     assert result.history_columns["chain"][-1] == 2.0
@@ -134,7 +139,9 @@ def test_life_of_the_chain_is_that_of_the_run(role: str) -> None:
     assert grown[-1] == pytest.approx(1.0, rel=1e-9)
 
 
-def test_rating_point_verifies_equation_4_1_and_validates_nothing() -> None:
+def test_rating_point_verifies_equation_4_1_and_validates_nothing(
+    validated: Callable[..., None],
+) -> None:
     """No. 40, 19/57 teeth, 120 links, 1000 rpm, 4.60 kW: 15 000 h to 3 % with 1.16e-7 mm3/(N m).
 
     The coefficient was set so that just this comes out, from the tight strand alone; so the
@@ -153,8 +160,11 @@ def test_rating_point_verifies_equation_4_1_and_validates_nothing() -> None:
             "stop": {"elongation_percent": 3.0},
         }
     )
-    assert case.drive.heaviest.tension - case.drive.slack == pytest.approx(1145.0, rel=1.2e-3)
-    assert chain_hours(case) == pytest.approx(15_000.0, rel=0.05)
+    pull = case.drive.heaviest.tension - case.drive.slack
+    source = "rating point of no. 40"
+    validated("pull of the rating point, no. 40", pull, 1145.0, 1.2e-3, source, "N")
+    source = "rating life; the coefficient was set from it, so no validation"
+    validated("hours of its chain to 3 %", chain_hours(case), 15_000.0, 0.05, source, "h")
 
 
 def test_slack_articulations_count() -> None:

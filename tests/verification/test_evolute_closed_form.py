@@ -6,6 +6,8 @@ flank. Expected numbers of the example (p 25.4, d1 15.88, z 20, x 4.0..30.67): w
 hand and with an independent sweep for offsets 2.0, 4.0 and 5.5.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -44,11 +46,24 @@ def flank_radius(R: float, r: float, h: float, x: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("nodes", [11, 401])
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES)
-def test_points(R: float, r: float, h: float, end: float, start: float, nodes: int) -> None:
+def test_points(
+    validated: Callable[..., None],
+    R: float,
+    r: float,
+    h: float,
+    end: float,
+    start: float,
+    nodes: int,
+) -> None:
     flank = evolute_flank(Strand(R, r, h), end, start, nodes)
     expected = conjugate_flank(R, r, h, np.linspace(end, start, nodes))
     points = np.column_stack([flank.profile.x, flank.profile.y])
-    np.testing.assert_allclose(points, expected, rtol=0.0, atol=1e-9)
+    validated(
+        "coordinates of the evolute flank",
+        *(points, expected, 1e-9, "closed form of the conjugate points", "mm"),
+        absolute=True,
+        page=(R, nodes) == (CENTRODE, 401),
+    )
 
 
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES[:2])
@@ -60,7 +75,7 @@ def test_curvature_of_the_points(R: float, r: float, h: float, end: float, start
 
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES)
 def test_arc_length_is_the_integral_of_radius_over_angle(
-    R: float, r: float, h: float, end: float, start: float
+    validated: Callable[..., None], R: float, r: float, h: float, end: float, start: float
 ) -> None:
     """ds = rho_t d(theta) with theta = alpha - psi; quadrature on a 100 times finer grid."""
     x = np.linspace(end, start, 20001)
@@ -68,7 +83,9 @@ def test_arc_length_is_the_integral_of_radius_over_angle(
     rho = flank_radius(R, r, h, x)
     length = np.sum(0.5 * (rho[1:] + rho[:-1]) * -np.diff(theta))
     profile = evolute_flank(Strand(R, r, h), end, start, 401).profile
-    assert profile.arc_length[-1] == pytest.approx(length, rel=1e-8)
+    source = "quadrature of the radius over the angle"
+    found, shown = profile.arc_length[-1], R == CENTRODE
+    validated("length of the evolute flank", found, length, 1e-8, source, "mm", page=shown)
 
 
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES)
@@ -127,10 +144,14 @@ def test_pressure_angles_of_the_example() -> None:
     np.testing.assert_allclose(angles, [54.0, 10.2], atol=0.05)
 
 
-def test_tip_radius_and_neck_of_the_example() -> None:
+def test_tip_radius_and_neck_of_the_example(validated: Callable[..., None]) -> None:
     strand = Strand(CENTRODE, ROLLER, 5.5)
     mirrored = Tooth(strand, evolute_flank(strand, END, START, 201).profile, 20, relief=0.0)
-    assert mirrored.tip_radius == pytest.approx(83.36, abs=5e-3)
+    validated(
+        "tip radius, 16B with 20 teeth",
+        *(mirrored.tip_radius, 83.36, 5e-3, "by hand", "mm"),
+        absolute=True,
+    )
     assert mirrored.neck == pytest.approx(6.5, abs=0.05)
 
 
@@ -146,13 +167,25 @@ def test_exit_clearance_of_the_example() -> None:
 @pytest.mark.parametrize(
     ("offset", "start", "cut", "within"), [(4.0, START, 1.27, 5e-3), (2.0, 29.67, 2.9, 0.05)]
 )
-def test_exit_cut_of_the_example(offset: float, start: float, cut: float, within: float) -> None:
+def test_exit_cut_of_the_example(
+    validated: Callable[..., None], offset: float, start: float, cut: float, within: float
+) -> None:
     strand = Strand(CENTRODE, ROLLER, offset)
-    assert exit_cut(strand, END, start) == pytest.approx(cut, abs=within)
+    validated(
+        f"cut of the leaving roller at an offset of {offset:g} mm",
+        *(exit_cut(strand, END, start), cut, within, "independent sweep", "mm"),
+        absolute=True,
+        page=offset == 4.0,
+    )
 
 
-def test_smallest_offset_of_the_example() -> None:
-    assert smallest_offset(CENTRODE, ROLLER, END, START) == pytest.approx(5.311, abs=1.5e-3)
+def test_smallest_offset_of_the_example(validated: Callable[..., None]) -> None:
+    validated(
+        "smallest offset without a cut, 16B with 20 teeth",
+        smallest_offset(CENTRODE, ROLLER, END, START),
+        *(5.311, 1.5e-3, "independent sweep", "mm"),
+        absolute=True,
+    )
 
 
 @pytest.mark.parametrize("teeth", [13, 20, 30, 60])

@@ -96,16 +96,17 @@ TIME = 1.0 / (STIFFNESS * RATE * SLIP * (1.0 + WHEEL / RATIO) * 60.0 * SPEED)
 
 
 @pytest.mark.parametrize("x", [0.0, 0.3, 1.0, 1.999])
-def test_linear_gap_in_full_contact_is_exact(x):
+def test_linear_gap_in_full_contact_is_exact(validated, x):
     """K = 1 + c F b/(2 P): a linear load is integrated exactly by slices."""
     here = mesh(10)
     loads = slice_loads(here, gap_of(x) * here.position / WIDTH)
-    assert factor(loads) == pytest.approx(1.0 + x / 2.0, rel=1e-12)
+    quantity, source = f"K of a linear gap, x = {x:g}", "1 + x/2"
+    validated(quantity, factor(loads), 1.0 + x / 2.0, 1e-12, source, page=x == 1.0)
     assert factor(loads) == pytest.approx(linear_face_load_factor(here, gap_of(x)), rel=1e-12)
 
 
 @pytest.mark.parametrize("x", [2.0, 2.5, 8.0, 50.0])
-def test_linear_gap_in_partial_contact(x):
+def test_linear_gap_in_partial_contact(validated, x):
     """K = (2 x)^(1/2) on a width b_c = b (2/x)^(1/2); the slices are of second order."""
     errors = []
     for slices in (200, 400, 800):
@@ -116,6 +117,8 @@ def test_linear_gap_in_partial_contact(x):
         assert loaded == pytest.approx(WIDTH * math.sqrt(2.0 / x), abs=2 * WIDTH / slices)
         assert linear_face_load_factor(here, gap_of(x)) == pytest.approx(math.sqrt(2.0 * x))
     assert max(errors) < 2e-3
+    quantity, shown = f"K of a linear gap in partial contact, x = {x:g}", x in (2.5, 50.0)
+    validated(quantity, factor(loads), math.sqrt(2.0 * x), 2e-3, "(2 x)^(1/2)", page=shown)
     assert errors[2] < max(errors[0] / 4.0, 1e-12)
 
 
@@ -128,22 +131,25 @@ def test_the_branches_meet_and_the_inverse_inverts():
 
 
 @pytest.mark.parametrize("x", [0.5, 1.4])
-def test_crown_in_full_contact(x):
+def test_crown_in_full_contact(validated, x):
     """q = q_m + c C (1/3 - eta^2): K = 1 + x/3 up to x = 3/2."""
     here = mesh()
     loads = slice_loads(here, gap_of(x) * (2.0 * here.position / WIDTH) ** 2)
-    assert factor(loads) == pytest.approx(1.0 + x / 3.0, rel=1e-5)
+    quantity, shown = f"K of a crown, x = {x:g}", x == 1.4
+    validated(quantity, factor(loads), 1.0 + x / 3.0, 1e-5, "1 + x/3", page=shown)
 
 
 @pytest.mark.parametrize("x", [2.0, 20.0])
-def test_crown_in_partial_contact(x):
+def test_crown_in_partial_contact(validated, x):
     """q = c C (a^2 - eta^2) with q_m = c C (2/3) a^3: K = x a^2, a = (3/(2 x))^(1/3)."""
     here = mesh()
     loads = slice_loads(here, gap_of(x) * (2.0 * here.position / WIDTH) ** 2)
-    assert factor(loads) == pytest.approx(x ** (1 / 3) * 1.5 ** (2 / 3), rel=1e-4)
+    expected, source = x ** (1 / 3) * 1.5 ** (2 / 3), "x^(1/3) (3/2)^(2/3)"
+    quantity, shown = f"K of a crown in partial contact, x = {x:g}", x == 20.0
+    validated(quantity, factor(loads), expected, 1e-4, source, page=shown)
 
 
-def test_crown_and_linear_gap_together():
+def test_crown_and_linear_gap_together(validated):
     """q = q_m + c C/3 - c C eta^2 - c F eta/2 is largest at eta = -F/(4 C)."""
     here = mesh()
     crown, linear = 0.8, 0.6
@@ -151,7 +157,8 @@ def test_crown_and_linear_gap_together():
         gap_of(crown) * (2.0 * here.position / WIDTH) ** 2 + gap_of(linear) * here.position / WIDTH
     )
     expected = 1.0 + crown / 3.0 + linear**2 / (16.0 * crown)
-    assert factor(slice_loads(here, gap)) == pytest.approx(expected, rel=1e-5)
+    found, source = factor(slice_loads(here, gap)), "its maximum in closed form"
+    validated("K of a crown on a linear gap", found, expected, 1e-5, source)
 
 
 def test_any_gap_carries_its_load_by_an_independent_root():
@@ -224,7 +231,7 @@ def partial_contact(x, t):
     return k0 * (dawsn(np.sqrt(1.0 + t)) + np.exp(-t) * (1.0 - dawsn(1.0)))
 
 
-def test_partial_contact_runs_in_by_its_closed_form():
+def test_partial_contact_runs_in_by_its_closed_form(validated):
     """Up to the time x/2 - 1, when the whole face touches; exponentially after it."""
     x = 6.0
     full = x / 2.0 - 1.0
@@ -236,7 +243,8 @@ def test_partial_contact_runs_in_by_its_closed_form():
         1.0 + (partial_contact(x, full) - 1.0) * np.exp(-(t - full)),
     )
     assert (t > full).sum() > 5
-    assert run.factors == pytest.approx(expected, rel=2e-4)
+    quantity, source = "K while a partial contact runs in", "closed form with Dawson's integral"
+    validated(quantity, run.factors, expected, 2e-4, source)
     touching = mesh().width[run.states[1].loads[0] > 0.0].sum()
     assert touching == pytest.approx(WIDTH * math.sqrt(2.0 * 2.9 / x), abs=4.0)
 
@@ -292,7 +300,7 @@ def test_what_turns_with_a_wheel_that_does_not_wear_stays():
     assert found.fixed.states[2].factor == pytest.approx(1.4, rel=1e-4)
 
 
-def test_against_wear_mesh_by_mesh():
+def test_against_wear_mesh_by_mesh(validated):
     """Alternating meshes with their own root for the approach, 200 of them in a time constant.
 
     Starts in partial contact; explicit steps, so they agree to the size of one.
@@ -309,7 +317,8 @@ def test_against_wear_mesh_by_mesh():
         opening += t / steps * np.maximum(0.0, brentq(missing, 0.0, 20.0, xtol=1e-14) - gap)
     expected = factor(slice_loads(here, gaps + opening))
     state = worn({"fixed": 2.0, "varying": 1.5, "crown": 0.4}, t * TIME, 60).states[1]
-    assert state.factor == pytest.approx(expected, rel=5e-3)
+    quantity, source = "K after two time constants", "wear mesh by mesh in explicit steps"
+    validated(quantity, state.factor, expected, 5e-3, source)
     assert state.opening == pytest.approx(opening, rel=0.02)
     assert share.sum() == pytest.approx(1.0)
 
@@ -338,12 +347,13 @@ def test_self_aligning_pinion_leaves_crown_and_change():
         (300.0, 4.0 / (3.0 * (1.0 - 600.0 / WIDTH))),
     ],
 )
-def test_friction_in_the_pivot_leaves_a_moment(lever, expected):
+def test_friction_in_the_pivot_leaves_a_moment(validated, lever, expected):
     """M = F e: K = 1 + 6 e/b up to b/6, then 4/(3 (1 - 2 e/b)) as the load ends in a triangle."""
     here = mesh(800)
     gaps, share = gap_kinds(here.position, gap_of(1.0), gap_of(60.0), "load", 0.0)
     loads = slice_loads(here, self_aligned_gap(here, gaps, share, lever))
-    assert factor(loads) == pytest.approx(expected, rel=1e-4)
+    quantity, source = f"K of a self-aligning pinion, lever {lever:.4g} mm", "closed form"
+    validated(quantity, factor(loads), expected, 1e-4, source, page=lever in (20.0, 300.0))
 
 
 def test_moments_of_an_aligned_pinion():

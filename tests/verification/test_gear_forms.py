@@ -5,6 +5,7 @@ a common contact, springs solved by bracketing, and the stress that was prescrib
 """
 
 import math
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -161,21 +162,24 @@ def test_torque_is_that_of_all_pairs_in_contact(name: str) -> None:
         np.testing.assert_allclose(both, torque, rtol=1e-3)
 
 
-def test_stress_of_a_single_pair_is_the_prescribed_one() -> None:
+def test_stress_of_a_single_pair_is_the_prescribed_one(validated: Callable[..., None]) -> None:
     pair = prescribed()
     of = GearPairMechanism(pair, TORQUE, 10.0, STEEL, 1.0, 0.0, 401)
     touch = of.contact.engage(of.flank.x.copy(), of.flank.y.copy(), np.zeros(401))
     stress = peak_pressure(touch.load_per_width, touch.relative_curvature, STEEL)
     single = of.share == 1.0
     assert single.sum() > 80
-    np.testing.assert_allclose(stress[single], 454.1608627, rtol=1e-9)
+    quantity, source = "stress of a single pair in contact", "prescribed"
+    validated(quantity, stress[single], 454.1608627, 1e-9, source, "MPa")
     double = of.share == 0.5
     np.testing.assert_allclose(stress[double], 454.1608627 * math.sqrt(0.5), rtol=1e-9)
 
 
-def test_contact_ratio_is_that_of_the_closed_form() -> None:
+def test_contact_ratio_is_that_of_the_closed_form(validated: Callable[..., None]) -> None:
     for pair in (BOSANSKY, UNEQUAL):
-        assert pair.mesh(101).contact_ratio == pytest.approx(pair.contact_ratio, rel=1e-12)
+        quantity, found = "contact ratio of the mesh, 17 and 34 teeth", pair.mesh(101).contact_ratio
+        source, shown = "arcs of the line of action", pair is BOSANSKY
+        validated(quantity, found, pair.contact_ratio, 1e-12, source, page=shown)
 
 
 @pytest.mark.parametrize(
@@ -191,7 +195,7 @@ def test_pairs_that_cannot_run(pair: ToothPair, message: str) -> None:
         pair.mesh(101)
 
 
-def test_constant_stress_lives_longer_only_with_rigid_teeth() -> None:
+def test_constant_stress_lives_longer_only_with_rigid_teeth(validated: Callable[..., None]) -> None:
     """Against the involute of the same pressure angle in the pole and the same path.
 
     Rigid teeth: h = k q |1 - v2/v1|, the greatest of which the first contact has in both.
@@ -212,6 +216,8 @@ def test_constant_stress_lives_longer_only_with_rigid_teeth() -> None:
         mesh = pair.mesh(11)
         slip = abs(1.0 - mesh.rolling[1, 0] / mesh.rolling[0, 0])
         expected.append(0.05 / (1e-12 * 0.5 * TORQUE / mesh.lever[0] * slip) / 60e3)
-    assert lives["rigid"] == pytest.approx(expected, rel=1e-4)
+    source = "0.05 mm over the first wear per mesh"
+    for name, found, hours in zip(names, lives["rigid"], expected, strict=True):
+        validated(f"life of {name}, rigid teeth", found, hours, 1e-4, source, "h")
     assert lives["rigid"][0] / lives["rigid"][1] == pytest.approx(1.067, abs=2e-3)
     assert lives["elastic"][0] / lives["elastic"][1] == pytest.approx(0.926, abs=2e-3)

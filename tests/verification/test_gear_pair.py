@@ -6,6 +6,7 @@ bracketing; the corner of a tip met by turning the gears.
 """
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -56,18 +57,20 @@ def engaged(of: GearPairMechanism, depth: np.ndarray | None = None) -> np.ndarra
     return contact.engage(contact.profile.x.copy(), contact.profile.y.copy(), worn).load_per_width
 
 
-def test_geometry_of_c14() -> None:
-    assert C14.centre_distance == pytest.approx(91.500, abs=5e-4)
-    assert math.degrees(C14.working_angle) == pytest.approx(22.4389, abs=5e-5)
+def test_geometry_of_c14(validated: Callable[..., None]) -> None:
+    source, how = "GEARpie, gear C14", {"absolute": True}
+    validated("centre distance of C14", C14.centre_distance, 91.5, 5e-4, source, "mm", **how)
+    found = math.degrees(C14.working_angle)
+    validated("working pressure angle of C14", found, 22.4389, 5e-5, source, "deg", **how)
     assert C14.base_pitch == pytest.approx(13.2846, abs=5e-5)
     assert C14.line_length == pytest.approx(34.9254, abs=5e-5)
-    assert C14.contact_ratio == pytest.approx(1.4625, abs=5e-5)
+    validated("contact ratio of C14", C14.contact_ratio, 1.4625, 5e-5, source, **how)
     assert C14.pole - C14.path_start == pytest.approx(9.676, abs=5e-4)
     assert pytest.approx(422.29, abs=5e-3) == LINE_LOAD
 
 
 @pytest.mark.parametrize("name", TABLE)
-def test_initial_wear_per_mesh(name: str) -> None:
+def test_initial_wear_per_mesh(validated: Callable[..., None], name: str) -> None:
     share, p0, width, pinion, wheel, pinion_wear, wheel_wear = TABLE[name]
     of, place = mechanism(points=20001), PLACES[name]
     curvature, slip, mate = (
@@ -75,16 +78,21 @@ def test_initial_wear_per_mesh(name: str) -> None:
         for row in (of.curvature, of.slip_ratio, of.mate_depth)
     )
     load = share * LINE_LOAD
-    assert float(peak_pressure(load, curvature, MODULUS)) == pytest.approx(p0, rel=1e-4)
+    found, source = float(peak_pressure(load, curvature, MODULUS)), "GEARpie's geometry by hand"
+    shown = name in "ABC"
+    validated(f"peak pressure of C14 at {name}", found, p0, 1e-4, source, "MPa", page=shown)
     a = float(half_width(load, curvature, MODULUS))
     assert 1000.0 * a == pytest.approx(width, rel=1e-4)
     assert 2.0 * a * slip == pytest.approx(pinion, rel=1e-4, abs=5e-5)
     # The wheel's tooth meets once in u cycles of the pinion.
     assert 2.0 * a * slip * mate * C14.ratio == pytest.approx(wheel, rel=1e-4, abs=5e-5)
-    assert 1e6 * RATE * load * slip == pytest.approx(pinion_wear, rel=3e-4, abs=1e-5)
-    assert 1e6 * RATE * load * slip * mate * C14.ratio == pytest.approx(
-        wheel_wear, rel=3e-4, abs=1e-5
-    )
+    source, how = "single-point observation", {"absolute": True, "page": name in "AE"}
+    for gear, found, expected in (
+        ("pinion", 1e6 * RATE * load * slip, pinion_wear),
+        ("wheel", 1e6 * RATE * load * slip * mate * C14.ratio, wheel_wear),
+    ):
+        within = max(3e-4 * expected, 1e-5)
+        validated(f"wear per mesh, {gear} at {name}", found, expected, within, source, "nm", **how)
 
 
 def test_rigid_flanks_wear_at_a_constant_rate() -> None:
@@ -256,34 +264,39 @@ def test_pairs_that_cannot_run(
         pair.check()
 
 
-def test_shipped_case_is_c14() -> None:
+def test_shipped_case_is_c14(validated: Callable[..., None]) -> None:
     case = wearsim.load_case(SHIPPED, ["mechanism.load_sharing=rigid"])
     result = wearsim.simulate(case)
-    assert result.life.cycles == pytest.approx(0.05 / 0.07930e-6, rel=2e-4)  # type: ignore[union-attr]
+    expected, source = 0.05 / 0.07930e-6, "0.05 mm over the wear per mesh at A"
+    validated("life of the shipped C14", result.life.cycles, expected, 2e-4, source, "cycles")  # type: ignore[union-attr]
     assert result.initial_peak_pressure == pytest.approx(1441.84, rel=1e-2)
     last = result.flank.iloc[-201:]
     assert last["wheel_depth_mm"].max() == pytest.approx(0.05 * 0.04596 / 1.5 / 0.07930, rel=1e-3)
 
 
-def test_contact_fatigue_beside_the_wear() -> None:
+def test_contact_fatigue_beside_the_wear(validated: Callable[..., None]) -> None:
     """23 HRC / 1.2 of carburised teeth against p0 at C: N_HG K^-6 over 60 n, source 001."""
     result = wearsim.simulate(wearsim.load_case(SHIPPED))
     hours = 1.2e8 * (1347.27 / (23.0 * 60.0 / 1.2)) ** -6 / (60.0 * 100.0)
-    assert result.parts["pinion_fatigue"].hours_run == pytest.approx(hours, rel=1e-4)
+    found, source = result.parts["pinion_fatigue"].hours_run, "source 001 by hand"
+    validated("hours of the pinion to contact fatigue", found, hours, 1e-4, source, "h")
     assert result.parts["wheel_fatigue"].hours_run == pytest.approx(1.5 * hours, rel=1e-4)
     assert result.summary()["pinion_fatigue_life_hours"] == pytest.approx(hours, rel=1e-4)
     assert not [text for text in result.warnings if "fatigue" in text]
+    assert result.governing == "wear"
     loaded = ["load.torque_N_m=450", "wear.specific_wear_rate_mm2_per_N=1e-12"]
     first = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, loaded)).warnings)
     assert "contact fatigue of the pinion comes before the wear" in first
     most = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
     assert "more than the pinion endures for any time" in " ".join(most.warnings)
-    assert most.parts == {}
+    assert set(most.parts.values()) == {wearsim.Life(0.0, 0.0)}
+    assert most.governing == "pinion_fatigue"
 
 
 def test_fatigue_that_never_comes_is_a_bound() -> None:
     result = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=100"]))
     assert isinstance(result.parts["pinion_fatigue"], wearsim.LowerBound)
+    assert result.governing == "wear"
 
 
 def test_ridges_and_hollows_are_told() -> None:

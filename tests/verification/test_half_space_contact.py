@@ -81,21 +81,26 @@ def half_width(pressure, x, width):
 
 
 @pytest.mark.parametrize(("n", "within"), [(51, 2e-3), (101, 5e-4), (201, 1e-4)])
-def test_hertz_on_a_flat(n, within):
+def test_hertz_on_a_flat(validated, n, within):
     x, width = line(n, 0.1)
     pressure, _, status = contact(x, 0.0 * x, width, (0.0, R), R, q)
     assert status == half_space.CONVERGED
-    assert pressure.max() == pytest.approx(780.1181, rel=within)
+    quantity, source = "peak pressure on a flat, 201 points", "Hertz"
+    validated(quantity, pressure.max(), 780.1181, within, source, "MPa", page=n == 201)
     assert half_width(pressure, x, width) == pytest.approx(0.081606, rel=within)
 
 
 @pytest.mark.parametrize(("n", "within"), [(51, 2e-3), (101, 5e-4), (201, 1e-4)])
-def test_hertz_in_the_seat(n, within):
+def test_hertz_in_the_seat(validated, n, within):
     angle, x, y, width = seat(n, 6.09535, 0.1 / 6.09535)
     pressure, _, status = contact(x, y, width, (0.0, -0.06035), R, 1.0)
     assert status == half_space.CONVERGED
     assert pressure.max() == pytest.approx(7.76247, rel=within)
-    assert half_width(pressure, angle * 6.09535, width) == pytest.approx(0.0820126, rel=within)
+    quantity, found = (
+        "half-width in the seat, 201 points",
+        half_width(pressure, angle * 6.09535, width),
+    )
+    validated(quantity, found, 0.0820126, within, "Hertz", "mm", page=n == 201)
 
 
 def far_roller(depth, x):
@@ -163,14 +168,16 @@ def independent_scar():
 
 
 @pytest.mark.parametrize("s", SLIDING)
-def test_scar_of_b4(s, independent_scar):
+def test_scar_of_b4(validated, s, independent_scar):
     a, w0 = scar_closed_form(s)
     h, history = scar(400, 1.15 * a, np.geomspace(0.03 * s, s, 60), far_roller)
     depth, pressure = history[-1]
     found = depth.max(), pressure.max(), 0.5 * h * np.sum(pressure > 0.0)
     expected = independent_scar[s]
-    assert found[0] == pytest.approx(expected[0], rel=1e-3)
-    assert found[1] == pytest.approx(expected[1], rel=5e-3)
+    name, source, shown = f"after {s:g} mm of sliding", "dense solve by an active set", s < 100
+    validated(f"depth of the scar {name}", found[0], expected[0], 1e-3, source, "mm", page=shown)
+    shown = s == 40.5
+    validated(f"pressure {name}", found[1], expected[1], 5e-3, source, "MPa", page=shown)
     assert found[2] == pytest.approx(expected[2], abs=expected[3])
     assert np.sum(depth) * h == pytest.approx(k * q * s, rel=1e-12)
     if s >= 162.0:
@@ -179,12 +186,13 @@ def test_scar_of_b4(s, independent_scar):
         assert found[2] == pytest.approx(a, rel=1e-2)
 
 
-def test_printed_scar():
+def test_printed_scar(validated):
     """Sliding 162 mm, printed: boundary elements 4.8600 um, 204.8 MPa, 0.2507 mm."""
     h, history = scar(240, 0.3, np.geomspace(5.0, 162.0, 60))
     depth, pressure = history[-1]
-    assert depth.max() == pytest.approx(4.8600e-3, rel=5e-3)
-    assert pressure.max() == pytest.approx(204.8, rel=1e-2)
+    source = "two boundary-element codes, periodic line"
+    validated("depth after 162 mm", depth.max(), 4.8600e-3, 5e-3, source, "mm")
+    validated("pressure after 162 mm", pressure.max(), 204.8, 1e-2, source, "MPa")
     assert 0.5 * h * np.sum(pressure > 0.0) == pytest.approx(0.2507, rel=1e-2)
 
 
@@ -231,7 +239,7 @@ CONFORMAL = [
 @pytest.mark.parametrize(("radius", "seat_radius", "load"), CONFORMAL)
 @pytest.mark.parametrize("wear", [0.0, 1e-6, 1e-3])
 @pytest.mark.parametrize("turn", [0.0, 0.15])
-def test_conformal_seat_against_a_dense_solve(radius, seat_radius, load, wear, turn):
+def test_conformal_seat_against_a_dense_solve(validated, radius, seat_radius, load, wear, turn):
     n = 120
     _, x, y, width = seat(n, seat_radius, 1.2)
     direction = np.array([np.sin(turn), np.cos(turn)])
@@ -247,7 +255,12 @@ def test_conformal_seat_against_a_dense_solve(radius, seat_radius, load, wear, t
     matrix = influence(n, width[0], n * width[0]) * (radial.T @ radial) + wear * np.eye(n)
     start = pressure > 0.5 * pressure.max()
     expected, approach = dense(distance - radius, matrix, cosine, width, load, start)
-    np.testing.assert_allclose(pressure, expected, rtol=0.0, atol=1e-8 * expected.max())
+    validated(
+        "pressures in the seat 4.018 mm under 1000 N/mm",
+        *(pressure, expected, 1e-8 * expected.max(), "dense solve by an active set", "MPa"),
+        absolute=True,
+        page=(seat_radius, load, wear, turn) == (4.018, 1000.0, 0.0, 0.0),
+    )
     assert result[0] == pytest.approx(approach, rel=1e-8)
     assert np.sum(pressure * cosine * width) == pytest.approx(load, rel=1e-12)
     gap = distance - radius + matrix @ pressure - result[0] * cosine
@@ -306,7 +319,7 @@ def power_scar(exponent, factor, n, half, sliding):
     return depth, pressure, iterations
 
 
-def test_power_law_scar_against_small_explicit_steps():
+def test_power_law_scar_against_small_explicit_steps(validated):
     """Dense solver, explicit steps of a third of the stable 4 h/(pi E* m K p^(m-1))."""
     n, half, factor, s = 60, 0.25, 3e-10, 40.0
     x, width = line(n, half)
@@ -317,7 +330,8 @@ def test_power_law_scar_against_small_explicit_steps():
         depth += factor * s / 600.0 * pressure**2
         active = pressure > 0.0
     worn, _, _ = power_scar(2.0, factor, n, half, np.geomspace(0.4, s, 80))
-    assert worn.max() == pytest.approx(depth.max(), rel=1e-2)
+    quantity, source = "depth of a scar, m = 2", "600 explicit steps of a dense solver"
+    validated(quantity, worn.max(), depth.max(), 1e-2, source, "mm")
     assert np.sum(worn) == pytest.approx(np.sum(depth), rel=1e-2)
 
 

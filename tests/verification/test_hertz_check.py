@@ -36,12 +36,13 @@ LITERAL = [
 ]
 
 
-def test_literal_inputs(check):
-    found = [
-        (one.torque / 1e3, one.gear_ratio, one.face_width, round(one.printed_stress, 6))
-        for one in check.literal
-    ]
-    assert found == LITERAL
+def test_literal_inputs(validated, check):
+    source = "formula of the source by an independent program"
+    for one, (torque, ratio, width, stress) in zip(check.literal, LITERAL, strict=True):
+        assert (one.torque / 1e3, one.gear_ratio, one.face_width) == (torque, ratio, width)
+        quantity = f"stress by the printed formula, {torque} N m, u = {ratio:g}, b = {width} mm"
+        how = {"absolute": True, "page": (ratio, width) == (1.5, 76)}
+        validated(quantity, one.printed_stress, stress, 5e-7, source, "MPa", **how)
     nearest = min(check.literal, key=lambda one: abs(one.printed_stress - 464.0))
     assert nearest == check.contact == BASE
     assert 100.0 * (nearest.printed_stress / 464.0 - 1.0) == pytest.approx(-2.17, abs=0.005)
@@ -59,9 +60,12 @@ def test_loads_and_radii():
     assert replace(BASE, youngs_modulus=(1e5, 3e5)).reduced_modulus == 1.5e5
 
 
-def test_exact_coefficient_is_that_of_hertz():
-    assert BASE.exact_coefficient == pytest.approx(0.4182051433, abs=5e-11)
-    assert BASE.peak_pressure == pytest.approx(454.160863, abs=5e-7)
+def test_exact_coefficient_is_that_of_hertz(validated):
+    source, how = "independent program", {"absolute": True}
+    found = BASE.exact_coefficient
+    validated("exact coefficient", found, 0.4182051433, 5e-11, source, page=False, **how)
+    quantity = "stress in the pole by the exact coefficient"
+    validated(quantity, BASE.peak_pressure, 454.160863, 5e-7, source, "MPa", **how)
     for contact in (BASE, PRINTED, replace(BASE, youngs_modulus=(2e5, 1.1e5), poissons_ratio=0.25)):
         by_coefficient = contact.exact_coefficient * math.sqrt(
             contact.load_per_width * contact.reduced_modulus / contact.reduced_radius
@@ -73,23 +77,26 @@ def test_exact_coefficient_is_that_of_hertz():
         assert contact.peak_pressure == pytest.approx(float(by_hertz), rel=1e-14)
 
 
-def test_half_width():
-    assert BASE.half_width == pytest.approx(0.0872345429, abs=5e-11)
+def test_half_width(validated):
+    found, source = BASE.half_width, "independent program"
+    validated("half-width in the pole", found, 0.0872345429, 5e-11, source, "mm", absolute=True)
     by_load = 2.0 * BASE.load_per_width / (math.pi * BASE.half_width)
     assert by_load == pytest.approx(BASE.peak_pressure, rel=1e-13)
 
 
-def test_contact_ratio_shares_the_load(check):
-    assert check.contact_ratio == pytest.approx(1.7300954414, abs=5e-11)
+def test_contact_ratio_shares_the_load(validated, check):
+    found, source = check.contact_ratio, "independent program"
+    validated("contact ratio, 36 and 54 teeth", found, 1.7300954414, 5e-11, source, absolute=True)
     shared = PRINTED.printed_stress / math.sqrt(check.contact_ratio)
     assert shared == pytest.approx(463.018, abs=5e-4)
     assert PRINTED.printed_stress / math.sqrt(1.72) == pytest.approx(464.375, abs=5e-4)
 
 
-def test_missing_factor():
+def test_missing_factor(validated):
     changes = {change.key: change for change in single_changes(BASE, 464.0, 0.5)}
     factor = changes["load_factor"]
-    assert factor.needed == pytest.approx(1.04482, abs=5e-6)
+    quantity, source = "load factor that gives the published 464 MPa", "independent program"
+    validated(quantity, factor.needed, 1.04482, 5e-6, source, absolute=True)
     assert factor.ends == pytest.approx((1.04257, 1.04708), abs=5e-6)
     assert changes["face_width_mm"].needed == pytest.approx(72.740, abs=5e-4)
     assert changes["torque_N_m"].needed == pytest.approx(250.757, abs=6e-4)
@@ -151,14 +158,19 @@ def test_no_value_of_a_key_that_cannot():
     )
 
 
-def test_completed_table(check):
+def test_completed_table(validated, check):
     columns = check.comparison.columns
     assert check.comparison.references == ("larger",)
     assert [columns[name].hertz for name in columns] == pytest.approx([464.0, 185.6, 259.84])
     assert [columns[name].finite_elements for name in columns] == [418.0, 216.0, 228.0]
     assert columns["depth"].candidates == (228,)
     larger = [columns[name].differences["larger"] for name in columns]
-    assert larger == pytest.approx([9.9138, 14.0741, 12.2537], abs=5e-5)
+    quantity, source = (
+        "published differences of Hertz and FE, completed",
+        "by hand, over the larger",
+    )
+    expected = [9.9138, 14.0741, 12.2537]
+    validated(quantity, larger, expected, 5e-5, source, "%", absolute=True)
     assert [round(value, 1) for value in larger] == [9.9, 14.1, 12.3]
     computed = [columns[name].computed for name in columns]
     assert computed == pytest.approx([453.938, 181.575, 254.205], abs=6e-4)
@@ -197,7 +209,7 @@ def test_teeth_that_cannot_run():
         hertz_check(tables)
 
 
-def test_contact_conditions_give_hertz_pressure_on_half_planes():
+def test_contact_conditions_give_hertz_pressure_on_half_planes(validated):
     """The solver of ``--fem`` on a compliance in closed form: strips of pressure on half-planes."""
     cells, width, modulus, radius, load = 120, 1.5, 1.15e5, 11.0, 60.0
     a = math.sqrt(4.0 * load * radius / (math.pi * modulus))
@@ -218,5 +230,6 @@ def test_contact_conditions_give_hertz_pressure_on_half_planes():
     assert weights @ pressure == pytest.approx(0.5 * load, rel=1e-10)
     wanted = peak * np.sqrt(np.maximum(1.0 - (middle / a) ** 2, 0.0))
     inside = middle < 0.95 * a
-    np.testing.assert_allclose(pressure[inside], wanted[inside], rtol=0.01)
+    quantity, source = "pressures by the contact solver of --fem on half-planes", "Hertz"
+    validated(quantity, pressure[inside], wanted[inside], 0.01, source, "MPa")
     assert np.all(pressure[middle > a + step] == 0.0)

@@ -5,6 +5,7 @@ q = 100 N/mm, a roller of 6.035 mm on three flanks (worked out outside this pack
 """
 
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -22,10 +23,16 @@ PAIRS = [
 
 
 @pytest.mark.parametrize(("flank_curvature", "pressure", "width"), PAIRS)
-def test_pressure_and_half_width(flank_curvature: float, pressure: float, width: float) -> None:
+def test_pressure_and_half_width(
+    validated: Callable[..., None], flank_curvature: float, pressure: float, width: float
+) -> None:
     relative = 1.0 / ROLLER + flank_curvature
-    assert float(peak_pressure(100.0, relative, STEEL)) == pytest.approx(pressure, rel=1e-6)
-    assert float(half_width(100.0, relative, STEEL)) == pytest.approx(width, rel=1e-5)
+    kind = "concave" if flank_curvature < 0 else "convex" if flank_curvature else "flat"
+    source = "Johnson, Contact Mechanics, 4.2"
+    found = float(peak_pressure(100.0, relative, STEEL)), float(half_width(100.0, relative, STEEL))
+    validated(f"peak pressure on a {kind} flank", found[0], pressure, 1e-6, source, "MPa")
+    shown = kind == "concave"
+    validated(f"half-width on a {kind} flank", found[1], width, 1e-5, source, "mm", page=shown)
 
 
 def test_contact_modulus_of_steel() -> None:
@@ -38,13 +45,16 @@ def test_contact_modulus_of_a_rigid_mate() -> None:
     assert contact_modulus((2.8e3, 1e15), (0.35, 0.3)) == pytest.approx(2.8e3 / (1 - 0.35**2))
 
 
-def test_exact_coefficients_of_steel() -> None:
+def test_exact_coefficients_of_steel(validated: Callable[..., None]) -> None:
     """0.4182051 in sigma = C sqrt(q E/rho), 1.522267 in a = C sqrt(q rho/E)."""
     load, radius, modulus = 250.0, 7.3, 2.1e5
     pressure = float(peak_pressure(load, 1.0 / radius, STEEL))
     width = float(half_width(load, 1.0 / radius, STEEL))
-    assert pressure / math.sqrt(load * modulus / radius) == pytest.approx(0.4182051, abs=5e-8)
-    assert width / math.sqrt(load * radius / modulus) == pytest.approx(1.522267, abs=5e-7)
+    exact, how = "sqrt(1/(2 pi (1 - nu^2))), sqrt(8 (1 - nu^2)/pi)", {"absolute": True}
+    found = pressure / math.sqrt(load * modulus / radius)
+    validated("C in sigma = C sqrt(q E/rho)", found, 0.4182051, 5e-8, exact, **how)
+    found = width / math.sqrt(load * radius / modulus)
+    validated("C in a = C sqrt(q rho/E)", found, 1.522267, 5e-7, exact, **how)
 
 
 def test_load_is_the_integral_of_the_ellipse() -> None:

@@ -67,6 +67,7 @@ def mean_factor(exponent: float) -> float:
 @pytest.mark.parametrize("column", ["slip_ratio", "sliding_distance_mm"])
 @pytest.mark.parametrize(("wear", "exponent", "factor"), LAWS)
 def test_life_equals_the_closed_form(
+    validated: Callable[..., None],
     prescribed: CaseMaker,
     wear: dict[str, Any],
     exponent: float,
@@ -94,15 +95,27 @@ def test_life_equals_the_closed_form(
         else (mean_factor(exponent) * 2.0 * HALF_WIDTH * slip)
     )
     result = wearsim.simulate(case)
-    assert result.cycles == pytest.approx(DEPTH / (factor * SIGMA**exponent * path), rel=1e-9)
+    validated(
+        f"life by the law {wear['law']}, m = {exponent:g}",
+        result.cycles,
+        DEPTH / (factor * SIGMA**exponent * path),
+        *(1e-9, "closed form at constant load, curvature and slip", "cycles"),
+        page=(column, method) == ("slip_ratio", "advance") and exponent in (1.2, 1.5, 3.3),
+    )
     assert result.initial_peak_pressure == pytest.approx(SIGMA, rel=1e-12)
     assert result.final_peak_pressure == pytest.approx(SIGMA, rel=1e-6)
 
 
 @pytest.mark.parametrize("exponent", [0.2, 1.0, 1.5, 2.0, 3.0, 7.5])
-def test_mean_pressure_factor_is_the_integral(exponent: float) -> None:
+def test_mean_pressure_factor_is_the_integral(
+    validated: Callable[..., None], exponent: float
+) -> None:
     """Integral of (1 - u^2)^(m/2) over 0..1, with u = cos t."""
-    assert mean_pressure_factor(exponent) == pytest.approx(mean_factor(exponent), rel=1e-10)
+    validated(
+        f"mean of p^m over p0^m, m = {exponent:g}",
+        *(mean_pressure_factor(exponent), mean_factor(exponent), 1e-10, "quadrature"),
+        page=exponent == 1.5,
+    )
 
 
 @pytest.mark.parametrize(("exponent", "value"), [(0.0, 1.0), (1.0, math.pi / 4), (2.0, 2.0 / 3.0)])

@@ -32,10 +32,11 @@ def solved(*overrides, **tables):
     return stiffness_spectrum(load_calculation(case, StiffnessSpectrumTables, overrides))
 
 
-def test_reference_deflections_and_stiffnesses():
+def test_reference_deflections_and_stiffnesses(validated):
     constant = hertz_constant(10.0, 10.0, 2.1e5, 0.3)
     law = (np.array([1.0, 2.0, 4.0]), 2000.0, constant, 2.5)
-    assert constant == pytest.approx(344010.458, abs=6e-4)
+    source, how = "independent program", {"absolute": True}
+    validated("constant of contact", constant, 344010.458, 6e-4, source, "N/mm^1.5", **how)
     np.testing.assert_allclose(
         deflection(*law), (0.0323324713, 0.0203681806, 0.0128311497), atol=6e-11
     )
@@ -48,12 +49,15 @@ def test_reference_deflections_and_stiffnesses():
     ("model", "mean", "amplitude"),
     [("double_sum", 178127.9341, 84919.7950), ("pairs", 125769.6384, 32820.4995)],
 )
-def test_reference_mean_stiffness_and_its_first_amplitude(model, mean, amplitude):
+def test_reference_mean_stiffness_and_its_first_amplitude(validated, model, mean, amplitude):
     """By hand too: the longer part of a tooth period has one contact, the rest two (counted four)."""
     found = solved(f"spectrum.model={model}")
     (line,) = [line for line in found.lines if line.name == "fz"]
-    assert found.statics.stiffness.mean == pytest.approx(mean, abs=6e-5)
-    assert line.stiffness == pytest.approx(amplitude, abs=6e-5)
+    source, how = "independent program", {"absolute": True}
+    quantity, stiffness = f"mean stiffness, {model}", found.statics.stiffness.mean
+    validated(quantity, stiffness, mean, 6e-5, source, "N/mm", **how)
+    quantity = f"its amplitude at the tooth frequency, {model}"
+    validated(quantity, line.stiffness, amplitude, 6e-5, source, "N/mm", **how)
     two = found.pair.contact_ratio - 1.0
     one, more = found.statics.stiffnesses[[0, 1 if model == "pairs" else 2]]
     assert found.statics.stiffness.mean == pytest.approx(one + two * (more - one), rel=1e-12)

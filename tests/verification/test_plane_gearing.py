@@ -69,9 +69,13 @@ def through_pole(at, stress=SIGMA, load=TORQUE):
 
 
 def exactly(printed):
-    """To half a unit of the last digit that is printed, and what doubles can hold."""
-    decimals = len(printed.partition(".")[2])
-    return pytest.approx(float(printed), abs=0.5000001 * 10.0**-decimals, rel=2e-14)
+    """As printed: a number within half a unit of its last digit."""
+    return pytest.approx(float(printed), abs=half_unit(printed))
+
+
+def half_unit(printed):
+    """Half a unit of the last digit, or 2e-14 of the number where that is more."""
+    return max(0.5000001 * 10.0 ** -len(printed.partition(".")[2]), 2e-14 * abs(float(printed)))
 
 
 def test_constants():
@@ -96,12 +100,18 @@ def test_form_of_the_gear_standards():
     ("stress", "angle"),
     [(500, "16.0139062546"), (400, "27.9797436171"), (454.1608627, "20.000000")],
 )
-def test_pole_angle(stress, angle):
-    assert math.degrees(pair(stress).pole_crossing().pressure_angle) == exactly(angle)
+def test_pole_angle(validated, stress, angle):
+    found = math.degrees(pair(stress).pole_crossing().pressure_angle)
+    quantity, source = f"pressure angle in the pole at {stress:g} MPa", "independent program"
+    how = {"absolute": True, "page": stress != 400}
+    validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
 
 
-def test_least_stress_in_the_pole():
-    assert pair().least_pole_stress == exactly("364.1190949303")
+def test_least_stress_in_the_pole(validated):
+    found, source = pair().least_pole_stress, "independent program"
+    validated(
+        "least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True
+    )
     assert pair(364.1191).pole_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
     with pytest.raises(GeometryError, match=r"above 364\.119 in the pole.*45 deg.*but is 364"):
         phases(pair(364), tables(364))
@@ -129,10 +139,13 @@ def test_least_stress_under_a_constant_normal_load():
         (8, "11.29535278", "449.84008635", "0.50373226", "-1.01504131"),
     ],
 )
-def test_involute(l, rho, sigma, theta1, theta2):
+def test_involute(validated, l, rho, sigma, theta1, theta2):
     contacts = involute(CIRCLES, math.radians(20), [l]).contacts
     assert 1 / contacts.relative_curvature[0] == exactly(rho)
-    assert pair().contact_stress(contacts)[0] == exactly(sigma)
+    found, within = pair().contact_stress(contacts)[0], half_unit(sigma)
+    quantity, source = f"stress of an involute, l = {l} mm", "independent program"
+    shown = l > 0
+    validated(quantity, found, float(sigma), within, source, "MPa", absolute=True, page=shown)
     assert contacts.pinion_specific_sliding[0] == exactly(theta1)
     assert contacts.wheel_specific_sliding[0] == exactly(theta2)
     assert W1 * contacts.sliding[0] / 1e3 == exactly("1.3962634" if l > 0 else "-1.3962634")
@@ -192,11 +205,14 @@ def measures(contacts):
 
 
 @pytest.mark.parametrize(("x", "y", "stress", "family", "printed"), DUALITY)
-def test_duality(x, y, stress, family, printed):
+def test_duality(validated, x, y, stress, family, printed):
     found = measures(touching(x, y, stress, family))
-    assert {name: float(found[name]) for name in printed} == {
-        name: exactly(text) for name, text in printed.items()
-    }
+    where, source = f"at ({x}, {y}), {stress:.6g} MPa, family {family:+d}", "independent program"
+    for name, text in printed.items():
+        shown = name == "rho1" and (x, stress) == (10, 600)
+        how = {"absolute": True, "page": shown}
+        quantity, unit = f"{name} {where}", "mm" if name.startswith("rho") else ""
+        validated(quantity, float(found[name]), float(text), half_unit(text), source, unit, **how)
 
 
 def test_root_of_the_duality():
@@ -337,11 +353,14 @@ LINE = [
 ]  # fmt: skip
 
 
-def test_line_through_the_pole():
+def test_line_through_the_pole(validated):
     line = through_pole([row[0] for row in LINE])
     straight = involute(CIRCLES, math.radians(20), line.contacts.pole_distance).contacts
     for at, (_, angle, roll, first, second, rho1, rho2, compared) in enumerate(LINE):
-        assert np.degrees(line.contacts.pressure_angle[at]) == exactly(angle)
+        found, source = np.degrees(line.contacts.pressure_angle[at]), "independent program"
+        quantity = f"angle of the line of constant stress, l = {LINE[at][0]} mm"
+        how = {"absolute": True, "page": at in (0, 3)}
+        validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
         assert line.roll_angle[at] == exactly(roll)
         assert tuple(line.pinion_profile[at]) == tuple(exactly(text) for text in first)
         assert tuple(line.wheel_profile[at]) == tuple(exactly(text) for text in second)
@@ -472,7 +491,7 @@ def normal_curvature(first, second, side):
 
 
 @pytest.mark.parametrize("name", LINES)
-def test_stress_from_the_points_of_both_profiles(name):
+def test_stress_from_the_points_of_both_profiles(validated, name):
     line = LINES[name]()
     l, angle = line.contacts.pole_distance, line.contacts.pressure_angle
     normal = np.column_stack([np.cos(angle), np.sin(angle)])
@@ -487,7 +506,9 @@ def test_stress_from_the_points_of_both_profiles(name):
     load = NORMAL["load_per_width_N_per_mm"] if "normal" in name else 240e3 / 4104 / np.cos(angle)
     stress = 191.6456725064184 * np.sqrt(load * (first + second))
     asked = 600.0 if "600" in name else SIGMA
-    assert np.abs(stress[inner] - asked).max() < 0.01
+    quantity, source = f"stress along the line {name!r}", "curvature of the points of both profiles"
+    shown = name == "+1 at 600 MPa"
+    validated(quantity, asked, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize("name", LINES)
@@ -524,10 +545,11 @@ def end_by_angle(start, family=-1):
     return solve_ivp(rate, (start[1], last), start[:1], "LSODA", rtol=1e-10, atol=1e-10).y[0, -1]
 
 
-def test_small_radii_end_before_the_pole():
+def test_small_radii_end_before_the_pole(validated):
     end, angle = Synthesis(CIRCLES, pair().law, -1).end(START, 1e-5)
     assert math.degrees(angle) == pytest.approx(90, abs=0.01)
-    assert end == pytest.approx(end_by_angle(START), abs=1e-6)
+    expected, source = end_by_angle(START), "integration over the angle instead"
+    validated("end of a line of small radii", end, expected, 1e-6, source, "mm", absolute=True)
     assert end == pytest.approx(5.585639, abs=1e-6)
     with pytest.raises(GeometryError, match=r"family -1 .* 5\.58564 mm.*90 deg.*reach 5"):
         segment(-1, 5)

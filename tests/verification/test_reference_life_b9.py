@@ -29,12 +29,19 @@ def test_life_of_the_benchmark(b9: CaseMaker, points: int) -> None:
 
 
 @pytest.mark.parametrize(("points", "rounded"), [(200, 26_114_833.8), (500, 26_114_900.2)])
-def test_life_to_all_published_digits(b9: CaseMaker, points: int, rounded: float) -> None:
+def test_life_to_all_published_digits(
+    validated: Callable[..., None], b9: CaseMaker, points: int, rounded: float
+) -> None:
     result = life(b9, points, 1e-6)
-    assert result.cycles == pytest.approx(rounded * EXACT, rel=1e-8)
+    source = "two independent programs, every cycle"
+    quantity = f"life of an arc, {points} points"
+    shown = points == 500
+    validated(quantity, result.cycles, rounded * EXACT, 1e-8, source, "cycles", page=shown)
 
 
-def test_cycle_by_cycle_updates_converge_on_it(b9: CaseMaker) -> None:
+def test_cycle_by_cycle_updates_converge_on_it(
+    validated: Callable[..., None], b9: CaseMaker
+) -> None:
     """Explicit updates of 1000 and 500 cycles approach the life linearly from one side."""
     per_cycle = "run.method=per_cycle"
     lives = [
@@ -42,4 +49,7 @@ def test_cycle_by_cycle_updates_converge_on_it(b9: CaseMaker) -> None:
         for cycles in (1000, 500)
     ]
     extrapolated = 2.0 * lives[1] - lives[0]
-    assert extrapolated == pytest.approx(26_114_833.8 * EXACT, rel=1e-7)
+    validated(
+        "life of an arc, 200 points, cycle by cycle, extrapolated",
+        *(extrapolated, 26_114_833.8 * EXACT, 1e-7, "two independent programs", "cycles"),
+    )

@@ -32,13 +32,20 @@ def last_flank(result: wearsim.WearResult) -> shapely.LineString:
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 @pytest.mark.parametrize("nodes", [101, 201, 401])
 @pytest.mark.parametrize("exponent", LIVES)
-def test_life_and_pressure(reference: CaseMaker, exponent: float, nodes: int, method: str) -> None:
+def test_life_and_pressure(
+    validated: Callable[..., None], reference: CaseMaker, exponent: float, nodes: int, method: str
+) -> None:
     result = wearsim.simulate(
         reference(exponent, f"sprocket.nodes={nodes}", f"run.method={method}")
     )
-    assert result.cycles == pytest.approx(LIVES[exponent], rel=5e-4)
+    shown = (nodes, method) == (401, "advance")
+    within, source = 5e-4, "two independent programs, every cycle"
+    quantity = f"life of the reference run, m = {exponent:g}"
+    validated(quantity, result.cycles, LIVES[exponent], within, source, "cycles", page=shown)
     assert result.life.hours == pytest.approx(result.cycles / (60 * 100), rel=1e-14)
-    assert result.initial_peak_pressure == pytest.approx(995.0, rel=5e-4)
+    quantity, found = "first peak pressure of the reference run", result.initial_peak_pressure
+    shown = shown and exponent == 1
+    validated(quantity, found, 995.0, within, source, "MPa", page=shown)
     assert result.stop == "critical_depth_mm"
     assert result.max_depth == pytest.approx(0.2, rel=1e-9)
 
@@ -91,10 +98,15 @@ def test_coarse_updates_are_refused_and_the_proposal_runs(
 
 @pytest.mark.parametrize(("exponent", "life"), [(1, 7.9469e4), (2, 1.0408e5)])
 def test_infeasible_offset_4_is_still_a_valid_number(
-    reference_mechanism: Callable[..., StrandMechanism], exponent: float, life: float
+    validated: Callable[..., None],
+    reference_mechanism: Callable[..., StrandMechanism],
+    exponent: float,
+    life: float,
 ) -> None:
     """At h = 4.0 the leaving roller cuts the flank, so only the engine can be asked."""
     mechanism = reference_mechanism(nodes=401, offset=4.0)
     law = power({1: 1e-8, 2: 1e-11}[exponent], exponent)
     run, _ = run_advance(mechanism.contact, law, (depth_criterion(0.2),), 1e9, 1e-4)
-    assert run.cycles[-1] == pytest.approx(life, rel=5e-4)
+    quantity = f"life with an offset of 4 mm, m = {exponent:g}"
+    source, shown = "two independent programs", exponent == 1
+    validated(quantity, run.cycles[-1], life, 5e-4, source, "cycles", page=shown)

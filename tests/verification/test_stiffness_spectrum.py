@@ -51,12 +51,13 @@ def test_contact_ratio():
     assert contact_ratio(20, 30, math.radians(20.0)) == pytest.approx(RATIO, abs=2e-15)
 
 
-def test_contact_ratio_is_the_path_between_the_tip_circles_over_the_base_pitch():
+def test_contact_ratio_is_the_path_between_the_tip_circles_over_the_base_pitch(validated):
     """z = 20 and 30, m = 3 mm: tips at 33 and 48 mm, base circles and axes by hand."""
     cosine, sine = math.cos(math.radians(20.0)), math.sin(math.radians(20.0))
     path = math.sqrt(33.0**2 - (30.0 * cosine) ** 2) + math.sqrt(48.0**2 - (45.0 * cosine) ** 2)
     wanted = (path - 75.0 * sine) / (math.pi * 3.0 * cosine)
-    assert contact_ratio(20, 30, math.radians(20.0)) == pytest.approx(wanted, rel=1e-14)
+    quantity, found = "contact ratio, 20 and 30 teeth", contact_ratio(20, 30, math.radians(20.0))
+    validated(quantity, found, wanted, 1e-14, "path between the tip circles by hand")
 
 
 @pytest.mark.parametrize(
@@ -66,12 +67,13 @@ def test_contact_ratio_is_the_path_between_the_tip_circles_over_the_base_pitch()
         ("pairs", RATIO, 1.0, (-0.3010912375, -0.0976862676, 0.0581058710)),
     ],
 )  # fmt: skip
-def test_without_errors_it_is_the_closed_form(model, mean, factor, lines):
+def test_without_errors_it_is_the_closed_form(validated, model, mean, factor, lines):
     """S_l = 3 eps sinc(pi l eps) of the double sum, whose mean is 3 eps - 2; a third for pairs."""
     contacts = contact_number(PERFECT, model)
     found = contacts.coefficients([60, 120, 180])
     exact = [factor * RATIO * sinc(math.pi * l * RATIO) for l in (1, 2, 3)]
-    assert contacts.mean == pytest.approx(mean, abs=1e-13)
+    quantity = f"mean number of contacts without errors, {model}"
+    validated(quantity, contacts.mean, mean, 1e-13, "closed form", absolute=True)
     assert contacts.mean == pytest.approx(RATIO if factor == 1.0 else 3.0 * RATIO - 2.0, abs=1e-13)
     np.testing.assert_allclose(found.real, lines, atol=6e-14 if factor == 3.0 else 6e-11)
     np.testing.assert_allclose(found, exact, atol=1e-14)
@@ -104,8 +106,12 @@ def test_mean_of_the_double_sum_on_either_side_of_two(angle, counts):
          (1.5749813519, 0.3066440949, 0.0156401751, 0.0146913507, 0.0205507730, 0.0205006063)),
     ],
 )  # fmt: skip
-def test_reference_lines(pair, model, harmonics, reference):
-    np.testing.assert_allclose(magnitudes(pair, model, harmonics), reference, atol=6e-11)
+def test_reference_lines(validated, pair, model, harmonics, reference):
+    size = "fine" if pair is FINE else "coarse"
+    lines = {MESH: "tooth lines", SIDES: "sidebands"}.get(harmonics, "lines")
+    quantity, found = f"{lines} of {size} errors, {model}", magnitudes(pair, model, harmonics)
+    how = {"absolute": True, "page": pair is COARSE and lines != "lines"}
+    validated(quantity, found, reference, 6e-11, "independent program", **how)
 
 
 def near(x, centre, half):
@@ -159,9 +165,10 @@ def test_edges_give_what_sampling_the_definition_gives(name, model):
          (0.00179683122, 0.0234244287, 0.0826706528, 0.0462603749, 0.0115773832)),
     ],
 )  # fmt: skip
-def test_reference_coefficients_of_one_wheel(harmonics, reference):
+def test_reference_coefficients_of_one_wheel(validated, harmonics, reference):
     found = bessel_coefficients(Wheel(20, 0.02), RATIO, 60)[np.array(harmonics) + 60]
-    np.testing.assert_allclose(np.abs(found), reference, rtol=3e-9)
+    quantity, source = f"lines of one wheel from {harmonics[0]} on", "independent program"
+    validated(quantity, np.abs(found), reference, 3e-9, source, page=len(harmonics) == 3)
 
 
 @pytest.mark.parametrize(

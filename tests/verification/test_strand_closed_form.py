@@ -29,8 +29,8 @@ def engagement(mechanism: StrandMechanism) -> Engagement:
     )
 
 
-def errors(mechanism: StrandMechanism, nodes: int) -> dict[str, float]:
-    """Largest relative error at inner nodes that carry the whole pull."""
+def compared(mechanism: StrandMechanism, nodes: int) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Found and expected values at inner nodes that carry the whole pull."""
     x = np.linspace(4.0, 30.67, nodes)
     inner = (x > 5.5) & (x < 29.0)
     l = np.sqrt(x**2 + h**2)
@@ -43,22 +43,39 @@ def errors(mechanism: StrandMechanism, nodes: int) -> dict[str, float]:
         "relative curvature": (found.relative_curvature, 1.0 / r - 1.0 / rho),
     }
     return {
-        name: float(np.abs(value / expected - 1.0)[inner].max())
+        name: (np.asarray(value)[inner], np.asarray(expected)[inner])
         for name, (value, expected) in pairs.items()
     }
 
 
-def test_evolute_flank_converges_to_the_closed_form(reference_mechanism: MechanismMaker) -> None:
+def errors(mechanism: StrandMechanism, nodes: int) -> dict[str, float]:
+    """Largest relative error of each."""
+    return {
+        name: float(np.abs(value / expected - 1.0).max())
+        for name, (value, expected) in compared(mechanism, nodes).items()
+    }
+
+
+UNITS = {"load": "N/mm", "slip": "", "sliding speed": "mm/s", "relative curvature": "1/mm"}
+
+
+def test_evolute_flank_converges_to_the_closed_form(
+    validated: Callable[..., None], reference_mechanism: MechanismMaker
+) -> None:
     grids = (101, 201, 401)
+    for name, (value, expected) in compared(reference_mechanism(nodes=401), 401).items():
+        quantity = f"{name} of a general flank on the evolute one"
+        shown = name != "sliding speed"
+        validated(quantity, value, expected, 4e-5, "its closed form", UNITS[name], page=shown)
     found = [errors(reference_mechanism(nodes=nodes), nodes) for nodes in grids]
     for name in found[0]:
         coarse, middle, fine = (error[name] for error in found)
-        assert fine < 4e-5, name
         assert np.log2(coarse / middle) >= 1.9, name
         assert np.log2(middle / fine) >= 1.9, name
 
 
 def test_slip_ratio_is_sliding_speed_over_contact_speed_on_any_flank(
+    validated: Callable[..., None],
     reference_mechanism: MechanismMaker,
 ) -> None:
     """A circular flank of radius 20 mm: the ratio by differences of arc length over turn."""
@@ -82,7 +99,8 @@ def test_slip_ratio_is_sliding_speed_over_contact_speed_on_any_flank(
     loaded = found.load_per_width > 0.0
     loaded[:2] = loaded[-2:] = False
     assert loaded.sum() > 500
-    np.testing.assert_allclose(found.slip[loaded], (sliding / contact_speed)[loaded], rtol=1e-5)
+    expected, source = (sliding / contact_speed)[loaded], "rigid-body kinematics by differences"
+    validated("slip ratio on a circular flank", found.slip[loaded], expected, 1e-5, source)
     np.testing.assert_allclose(found.sliding_speed[loaded], OMEGA * sliding[loaded], rtol=1e-6)
     share = load_share(before_pole, 4.0, 30.67, 25.4)
     np.testing.assert_allclose(
@@ -132,11 +150,13 @@ def test_roller_slip_fraction_scales_the_sliding_only(
     np.testing.assert_array_equal(part.relative_curvature, full.relative_curvature)
 
 
-def test_contact_ratio_of_the_unworn_flank(reference_mechanism: MechanismMaker) -> None:
+def test_contact_ratio_of_the_unworn_flank(
+    validated: Callable[..., None], reference_mechanism: MechanismMaker
+) -> None:
     mechanism = reference_mechanism(nodes=801)
     profile = mechanism.profile
     ratio = mechanism.worn_contact_ratio(np.array(profile.x), np.array(profile.y))
-    assert ratio == pytest.approx((30.67 - 4.0) / 25.4, rel=1e-5)
+    validated("contact ratio of the strand", ratio, (30.67 - 4.0) / 25.4, 1e-5, "path over pitch")
 
 
 def test_points_the_strand_does_not_reach_carry_no_load(

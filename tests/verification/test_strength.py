@@ -27,6 +27,9 @@ CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-improved", "b-ca
 STEEL = 2.1e5 / (2.0 * (1.0 - 0.3**2))
 
 
+SOURCE = "source 001 by an independent program"
+
+
 def near(value):
     return pytest.approx(value, rel=1e-9)
 
@@ -46,14 +49,22 @@ class TestExampleA:
         assert both(found, "contact", "equivalent_cycles") == near([1.8e7, 4.5e6])
         assert both(found, "bending", "equivalent_cycles") == near([1.0296e7, 2.574e6])
 
-    def test_contact_by_gost(self):
+    def test_contact_by_gost(self, validated):
         found = pair("a-improved")
-        assert [gear.contact.curve.base_cycles for gear in found.gears] == near(
-            [23473395.97129, 18322579.50387]
-        )
+        base = [gear.contact.curve.base_cycles for gear in found.gears]
+        expected = [23473395.97129, 18322579.50387]
+        validated("base cycles, example A", base, expected, 1e-9, SOURCE, "cycles")
         assert both(found, "contact", "endurance_limit") == near([641.0, 585.0])
-        assert both(found, "contact", "factor") == near([1.045242925093, 1.263656445324])
-        assert both(found, "contact", "allowable") == near([609.0915590772, 672.0354731951])
+        factor, expected = both(found, "contact", "factor"), [1.045242925093, 1.263656445324]
+        validated("life factor of contact, example A", factor, expected, 1e-9, SOURCE)
+        for gear, stress, expected in zip(
+            ("pinion", "wheel"),
+            both(found, "contact", "allowable"),
+            (609.0915590772, 672.0354731951),
+            strict=True,
+        ):
+            quantity = f"allowable contact stress, {gear} of example A"
+            validated(quantity, stress, expected, 1e-9, SOURCE, "MPa")
         assert found.contact_governs.name == "pinion"
 
     def test_contact_as_the_source_reads(self):
@@ -63,12 +74,14 @@ class TestExampleA:
         assert both(found, "contact", "factor") == near([1.0, 1.142346655087])
         assert both(found, "contact", "allowable") == near([582.7272727273, 607.5207211147])
 
-    def test_bending(self):
+    def test_bending(self, validated):
         found = pair("a-improved")
         assert both(found, "bending", "endurance_limit") == near([499.625, 450.625])
         assert both(found, "bending", "raw_factor") == near([0.854211164, 1.076238626140])
         assert both(found, "bending", "factor") == near([1.0, 1.076238626140])
-        assert both(found, "bending", "allowable") == near([293.8970588235, 285.2823711202])
+        stress, expected = both(found, "bending", "allowable"), [293.8970588235, 285.2823711202]
+        quantity = "allowable bending stress, example A"
+        validated(quantity, stress, expected, 1e-9, SOURCE, "MPa")
         assert both(found, "bending", "greatest") == near([1370.4, 1236.0])
 
     def test_printed_overload_without_its_safety(self):
@@ -98,21 +111,27 @@ class TestExampleB:
         )
 
     @pytest.mark.parametrize("reading", ["gost", "source"])
-    def test_contact(self, reading):
+    def test_contact(self, validated, reading):
         found = pair("b-carburised", f"fatigue.base_cycles={reading}")
         uncapped = 30.0 * 595.0**2.4
         assert uncapped == near(136760907.027643)
         assert [gear.contact.curve.base_cycles for gear in found.gears] == [1.2e8, 1.2e8]
         assert both(found, "contact", "raw_factor") == near([0.974741013, 1.180160293455])
         assert both(found, "contact", "endurance_limit") == near([1368.5, 1368.5])
-        assert both(found, "contact", "allowable") == near([1140.4166666667, 1345.8744679941])
+        stress, expected = both(found, "contact", "allowable"), [1140.4166666667, 1345.8744679941]
+        quantity, shown = "allowable contact stress, example B", reading == "gost"
+        validated(quantity, stress, expected, 1e-9, SOURCE, "MPa", page=shown)
         assert found.contact_governs.name == "pinion"
         assert both(found, "contact", "greatest") == near([2618.0, 2618.0])
 
-    def test_bending(self):
+    def test_bending(self, validated):
         found = pair("b-carburised")
         assert both(found, "bending", "factor") == [1.0, 1.0]
-        assert both(found, "bending", "allowable") == near([455.8823529412] * 2)
+        quantity, stress = (
+            "allowable bending stress, example B",
+            both(found, "bending", "allowable"),
+        )
+        validated(quantity, stress, 455.8823529412, 1e-9, SOURCE, "MPa")
         assert both(found, "bending", "greatest") == near([1328.5714285714] * 2)
         printed = pair("b-carburised", "overload.static_safety=1")
         assert both(printed, "bending", "greatest") == near([2325.0] * 2)
@@ -127,12 +146,13 @@ class TestLoad:
         "load.pinion_teeth=36", "load.face_width_mm=76",
     )  # fmt: skip
 
-    def test_factors(self):
+    def test_factors(self, validated):
         load = pair("a-improved", *self.KEYS).load
         assert load.contact_factor.application == 1.0
         assert load.contact_factor.face == near(1.052)
         assert load.contact_factor.transverse == near(1.0468)
-        assert load.contact_factor.total == near(1.167307616)
+        quantity, found = "load factor of contact, 36 and 54 teeth", load.contact_factor.total
+        validated(quantity, found, 1.167307616, 1e-9, SOURCE)
         assert load.bending_factor.face == near(1.164)
         assert load.bending_factor.transverse == near(1.18)
         assert load.bending_factor.total == near(1.164 * 1.18 * 1.12)
@@ -142,11 +162,13 @@ class TestLoad:
         assert pair("a-improved", "drive.regime=V").load.contact_factor.application == 1.0
         assert pair("b-carburised").load.contact_factor.application == 1.0
 
-    def test_contact_stress(self):
+    def test_contact_stress(self, validated):
         load = pair("a-improved", *self.KEYS).load
         assert load.mesh.tangential_force == near(4444.444444444)
-        assert load.printed_contact_stress == near(475.6585130901)
-        assert load.corrected_contact_stress == near(490.6845296400)
+        quantity, found = "contact stress as printed", load.printed_contact_stress
+        validated(quantity, found, 475.6585130901, 1e-9, SOURCE, "MPa")
+        quantity, found = "contact stress of the normal force", load.corrected_contact_stress
+        validated(quantity, found, 490.6845296400, 1e-9, SOURCE, "MPa")
         assert load.contact_stress == load.corrected_contact_stress
         printed = pair("a-improved", *self.KEYS, "load.formula=printed").load
         assert printed.contact_stress == printed.printed_contact_stress
@@ -208,9 +230,10 @@ class TestSpectrum:
         assert tuple(found.equivalence(k) for k in (3, 6, 9)) == PUBLISHED[name]
 
     @pytest.mark.parametrize("k", [3, 6, 9])
-    def test_regime_ii_is_the_integral_over_all_torques(self, k):
+    def test_regime_ii_is_the_integral_over_all_torques(self, validated, k):
         exact = quad(lambda x: x**k, 0.0, 1.0)[0]
-        assert regime_spectrum("II").equivalence(k) == pytest.approx(exact, abs=5e-4)
+        quantity, found = f"mean of x^{k} in the regime II", regime_spectrum("II").equivalence(k)
+        validated(quantity, found, exact, 5e-4, "integral", absolute=True, page=k == 6)
 
     @pytest.mark.parametrize("name", ["I", "II", "III", "IV", "V"])
     def test_an_exponent_without_a_table_is_summed_over_the_blocks(self, name):
@@ -329,12 +352,13 @@ class TestLife:
     @pytest.mark.parametrize(
         ("stress", "reading"), [(600, "constant"), (900, "constant"), (550, "gost"), (500, "gost")]
     )
-    def test_of_a_stress_on_the_curve(self, stress, reading):
+    def test_of_a_stress_on_the_curve(self, validated, stress, reading):
         endured = pair("a-improved", f"fatigue.long_life={reading}").gears[0].contact
         miss = lambda exponent: endured.allowable_at(10.0**exponent) - stress  # noqa: E731
         expected = 10.0 ** brentq(miss, 0.0, 8.0, xtol=1e-14)
         found = endured.life(stress)
-        assert found.hours == pytest.approx(expected, rel=1e-9)
+        quantity, source = f"life at {stress} MPa", "bisection of the allowable stress"
+        validated(quantity, found.hours, expected, 1e-9, source, "h", page=stress == 600)
         assert not found.bound
 
     def test_closed_form(self):

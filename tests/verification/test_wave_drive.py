@@ -72,12 +72,16 @@ def bending(endurance, concentration, form, thickness, **more):
         ("generator_bearing", {"bearing_constant": 1}, 77.688723),
     ],
 )
-def test_diameters_to_a_nanometre(method, own, expected):
-    assert diameter(method, **own) == pytest.approx(expected, abs=1e-6)
+def test_diameters_to_a_nanometre(validated, method, own, expected):
+    shown = expected in (113.881355, 156.291223)
+    quantity, found = f"flexspline by {method}", diameter(method, **own)
+    source, how = "formula by an independent program", {"absolute": True, "page": shown}
+    validated(quantity, found, expected, 1e-6, source, "mm", **how)
 
 
-def test_bending_of_the_rim_to_a_nanometre():
-    assert bending(400, 1.8, 1.4, 0.013) == pytest.approx(205.962461, abs=1e-6)
+def test_bending_of_the_rim_to_a_nanometre(validated):
+    found, source = bending(400, 1.8, 1.4, 0.013), "formula by an independent program"
+    validated("flexspline by rim_bending", found, 205.962461, 1e-6, source, "mm", absolute=True)
 
 
 @pytest.mark.parametrize(
@@ -124,8 +128,11 @@ def test_three_sets_of_values_bring_the_bending_of_the_rim_to_207(values, expect
         ("rim_endurance", {"endurance_limit_MPa": 280, "safety_factor": 1.7}),
     ],
 )
-def test_five_of_six_published_diameters_are_reproduced(method, own):
-    assert solved(method, published_diameter_mm=PUBLISHED[method], **own).reproduces
+def test_five_of_six_published_diameters_are_reproduced(validated, method, own):
+    one, printed = solved(method, published_diameter_mm=PUBLISHED[method], **own), PUBLISHED[method]
+    assert one.reproduces
+    quantity, source = f"printed diameter by {method}", "source 004, whole mm"
+    validated(quantity, one.diameter, printed, 0.5, source, "mm", absolute=True)
 
 
 def test_246_mm_is_out_of_reach_of_its_formula():
@@ -246,9 +253,11 @@ def test_rim_endurance_without_speed_is_d0():
 @pytest.mark.parametrize(
     ("target", "needed"), [(198, 280.2655), (207, 248.397)], ids=["198 mm", "207 mm"]
 )
-def test_endurance_limit_for_a_published_diameter(target, needed):
+def test_endurance_limit_for_a_published_diameter(validated, target, needed):
     own = {"endurance_limit_MPa": 280, "safety_factor": 1.7, "published_diameter_mm": target}
-    assert solved("rim_endurance", **own).needed == pytest.approx(needed, abs=1e-3)
+    quantity, source = f"endurance limit that gives {target} mm", "independent program"
+    found = solved("rim_endurance", **own).needed
+    validated(quantity, found, needed, 1e-3, source, "MPa", absolute=True, page=target == 198)
 
 
 @pytest.mark.parametrize(("target", "needed"), [(198, 13.744), (207, 15.567)])

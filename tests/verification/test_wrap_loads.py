@@ -93,13 +93,16 @@ def numbers(text: str) -> list[float]:
 
 
 @pytest.mark.parametrize("elongation", TABLE)
-def test_table_of_ansi_40(elongation: float) -> None:
+def test_table_of_ansi_40(validated: Callable[..., None], elongation: float) -> None:
     """All ten rollers to the printed digits; one tooth more than half of z = 20 is on the strand."""
     tension, force, angle, shift = TABLE[elongation]
     loads = wrap(FORMS["ANSI"](20)).loads(1.0, elongation)
-    assert loads.tension == pytest.approx(numbers(tension), abs=0.6)
-    assert loads.force == pytest.approx(numbers(force), abs=0.6)
-    assert math.degrees(loads.pressure_angle[0]) == pytest.approx(angle, abs=0.06)
+    how = {"absolute": True, "page": elongation in (0.0, 0.03)}
+    name, source = f"ANSI 40, 20 teeth, {100 * elongation:g} %", "table of an independent program"
+    validated(f"tensions, {name}", loads.tension, numbers(tension), 0.6, source, "N", **how)
+    validated(f"tooth forces, {name}", loads.force, numbers(force), 0.6, source, "N", **how)
+    found = math.degrees(loads.pressure_angle[0])
+    validated(f"first pressure angle, {name}", found, angle, 0.06, source, "deg", **how)
     assert loads.radius_shift[0] == pytest.approx(shift, abs=6e-4)
 
 
@@ -120,12 +123,20 @@ def test_last_two_rollers_of_the_table_touch_the_opposite_flank() -> None:
     ],
 )
 def test_table_of_08b(
-    form: str, elongation: float, tension: str, force: float, angle: float
+    validated: Callable[..., None],
+    form: str,
+    elongation: float,
+    tension: str,
+    force: float,
+    angle: float,
 ) -> None:
     loads = wrap(FORMS[form](17)).loads(1.0, elongation)
     expected = numbers(tension)
     assert loads.tension[: len(expected)] == pytest.approx(expected, abs=1.0)
-    assert loads.force[0] == pytest.approx(force, abs=1.0)
+    name, source = f"08B, {form}, {100 * elongation:g} %", "table of an independent program"
+    first = loads.force[0]
+    how = {"absolute": True, "page": elongation == 0.0}
+    validated(f"first tooth force, {name}", first, force, 1.0, source, "N", **how)
     assert math.degrees(loads.pressure_angle[0]) == pytest.approx(angle, abs=0.06)
     assert loads.force.size == 9
     if (form, elongation) == ("ISO min", 0.03):
@@ -312,7 +323,7 @@ class Potential:
     ],
 )
 def test_independent_minimum_on_exact_arcs(
-    form: str, teeth: int, elongation: float, phase: float
+    validated: Callable[..., None], form: str, teeth: int, elongation: float, phase: float
 ) -> None:
     """Another minimiser from another start on arcs and lines: the same forces to 0.1 % of T_t."""
     gap = FORMS[form](teeth)
@@ -323,7 +334,10 @@ def test_independent_minimum_on_exact_arcs(
     places, _ = potential.place(found.x)
     _, force, tension = potential.forces(places)
     assert loads.tension[1:] == pytest.approx(tension, abs=1.0)
-    assert loads.force == pytest.approx(np.hypot(*force.T), abs=1.0)
+    name, source = f"{form}, {teeth} teeth, {100 * elongation:g} %", "minimum on exact arcs"
+    expected = np.hypot(*force.T)
+    how = {"absolute": True, "page": phase == 1.0}
+    validated(f"tooth forces, {name}", loads.force, expected, 1.0, source, "N", **how)
     assert loads.centre == pytest.approx(places, abs=2e-4)
     assert potential.forces(loads.centre)[0] == pytest.approx(found.fun, abs=5e-3)
     random = np.random.default_rng(3)
@@ -351,14 +365,21 @@ RATIOS = {
 
 
 @pytest.mark.parametrize(("teeth", "friction"), RATIOS)
-def test_driver_differs_from_driven_by_friction(teeth: int, friction: float) -> None:
+def test_driver_differs_from_driven_by_friction(
+    validated: Callable[..., None], teeth: int, friction: float
+) -> None:
     """Fact 2: sin(phi +- delta)/sin(phi +- delta + alpha), printed for phi = 35 - 120/z degrees."""
     for driver, printed in zip((True, False), RATIOS[teeth, friction], strict=True):
         mechanism = wrap(
             FORMS["ANSI"](teeth), slack=100.0, driver=driver, friction=(friction, 10.0)
         )
         tension = mechanism.loads(1.0).tension
-        assert tension[1] / tension[0] == pytest.approx(printed, rel=0.015)
+        which = "driver" if driver else "driven"
+        validated(
+            f"tension ratio of the first links, {which}, friction {friction:g}",
+            *(tension[1] / tension[0], printed, 0.015, "Naji & Marshek, fact 2"),
+            page=(teeth, friction) == (20, 0.1),
+        )
         delta = math.atan(friction) * (1.0 if driver else -1.0)
         angle = math.radians(35.0 - 120.0 / teeth) + delta
         assert progression(angle, 2.0 * math.pi / teeth) == pytest.approx(printed, abs=1e-4)
@@ -405,12 +426,13 @@ def test_rollers_climb_freely(form: str, teeth: int, elongation: float) -> None:
     assert shifts[1] > climb > shifts[0] or shifts[0] > climb > shifts[1]
 
 
-def test_alternating_pitches_load_teeth_in_turn() -> None:
+def test_alternating_pitches_load_teeth_in_turn(validated: Callable[..., None]) -> None:
     """At 3 %: 413 or 622 N on the first tooth, 540 N where all links are alike."""
     gap = FORMS["ANSI"](20)
     both = wrap(gap, alternating=True)
     forces = [both.loads(1.0, 0.03, first).force[0] for first in (0, 1)]
-    assert forces == pytest.approx([413.0, 622.0], abs=0.6)
+    name, source = "first tooth force, links in turn, 3 %", "table of an independent program"
+    validated(name, forces, [413.0, 622.0], 0.6, source, "N", absolute=True)
     assert wrap(gap).loads(1.0, 0.03).force[0] == pytest.approx(540.0, abs=0.6)
 
 

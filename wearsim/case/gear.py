@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
+from wearsim.case.fatigue import resolve_fatigue
 from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.messages import Faults
-from wearsim.case.model import Case, GearDrive, GearSide
+from wearsim.case.model import Case, GearDrive
 from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearFatigueTable, GearTables
+from wearsim.case.schema.gear import GearTables
 from wearsim.case.shared import (
     FLANK_NODES,
     TOLERANCE,
@@ -70,6 +71,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
     if limit is None:
         limit = tables.stop.critical_depth_mm
         case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
+    fatigue = resolve_fatigue(case, tables.fatigue)
     return Case(
         name=name,
         title=tables.title or name,
@@ -82,8 +84,6 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
             stiffness=stiffness,
             wheel_wear_ratio=tables.wear.wheel_wear_ratio,
             points=nodes,
-            load_factor=tables.fatigue.load_factor if tables.fatigue else 1.0,
-            materials=_materials(case, tables.fatigue),
         ),
         modulus=modulus,
         speed_rpm=tables.load.speed_rpm,
@@ -94,27 +94,10 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
         min_tip_land=0.0,
         more_limits={"wheel_critical_depth_mm": limit},
         run=run,
+        fatigue=fatigue,
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )
-
-
-def _materials(case: Record, table: GearFatigueTable | None) -> tuple[GearSide, GearSide] | None:
-    if table is None:
-        return None
-    if "load_factor" not in table.model_fields_set:
-        case.assumptions.append("fatigue.load_factor = 1 (default)")
-    pinion, wheel = (
-        GearSide(
-            side.treatment,
-            side.hardness_HB or side.hardness_HRC or 0.0,
-            "HB" if side.hardness_HB else "HRC",
-            side.contact_limit_MPa,
-            side.contact_safety,
-        )
-        for side in (table.pinion, table.wheel)
-    )
-    return pinion, wheel
 
 
 def _stiffness(case: Record, tables: GearTables) -> float:

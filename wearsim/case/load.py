@@ -90,10 +90,11 @@ def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
 def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
     sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
-    if "duty" in wrong:
-        sound.pop("duty", None)
+    whole = {"duty", "fatigue"} & wrong
+    for name in whole:
+        sound.pop(name, None)
     for entry in error.errors():
-        if entry["loc"][0] == "duty":
+        if entry["loc"][0] in whole:
             continue
         *tables, last = entry["loc"]
         conflicting = [name for name, _ in entry.get("ctx", {}).get("faults", ())]

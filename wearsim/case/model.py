@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from wearsim.case.fatigue import FatigueInput
 from wearsim.case.tables import PrescribedTable
 from wearsim.catalogue.tables import Chain
 from wearsim.geometry.drive_layout import DriveLayout
@@ -314,29 +315,6 @@ class WrapDrive:
         return tip_land(x, y, self.gaps)
 
 
-@dataclass(frozen=True)
-class GearSide:
-    """Material of a pinion or wheel against contact fatigue.
-
-    Attributes
-    ----------
-    treatment : str
-        Heat treatment.
-    hardness : float
-        Of the flank.
-    scale : str
-        ``HB`` or ``HRC``.
-    contact_limit, contact_safety : float or None
-        sigma_Hlim [MPa] and S_H; None for those of the treatment.
-    """
-
-    treatment: str
-    hardness: float
-    scale: str
-    contact_limit: float | None
-    contact_safety: float | None
-
-
 @dataclass(frozen=True, eq=False)
 class GearDrive:
     """A pinion and a wheel.
@@ -355,10 +333,6 @@ class GearDrive:
         Wear coefficient of the wheel over that of the pinion.
     points : int
         Of the flank.
-    load_factor : float
-        K_H on the load, for contact fatigue only.
-    materials : tuple of GearSide or None
-        Of pinion and wheel; None where contact fatigue is not asked for.
     """
 
     pair: ToothPair
@@ -367,8 +341,6 @@ class GearDrive:
     stiffness: float
     wheel_wear_ratio: float
     points: int
-    load_factor: float = 1.0
-    materials: tuple[GearSide, GearSide] | None = None
 
     @property
     def pole_load(self) -> float:
@@ -481,6 +453,8 @@ class Case:
         Further limits of the worn tooth by their keys.
     run : RunInput
         How the life is calculated.
+    fatigue : FatigueInput or None
+        None where contact fatigue is not asked for.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
     """
@@ -499,6 +473,7 @@ class Case:
     min_tip_land: float
     more_limits: Mapping[str, float]
     run: RunInput
+    fatigue: FatigueInput | None
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from wearsim.case.drive import resolve_prescribed, resolve_strand
 from wearsim.case.duty import resolve_duty
+from wearsim.case.fatigue import resolve_fatigue
 from wearsim.case.kind import mechanism_kind
 from wearsim.case.messages import Faults
 from wearsim.case.model import (
@@ -72,6 +73,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     more_limits = _more_limits(case, drive)
     run = run_input(case, tables.run, WRAP_TOLERANCE if kind == "wrap" else TOLERANCE)
+    fatigue = resolve_fatigue(case, tables.fatigue)
     faults.check()
     assert drive is not None and duty is not None
     return Case(
@@ -89,6 +91,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         min_tip_land=tables.stop.min_tip_land_mm or 0.0,
         more_limits=more_limits,
         run=run,
+        fatigue=fatigue,
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )

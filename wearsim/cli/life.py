@@ -160,10 +160,11 @@ def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> 
     from wearsim.result import Life
 
     missed = False
-    if require_hours is not None and isinstance(result.life, Life):
-        missed = result.life.hours < require_hours
-        if missed:
-            warn(f"{result.case}: life {result.life.hours:.6g} h is below {require_hours:g} h")
+    for name, life in {"": result.life, **result.fatigue}.items():
+        if require_hours is not None and isinstance(life, Life) and life.hours < require_hours:
+            what = f"{name.replace('_', ' ')} life".lstrip()
+            warn(f"{result.case}: {what} {life.hours:.6g} h is below {require_hours:g} h")
+            missed = True
     if strict and result.warnings:
         warn(f"{result.case}: {len(result.warnings)} warning(s) and --strict")
         missed = True

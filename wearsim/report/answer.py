@@ -80,6 +80,7 @@ def answer(result: WearResult, source: str) -> str:
         ("Life", _life(result)),
         ("With the wear coefficient at its low / high end:", _band(result)),
         *_service(result),
+        *_governing(result),
         *_parts(result),
         ("Worn most", _worst(result)),
         ("Removed", _removed(result)),
@@ -98,6 +99,32 @@ def _removed(result: WearResult) -> str:
     )
 
 
+def _governing(result: WearResult) -> list[tuple[str, str]]:
+    """Which of wear and contact fatigue comes first, and the others."""
+    if not result.fatigue:
+        return []
+    lives = {
+        "wear": hours(result.life),
+        **{
+            f"contact fatigue of the {name.removesuffix('_fatigue')}": _endured(life)
+            for name, life in result.fatigue.items()
+        },
+    }
+    names = dict(zip(("wear", *result.fatigue), lives, strict=True))
+    if result.governing is None:
+        known = ", ".join(f"{name} {life}" for name, life in lives.items())
+        return [("Governs", f"nothing within {grouped(result.life.hours_run)} h: {known}")]
+    first = names[result.governing]
+    others = ", ".join(f"{name} {life}" for name, life in lives.items() if name != first)
+    return [("Governs", f"{first}, {lives[first]} ({others})")]
+
+
+def _endured(life: Life | LowerBound) -> str:
+    if isinstance(life, LowerBound):
+        return "never"
+    return hours(life) if life.hours > 0.0 else "from the start"
+
+
 def _parts(result: WearResult) -> list[tuple[str, str]]:
     """Lives of chain and sprocket, and how far every limit is used when the life ends."""
     if len(result.limits) < 2:
@@ -107,13 +134,9 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
         for state in result.limits
     )
     limits = [("Limits", f"at the end of the life {used}")]
-    if not result.parts:
-        return limits
-    lives = ", ".join(
-        f"{name.replace('_', ' ')} {hours(life)}" for name, life in result.parts.items()
-    )
     if "chain" not in result.parts:
-        return [("Beside", f"contact fatigue (pitting): {lives}"), *limits]
+        return limits
+    lives = ", ".join(f"{name} {hours(result.parts[name])}" for name in ("chain", "sprocket"))
     chains = int(result.history_columns["chain"][-1])
     more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
     return [("Of which", f"{lives}{more}"), *limits]

@@ -138,14 +138,9 @@ def _warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:
 def _input_warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:
     found = []
     for gear, table in zip(pair.gears, (tables.pinion, tables.wheel), strict=True):
-        least, greatest = gear.treatment.hardness_range
-        scale = gear.treatment.scale
-        if not least <= gear.hardness <= greatest:
-            span = f"{least:g} to {greatest:g}" if least > 0.0 else f"at most {greatest:g}"
-            found.append(
-                f"{gear.name}.hardness_{scale}: table 2.3 holds for {span} {scale} where it is "
-                f"{gear.treatment.name}, it is {gear.hardness:g}"
-            )
+        outside = gear.treatment.outside(gear.hardness)
+        if outside:
+            found.append(f"{gear.name}.hardness_{gear.treatment.scale}: {outside}")
         if not 1.4 <= table.bending_safety <= 2.2:
             found.append(
                 f"{gear.name}.bending_safety: the source takes 1.4 to 2.2, it is {table.bending_safety:g}"

@@ -1,5 +1,6 @@
 """A life, or what is known of one that was not reached."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from wearsim.errors import LimitNotReachedError
@@ -100,6 +101,39 @@ def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | Lowe
     """
     hours = cycles / cycles_per_hour
     return Life(cycles, hours) if reached else LowerBound(cycles, hours)
+
+
+def first_life(wear: Life | LowerBound, fatigue: Mapping[str, Life | LowerBound]) -> str | None:
+    """Return which of the lives by wear and by contact fatigue ends first.
+
+    Parameters
+    ----------
+    wear : Life or LowerBound
+        Life by wear.
+    fatigue : mapping of str to Life or LowerBound
+        Lives by contact fatigue; a bound is a stress that is always endured.
+
+    Returns
+    -------
+    str or None
+        ``wear`` or a name of `fatigue`; None where no life ends, or where the run ended before
+        the first life by fatigue without a limit of wear.
+
+    Examples
+    --------
+    >>> first_life(Life(12000.0, 2.0), {"sprocket_fatigue": Life(9000.0, 1.5)})
+    'sprocket_fatigue'
+    >>> first_life(LowerBound(6000.0, 1.0), {"sprocket_fatigue": Life(9000.0, 1.5)})
+    """
+    reached = {
+        name: life.hours
+        for name, life in {"wear": wear, **fatigue}.items()
+        if isinstance(life, Life)
+    }
+    first = min(reached, key=lambda name: reached[name], default=None)
+    if first is None or reached[first] > wear.hours_run:
+        return None
+    return first
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import wearsim
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
-from wearsim.result.life import Life, LimitState, LowerBound
+from wearsim.result.life import Life, LimitState, LowerBound, first_life
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,8 +62,8 @@ class WearResult:
         What was asked for.
     parts : mapping
         Lives of ``chain`` and ``sprocket`` on a wrap, with chains replaced at their limit;
-        ``pinion_fatigue`` and ``wheel_fatigue`` of gears whose materials are given: hours until
-        pitting, which ``life`` leaves out; empty otherwise.
+        ``sprocket_fatigue``, or ``pinion_fatigue`` and ``wheel_fatigue`` of gears, where their
+        materials are given: hours until pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
         Every limit and what its quantity has come to at the end of the life.
     assumptions, warnings : tuple of str
@@ -114,6 +114,16 @@ class WearResult:
         """Loading cycles to the first limit; raises where it was not reached."""
         return self.life.cycles
 
+    @property
+    def fatigue(self) -> dict[str, Life | LowerBound]:
+        """Lives of `parts` by contact fatigue; empty where it was not asked for."""
+        return {name: life for name, life in self.parts.items() if name.endswith("_fatigue")}
+
+    @property
+    def governing(self) -> str | None:
+        """``wear`` or the name of a life by contact fatigue, as `first_life` gives it."""
+        return first_life(self.life, self.fatigue)
+
     @cached_property
     def history(self) -> pd.DataFrame:
         """The run over time, a row for every snapshot."""
@@ -152,6 +162,7 @@ class WearResult:
             "stop": self.stop,
             "stop_value": self.stop_value,
             **{f"{name}_life_hours": _hours(life) for name, life in self.parts.items()},
+            **self._governing_life(),
             "limits": [asdict(state) for state in self.limits],
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
@@ -166,6 +177,16 @@ class WearResult:
             "life_tolerance": self.life_tolerance,
             "assumptions": list(self.assumptions),
             "warnings": list(self.warnings),
+        }
+
+    def _governing_life(self) -> dict[str, Any]:
+        if not self.fatigue:
+            return {}
+        name = self.governing
+        lives = {"wear": self.life, **self.fatigue}
+        return {
+            "governing_life": name,
+            "governing_life_hours": lives[name].hours if name is not None else None,
         }
 
     def save(self, folder: str | Path, force: bool = False) -> None:

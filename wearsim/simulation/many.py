@@ -91,7 +91,8 @@ def simulate_many(
     Cases on a strand or under a table of loads whose only limit is the critical depth run
     in compiled batches on all threads; of those that differ only in the wear coefficient
     one runs, as their lives times coefficient are the same. All others run one by one.
-    Neither cases nor results are kept: memory does not grow with their number.
+    Contact fatigue is not part of it. Neither cases nor results are kept: memory does not grow
+    with their number.
 
     Parameters
     ----------

@@ -50,7 +50,8 @@ def simulate_points(case: Case) -> WearResult:
     low, high = _band(case, asked, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
-    fatigue = _fatigue(case, _life(case, run), warnings)
+    peaks = history["peak_pressure_MPa"].tolist()
+    fatigue = _fatigue(case, _life(case, run), peaks[0], warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -67,8 +68,8 @@ def simulate_points(case: Case) -> WearResult:
         max_depth_arc_length=float(mechanism.contact.arc_length[deepest]),
         removed_area=area_between(run.x[0], run.y[0], run.x[-1], run.y[-1]),
         worn_area=area_swept(run.x, run.y, run.depth),
-        initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
-        final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
+        initial_peak_pressure=peaks[0],
+        final_peak_pressure=peaks[-1],
         speed_rpm=case.speed_rpm,
         method=case.run.method,
         updates=run.updates,
@@ -286,29 +287,17 @@ def _band(
 
 
 def _fatigue(
-    case: Case, wear: Life | LowerBound, warnings: list[str]
+    case: Case, life: Life | LowerBound, peak_pressure: float, warnings: list[str]
 ) -> dict[str, Life | LowerBound]:
-    """Return the lives of gears until pitting, in cycles of the pinion; none for others."""
-    if not isinstance(case.drive, GearDrive):
+    """Return the lives until pitting; none where they are not asked for."""
+    if case.fatigue is None:
         return {}
-    from wearsim.sizing.gear_fatigue import fatigue_lives
+    from wearsim.simulation.fatigue import fatigue_parts, pointwise_stresses
 
-    endured, rate = fatigue_lives(case), case.cycles_per_hour
-    for name, found in endured.items():
-        if found.hours == 0.0:
-            warnings.append(
-                f"contact fatigue: the stress at the pole is more than the {name} endures for any time"
-            )
-        elif not found.bound and found.hours < wear.hours_run:
-            warnings.append(
-                f"contact fatigue of the {name} comes before the wear, after {found.hours:.3g} h: it "
-                "governs"
-            )
-    return {
-        f"{name}_fatigue": life_of(found.hours * rate, rate, not found.bound)
-        for name, found in endured.items()
-        if found.hours > 0.0
-    }
+    stresses = pointwise_stresses(case, case.fatigue, peak_pressure)
+    lives, found = fatigue_parts(case, case.fatigue, stresses, life, life)
+    warnings += found
+    return lives
 
 
 def _life(case: Case, run: Trajectory) -> Life | LowerBound:

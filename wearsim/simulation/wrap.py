@@ -76,6 +76,8 @@ def simulate_wrap(
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run, law)
+    parts = {"chain": chain, "sprocket": sprocket}
+    parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -102,7 +104,7 @@ def simulate_wrap(
         updates=run.updates,
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
-        parts={"chain": chain, "sprocket": sprocket},
+        parts=parts,
         limits=_limits(contact, drive, criteria, run, life),
         assumptions=(
             *contact.assumptions(),
@@ -343,6 +345,28 @@ def _scaled(
     constant = warp.constant_cycles(life.cycles_run)
     scaled = warp.running_cycles(np.array([constant / factor]))
     return life_of(float(scaled[0]), case.cycles_per_hour, isinstance(life, Life))
+
+
+def _fatigue(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    wear: tuple[Life | LowerBound, Life | LowerBound],
+    warnings: list[str],
+) -> dict[str, Life | LowerBound]:
+    """Return the life of the sprocket until pitting; none where it is not asked for."""
+    if case.fatigue is None:
+        return {}
+    from wearsim.simulation.fatigue import fatigue_parts
+
+    factor = case.fatigue.load_factor
+    stresses = [
+        (highest_load(replace(contact, blocks=(block,)), law, None, factor)[0], block.share)
+        for block in contact.blocks
+    ]
+    lives, found = fatigue_parts(case, case.fatigue, stresses, *wear)
+    warnings += found
+    return lives
 
 
 def _limits(

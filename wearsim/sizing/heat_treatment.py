@@ -90,6 +90,32 @@ class Treatment:
         """
         return brinell if self.scale == "HB" else brinell / HB_PER_HRC
 
+    def outside(self, hardness: float) -> str:
+        """Return what is wrong with a hardness for which the formulas are not given.
+
+        Parameters
+        ----------
+        hardness : float
+            In the treatment's scale.
+
+        Returns
+        -------
+        str
+            Empty where it is within their range.
+
+        Examples
+        --------
+        >>> treatments()["improved"].outside(400.0)
+        'table 2.3 holds for at most 350 HB where it is improved, it is 400'
+        """
+        least, greatest = self.hardness_range
+        if least <= hardness <= greatest:
+            return ""
+        span = f"{least:g} to {greatest:g}" if least > 0.0 else f"at most {greatest:g}"
+        return (
+            f"table 2.3 holds for {span} {self.scale} where it is {self.name}, it is {hardness:g}"
+        )
+
     def bending_limit(self, hardness: float) -> float:
         """Return the endurance limit in bending, sigma_Flim of table 2.3.
 

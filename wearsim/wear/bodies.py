@@ -229,7 +229,9 @@ class Bodies:
             )
 
 
-def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, float]:
+def highest_load(
+    contact: Dwelling, law: Law, start: Start | None, load_factor: float = 1.0
+) -> tuple[float, float]:
     """Return the highest pressure and sliding speed of all events of a cycle.
 
     Parameters
@@ -238,13 +240,16 @@ def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, floa
         The outlines and their contacts.
     law : Law
         The wear law.
-    start : Start
-        What has worn off them.
+    start : Start or None
+        What has worn off them; None for new ones.
+    load_factor : float
+        On the load of every event: pressure goes with its root where the contact is narrow, with
+        the load itself where roller and seat conform.
 
     Returns
     -------
     tuple of float
-        Pressure [MPa] of the outlines as they are, and speed [mm/s].
+        Pressure [MPa] of the outlines as they are, and speed [mm/s]; 0 where nothing is loaded.
 
     Raises
     ------
@@ -255,6 +260,7 @@ def highest_load(contact: Dwelling, law: Law, start: Start) -> tuple[float, floa
     """
     bodies = Bodies(contact, law, start)
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
+    table[EVENT_LOAD] *= load_factor
     bodies.press(table, 0.0)
     return float(bodies.findings[PEAK_PRESSURE]), highest_speed(table)
 
@@ -270,6 +276,6 @@ def highest_speed(table: Rows) -> float:
     Returns
     -------
     float
-        Speed [mm/s].
+        Speed [mm/s]; 0 where none is loaded.
     """
-    return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max())
+    return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max(initial=0.0))

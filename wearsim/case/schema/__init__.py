@@ -6,6 +6,7 @@ from wearsim.case.schema.calculation import FormatVersion
 from wearsim.case.schema.chain import ChainTable
 from wearsim.case.schema.drive import DriveTable
 from wearsim.case.schema.duty import DutyBlock
+from wearsim.case.schema.fatigue import SprocketFatigueTable
 from wearsim.case.schema.joint import JointTable
 from wearsim.case.schema.load import LoadTable
 from wearsim.case.schema.maintenance import MaintenanceTable
@@ -52,6 +53,7 @@ class CaseTables(Table):
     load: LoadTable = LoadTable()
     duty: list[DutyBlock] = Field(default_factory=list)
     wear: WearTable
+    fatigue: SprocketFatigueTable | None = None
     stop: StopTable = StopTable()
     run: RunTable = RunTable()
     maintenance: MaintenanceTable | None = None

@@ -5,18 +5,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.fatigue import FatigueTable, FlankMaterialTable
 from wearsim.case.schema.material import MaterialTable
 from wearsim.case.schema.run import RunTable
 from wearsim.case.schema.stop import Depth
-from wearsim.case.schema.strength import (
-    NITRIDED_LIMIT,
-    AtLeastOne,
-    Brinell,
-    Rockwell,
-    Stress,
-    Treatment,
-    one_hardness,
-)
 from wearsim.case.schema.synthesis import stress_conflicts
 from wearsim.case.schema.table import Table
 from wearsim.case.schema.wear import WearTable
@@ -154,29 +146,11 @@ class GearStopTable(Table):
     wheel_critical_depth_mm: Depth | None = None
 
 
-class GearSideTable(Table):
-    """Material of pinion or wheel against contact fatigue."""
+class GearFatigueTable(FatigueTable):
+    """Contact fatigue of both gears."""
 
-    treatment: Treatment
-    hardness_HB: Brinell | None = None
-    hardness_HRC: Rockwell | None = None
-    contact_limit_MPa: Stress | None = None
-    contact_safety: AtLeastOne | None = None
-
-    def conflicts(self) -> list[tuple[str, str]]:
-        """Return what is wrong between the keys of this table."""
-        found = one_hardness(self.hardness_HB, self.hardness_HRC)
-        if self.treatment == "nitrided" and self.contact_limit_MPa is None:
-            found.append(NITRIDED_LIMIT)
-        return found
-
-
-class GearFatigueTable(Table):
-    """Contact fatigue beside the wear."""
-
-    load_factor: AtLeastOne = 1.0
-    pinion: GearSideTable
-    wheel: GearSideTable
+    pinion: FlankMaterialTable
+    wheel: FlankMaterialTable
 
 
 class GearTables(CalculationTables):

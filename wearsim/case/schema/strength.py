@@ -1,11 +1,20 @@
 """The input of ``wearsim strength``: a gear pair, its life, its loads and what its teeth endure."""
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import Field
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.fatigue import (
+    NITRIDED_LIMIT,
+    AtLeastOne,
+    Brinell,
+    Rockwell,
+    Stress,
+    Treatment,
+    one_hardness,
+)
 from wearsim.case.schema.load import Regime
 from wearsim.case.schema.table import Table
 from wearsim.case.units import Number, Positive, PositiveNumber
@@ -13,47 +22,12 @@ from wearsim.case.units import Number, Positive, PositiveNumber
 OVERLOAD_CYCLES = 5e4
 """Number of load cycles below which a torque is an overload and does not fatigue."""
 
-Treatment = Literal[
-    "normalised",
-    "improved",
-    "through_hardened",
-    "surface_hardened",
-    "carburised",
-    "nitrided",
-]
 _YIELDS = ("normalised", "improved", "through_hardened")
 
 Share = Annotated[PositiveNumber, Field(le=1.0)]
 Factor = Annotated[PositiveNumber, Field(ge=0.01, le=100.0)]
-AtLeastOne = Annotated[PositiveNumber, Field(ge=1.0, le=100.0)]
-Stress = Annotated[Positive, Field(ge=1.0, le=1e5)]
 Length = Annotated[Positive, Field(ge=0.01, le=1e5)]
 BaseCycles = Annotated[PositiveNumber, Field(ge=1e3, le=1e12)]
-
-
-def _mean(value: object) -> object:
-    """Take the two ends of a band for its mean."""
-    if not isinstance(value, list):
-        return value
-    ends = [end for end in value if type(end) in (int, float)]
-    if len(value) != 2 or len(ends) != 2 or not 0.0 < ends[0] <= ends[1]:
-        raise ValueError("must be a number, or the two ends of its band, such as [269, 302]")
-    return 0.5 * (ends[0] + ends[1])
-
-
-_BAND: dict[str, Any] = {
-    "anyOf": [
-        {"type": "number", "exclusiveMinimum": 0.0},
-        {
-            "type": "array",
-            "items": {"type": "number", "exclusiveMinimum": 0.0},
-            "minItems": 2,
-            "maxItems": 2,
-        },
-    ]
-}
-Brinell = Annotated[PositiveNumber, Field(le=750.0), BeforeValidator(_mean), WithJsonSchema(_BAND)]
-Rockwell = Annotated[PositiveNumber, Field(le=70.0), BeforeValidator(_mean), WithJsonSchema(_BAND)]
 
 
 class StrengthDriveTable(Table):
@@ -94,32 +68,6 @@ class CyclogramStep(Table):
             message = f"give exactly one of share_of_time and overload_cycles (got {got})"
             return [("share_of_time", message)]
         return []
-
-
-NITRIDED_LIMIT = (
-    "contact_limit_MPa",
-    "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take 1050 MPa",
-)
-"""The fault of a nitrided gear without an endurance limit."""
-
-
-def one_hardness(brinell: float | None, rockwell: float | None) -> list[tuple[str, str]]:
-    """Return the fault of a gear whose hardness is given in no scale or in both.
-
-    Parameters
-    ----------
-    brinell, rockwell : float or None
-        HB and HRC as given.
-
-    Returns
-    -------
-    list of tuple of str
-        Key and message; none where one is given.
-    """
-    if (brinell is None) != (rockwell is None):
-        return []
-    got = "none" if brinell is None else "both"
-    return [("hardness_HB", f"give exactly one of hardness_HB and hardness_HRC (got {got})")]
 
 
 class GearTable(Table):
