@@ -30,6 +30,5 @@ html_show_sphinx = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
-suppress_warnings = ["myst.xref_missing"]
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
