@@ -1,5 +1,7 @@
 """Formulas as MathML, which browsers set by themselves: no script and nothing to fetch."""
 
+import re
+
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
@@ -12,8 +14,10 @@ def _inline(writer: HTML5Translator, node: nodes.math) -> None:
 
 
 def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
-    number = f'<span class="eqno">({node["number"]})</span>' if node["number"] else ""
-    writer.body.append(f'<div class="math">{number}{convert(node.astext(), display="block")}</div>')
+    formula, number = node.astext(), ""
+    if tag := re.search(r"\\tag\{(.*?)\}", formula):
+        formula, number = formula.replace(tag[0], ""), f'<span class="eqno">({tag[1]})</span>'
+    writer.body.append(f'<div class="math">{number}{convert(formula, display="block")}</div>')
     raise nodes.SkipNode
 
 
