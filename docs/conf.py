@@ -1,0 +1,36 @@
+"""How Sphinx builds the documentation: ``python -m sphinx -W docs DIR``.
+
+Nothing is fetched: formulas become MathML in the page, fonts are the reader's.
+"""
+
+import sys
+from pathlib import Path
+
+import wearsim
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+project = "wearsim"
+author = "The wearsim developers"
+release = wearsim.__version__
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_click",
+    "mathml",
+    "key_tables",
+]
+exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md"]
+html_theme = "furo"
+html_title = f"wearsim {release}"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["math.css"]
+html_copy_source = False
+html_show_sphinx = False
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
