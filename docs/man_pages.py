@@ -1,4 +1,4 @@
-"""Write the man pages of the commands: ``python docs/man_pages.py DIR``; the wheel holds those of docs/man."""
+"""Write man pages: ``python docs/man_pages.py DIR``; the wheel holds those of docs/man."""
 
 import sys
 
