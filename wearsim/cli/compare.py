@@ -15,7 +15,9 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
+    workbook_option,
     worn,
+    write_workbook,
 )
 from wearsim.errors import OutputError, WearsimError
 
@@ -27,38 +29,58 @@ if TYPE_CHECKING:
 @click.argument(
     "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE_OR_RUN..."
 )
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
-@click.option("--force", is_flag=True, help="Replace the folder.")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder.")
+@workbook_option
+@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
 @standard
 def compare(
-    sources: tuple[Path, ...], out: Path, force: bool, as_json: bool, settings: tuple[str, ...]
-) -> int:
+    sources: tuple[Path, ...], out: Path | None, xlsx: Path | None, force: bool, as_json: bool,
+    settings: tuple[str, ...],
+) -> int:  # fmt: skip
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
-    pressure and sliding along them, and of depth against hours.
+    pressure and sliding along them, and of depth against hours; the workbook a sheet for each
+    case. At least one of both is needed.
     """
-    from wearsim.output import check_folder
-
-    check_folder(out, force)
+    if out is None and xlsx is None:
+        raise click.UsageError("give --out DIR, --xlsx FILE or both")
+    _check_places(out, xlsx, force)
     found = _results(sources, settings, as_json)
-    from wearsim.report.compare import differing_limits, distinct, save_comparison
+    from wearsim.report.compare import comparison_text, differing_limits, distinct
 
     results = distinct(list(found.values()), [str(path) for path in found])
-    summary = save_comparison(results, out, force)
+    if out is not None:
+        from wearsim.report.compare import save_comparison
+
+        save_comparison(results, out, force)
+        warn(f"written to {out}")
     if as_json:
         from wearsim.report.service import life_json
 
         for result in results:
             click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
     else:
-        click.echo(summary)
+        click.echo(comparison_text(results))
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
-    warn(f"written to {out}")
+    if xlsx is not None:
+        write_workbook(found, xlsx, force)
     return SOME_FAILED if len(found) < len(set(sources)) else 0
+
+
+def _check_places(out: Path | None, xlsx: Path | None, force: bool) -> None:
+    """Find what is in the way before the first case runs."""
+    if out is not None:
+        from wearsim.output import check_folder
+
+        check_folder(out, force)
+    if xlsx is not None:
+        from wearsim.report.workbook import check_workbook
+
+        check_workbook(xlsx, force)
 
 
 def _results(

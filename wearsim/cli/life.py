@@ -18,8 +18,10 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
+    workbook_option,
     working,
     worn,
+    write_workbook,
 )
 from wearsim.errors import WearsimError
 
@@ -36,7 +38,12 @@ if TYPE_CHECKING:
 @click.option(
     "--out", type=click.Path(path_type=Path), help="New folder for result, history and flank."
 )
-@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option(
+    "--parquet", is_flag=True,
+    help="Write both tables as Parquet files too (pip install 'wearsim[parquet]').",
+)  # fmt: skip
+@workbook_option
+@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
     "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
@@ -52,28 +59,32 @@ if TYPE_CHECKING:
 @overrides
 @standard
 def life(
-    cases: tuple[Path, ...], out: Path | None, force: bool, as_json: bool,
-    require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
+    cases: tuple[Path, ...], out: Path | None, parquet: bool, xlsx: Path | None, force: bool,
+    as_json: bool, require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
     settings: tuple[str, ...],
 ) -> int:  # fmt: skip
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
-    flank.csv; for several cases, DIR/<file stem> does.
+    flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases.
     """
     if key is not None:
-        if verify_grid or strict:
-            raise click.UsageError("--solve-for takes neither --verify-grid nor --strict")
+        if verify_grid or strict or parquet or xlsx:
+            raise click.UsageError(
+                "--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx"
+            )
         return _solve(cases, key, require_hours, settings, out, force, as_json)
+    _check_tables(out, parquet, xlsx, force)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
         loaded = [case.with_horizon(require_hours) for case in loaded]
     folders = _folders(cases, out, force)
+    results: dict[Path, WearResult] = {}
     failures: list[WearsimError] = []
     missed = False
     for path, case, folder in zip(cases, loaded, folders, strict=True):
         try:
-            result = _run(case, folder, force)
+            result = _run(case, folder, force, parquet)
             grid = _verified(case) if verify_grid else None
         except WearsimError as error:
             if len(loaded) == 1 and not as_json:
@@ -84,7 +95,10 @@ def life(
             show_error(error, path)
             continue
         _show(result, grid, path, as_json)
+        results[path] = result
         missed = _missed(result, require_hours, strict) or missed
+    if xlsx is not None and results:
+        write_workbook(results, xlsx, force)
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
@@ -122,10 +136,24 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
     return folders
 
 
-def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
+def _check_tables(out: Path | None, parquet: bool, xlsx: Path | None, force: bool) -> None:
+    """Find what is in the way of workbook and Parquet files before the first case runs."""
+    if parquet:
+        if out is None:
+            raise click.UsageError("--parquet needs --out, the folder for its files")
+        from wearsim.result.parquet import pyarrow
+
+        pyarrow()
+    if xlsx is not None:
+        from wearsim.report.workbook import check_workbook
+
+        check_workbook(xlsx, force)
+
+
+def _run(case: "Case", folder: Path | None, force: bool, parquet: bool) -> "WearResult":
     result = worn(case)
     if folder is not None:
-        result.save(folder, force)
+        result.save(folder, force, parquet)
     return result
 
 
