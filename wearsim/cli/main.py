@@ -11,6 +11,7 @@ import click
 
 import wearsim
 from wearsim.cli.check import check
+from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
 from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.face_load import face_load
@@ -71,6 +72,7 @@ for _command in (
     init,
     schema,
     list_table,
+    cite,
 ):
     wearsim_command.add_command(_command)
 
