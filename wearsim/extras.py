@@ -1,9 +1,50 @@
 """Libraries that not every user has: installed by ``pip install 'wearsim[EXTRA]'``."""
 
+import csv
+from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
+
+
+@dataclass(frozen=True)
+class Library:
+    """A library that wearsim uses.
+
+    Attributes
+    ----------
+    name : str
+        As it is installed.
+    extra : str
+        Extra of wearsim that brings it, empty where it always comes.
+    lowest, newest : str
+        Versions between which the tests have passed.
+    """
+
+    name: str
+    extra: str
+    lowest: str
+    newest: str
+
+
+@cache
+def libraries() -> tuple[Library, ...]:
+    """Return the libraries that wearsim uses, those of extras last.
+
+    Returns
+    -------
+    tuple of Library
+        As ``pyproject.toml`` demands them.
+    """
+    path = Path(__file__).with_name("libraries.csv")
+    with path.open(encoding="utf-8", newline="") as file:
+        return tuple(
+            Library(row["library"], row["extra"], row["lowest"], row["newest"])
+            for row in csv.DictReader(file)
+        )
 
 
 def library(module: str, extra: str, option: str) -> Any:

@@ -14,6 +14,7 @@ from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
 from wearsim.cli.convex_concave import convex_concave
+from wearsim.cli.doctor import doctor
 from wearsim.cli.face_load import face_load
 from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
@@ -73,6 +74,7 @@ for _command in (
     schema,
     list_table,
     cite,
+    doctor,
 ):
     wearsim_command.add_command(_command)
 
