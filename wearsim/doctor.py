@@ -62,7 +62,7 @@ def findings(case: Path | None) -> list[Finding]:
     list of Finding
         In the order to read them in.
     """
-    found = [
+    return [
         Finding("wearsim", "ok", f"{wearsim.__version__} in {Path(wearsim.__file__).parent}"),
         _python(),
         Finding("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
@@ -75,7 +75,6 @@ def findings(case: Path | None) -> list[Finding]:
         *_extras(),
         _browser(),
     ]
-    return found
 
 
 def _guarded(name: str, look: Callable[[], Finding]) -> Finding:
@@ -122,7 +121,7 @@ def _cache() -> Finding:
 
     name, folder = "cache of kernels", cache_folder()
     if folder is None:
-        advice = "every start compiles for many seconds: set NUMBA_CACHE_DIR to a folder that can be written"
+        advice = "every start compiles anew: set NUMBA_CACHE_DIR to a folder that can be written"
         return Finding(name, "failed", "no folder can be written", advice)
     files = [path for path in folder.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
@@ -143,7 +142,7 @@ def _self_test(case: Path | None) -> Finding:
     cycles = wearsim.simulate(wearsim.load_case(case)).cycles
     seconds = time.perf_counter() - start
     error = abs(cycles / KNOWN_CYCLES - 1.0)
-    found = f"a life of {cycles:.7g} cycles in {seconds:.2g} s, {KNOWN_CYCLES:.7g} is right"
+    found = f"a life of {cycles:.0f} cycles in {seconds:.2g} s, {KNOWN_CYCLES:.0f} is right"
     if error > 1e-4:
         advice = "trust no result of this machine: empty the cache of kernels, install wearsim anew"
         return Finding(name, "failed", found, advice)

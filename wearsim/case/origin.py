@@ -3,8 +3,9 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, get_args
+from typing import Any
 
+from wearsim.case.keys import schema_fields
 from wearsim.case.schema import CaseTables, Table
 from wearsim.catalogue.tables import chains, rows, wear_conditions
 from wearsim.quantities import quantities
@@ -58,14 +59,18 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
     >>> row.key, row.value, row.unit, row.origin
     ('run.horizon_hours', 50000.0, 'h', 'default')
     """
-    defaults = dict(_defaults(_schema(inputs)))
+    defaults = {
+        key: field.get_default(call_default_factory=True)
+        for key, field in schema_fields(_schema(inputs))
+        if not field.is_required()
+    }
     found = []
     for key, value in _keys(inputs):
         name = key.rpartition(".")[2]
         quantity = quantities().get(name)
         why, origin = _why_taken(key, value, assumptions), "taken"
         if not why:
-            default = defaults.get(re.sub(r"\.\d+\.", ".", key))
+            default = defaults.get(re.sub(r"\.\d+\.", "[].", key))
             origin = "given" if default is None or value != default else "default"
             why = _source(key, value)
         unit, meaning = (quantity.unit, quantity.meaning) if quantity else ("", "")
@@ -91,24 +96,6 @@ def _keys(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any
                 yield from _keys(entry, f"{prefix}{name}.{number}.")
         else:
             yield f"{prefix}{name}", value
-
-
-def _defaults(model: type[Table], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Give the keys that a file may leave out, with the values that they then have."""
-    for name, field in model.model_fields.items():
-        tables = [*_tables(field.annotation)]
-        for table in tables:
-            yield from _defaults(table, f"{prefix}{name}.")
-        if not tables and not field.is_required():
-            yield f"{prefix}{name}", field.get_default(call_default_factory=True)
-
-
-def _tables(annotation: Any) -> Iterator[type[Table]]:
-    """Tables that a type is made of: itself, or in a list or a choice."""
-    if isinstance(annotation, type) and issubclass(annotation, Table):
-        yield annotation
-    for inner in get_args(annotation):
-        yield from _tables(inner)
 
 
 def _why_taken(key: str, value: Any, assumptions: Sequence[str]) -> str:

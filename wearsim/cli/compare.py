@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.complete import RunPath
 from wearsim.cli.standard import (
     SOME_FAILED,
     error_json,
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
 @click.argument(
-    "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE_OR_RUN..."
+    "sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN..."
 )
 @click.option("--out", type=click.Path(path_type=Path), help="New folder.")
 @workbook_option

@@ -1,4 +1,4 @@
-"""``wearsim doctor``: is this installation in order?"""
+"""``wearsim doctor``: whether this installation is in order."""
 
 import json
 from dataclasses import asdict

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.complete import CasePath, complete_key
 from wearsim.cli.standard import (
     NOT_MET,
     SOME_FAILED,
@@ -32,9 +33,7 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="The life of a drive in hours.")
-@click.argument(
-    "cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE..."
-)
+@click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
 @click.option(
     "--out", type=click.Path(path_type=Path), help="New folder for result, history and flank."
 )
@@ -51,7 +50,7 @@ if TYPE_CHECKING:
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
 )  # fmt: skip
 @click.option(
-    "--solve-for", "key", metavar="TABLE.KEY",
+    "--solve-for", "key", metavar="TABLE.KEY", shell_complete=complete_key,
     help="Find the value of this number at which the CASE lives --require-hours.",
 )  # fmt: skip
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")

@@ -13,6 +13,7 @@ import wearsim
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
+from wearsim.cli.completion import completion, use_own_bash
 from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.doctor import doctor
 from wearsim.cli.face_load import face_load
@@ -75,6 +76,7 @@ for _command in (
     list_table,
     cite,
     doctor,
+    completion,
 ):
     wearsim_command.add_command(_command)
 
@@ -96,6 +98,7 @@ def main() -> None:
         signal.signal(signal.SIGINT, interrupt)
     try:
         if "_WEARSIM_COMPLETE" in os.environ:
+            use_own_bash()
             wearsim_command.main(prog_name="wearsim")
         # Not click's own main: it turns a closed pipe into exit code 1.
         with wearsim_command.make_context("wearsim", sys.argv[1:]) as context:

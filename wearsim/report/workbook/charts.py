@@ -15,9 +15,7 @@ _STEP = 360
 """Pixels from the top of a chart to that of the next."""
 
 
-def add_charts(
-    book: Book, page: Page, places: Sequence[ResultPlaces], at: tuple[int, int]
-) -> None:
+def add_charts(book: Book, page: Page, places: Sequence[ResultPlaces], at: tuple[int, int]) -> None:
     """Put the charts of results under each other.
 
     Parameters

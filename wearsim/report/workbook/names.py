@@ -25,7 +25,7 @@ def clean(text: str) -> str:
 
 
 def sheet_names(names: Sequence[str], taken: Iterable[str] = ()) -> list[str]:
-    """Return names of sheets.
+    r"""Return names of sheets.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def sheet_names(names: Sequence[str], taken: Iterable[str] = ()) -> list[str]:
     Returns
     -------
     list of str
-        At most 31 characters each, no two alike but for capitals, none with ``[]:*?/\\`` or an
+        At most 31 characters each, no two alike but for capitals, none with ``[]:*?/\`` or an
         apostrophe at an end, none that Excel keeps for itself.
 
     Examples
@@ -45,10 +45,10 @@ def sheet_names(names: Sequence[str], taken: Iterable[str] = ()) -> list[str]:
     >>> sheet_names(["16b/20t", "16B/20T"], taken=["Inputs"])
     ['16b-20t', '16B-20T (2)']
     """
-    used = {"history", "", *(name.casefold() for name in taken)}
+    used = {"history", *(name.casefold() for name in taken)}
     found = []
     for name in names:
-        base = _FORBIDDEN.sub("-", clean(name))
+        base = _FORBIDDEN.sub("-", clean(name)).strip(" '") or "result"
         chosen, number = _cut(base, ""), 1
         while chosen.casefold() in used:
             number += 1
@@ -62,4 +62,4 @@ def _cut(base: str, end: str) -> str:
     """Cut a name so that it takes 31 units of UTF-16, as Excel counts, with its end."""
     room = 2 * (_LONGEST - len(end))
     head = base.encode("utf-16-le")[:room].decode("utf-16-le", "ignore")
-    return (head.rstrip() + end).strip("'").strip() if not end else head.rstrip().lstrip("'") + end
+    return head.strip(" '") + end
