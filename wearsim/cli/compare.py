@@ -9,6 +9,7 @@ import click
 from wearsim.cli.complete import RunPath
 from wearsim.cli.standard import (
     SOME_FAILED,
+    check_workbook,
     error_json,
     exit_code,
     load_cases,
@@ -48,7 +49,11 @@ def compare(
     """
     if out is None and xlsx is None:
         raise click.UsageError("give --out DIR, --xlsx FILE or both")
-    _check_places(out, xlsx, force)
+    check_workbook(out, xlsx, force)
+    if out is not None:
+        from wearsim.output import check_folder
+
+        check_folder(out, force)
     found = _results(sources, settings, as_json)
     from wearsim.report.compare import comparison_text, differing_limits, distinct
 
@@ -70,18 +75,6 @@ def compare(
     if xlsx is not None:
         write_workbook(found, xlsx, force)
     return SOME_FAILED if len(found) < len(set(sources)) else 0
-
-
-def _check_places(out: Path | None, xlsx: Path | None, force: bool) -> None:
-    """Find what is in the way before the first case runs."""
-    if out is not None:
-        from wearsim.output import check_folder
-
-        check_folder(out, force)
-    if xlsx is not None:
-        from wearsim.report.workbook import check_workbook
-
-        check_workbook(xlsx, force)
 
 
 def _results(

@@ -10,6 +10,7 @@ from wearsim.cli.complete import CasePath, complete_key
 from wearsim.cli.standard import (
     NOT_MET,
     SOME_FAILED,
+    check_workbook,
     error_json,
     exit_code,
     finite,
@@ -73,7 +74,8 @@ def life(
                 "--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx"
             )
         return _solve(cases, key, require_hours, settings, out, force, as_json)
-    _check_tables(out, parquet, xlsx, force)
+    _check_parquet(out, parquet)
+    check_workbook(out, xlsx, force)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
         loaded = [case.with_horizon(require_hours) for case in loaded]
@@ -135,18 +137,15 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
     return folders
 
 
-def _check_tables(out: Path | None, parquet: bool, xlsx: Path | None, force: bool) -> None:
-    """Find what is in the way of workbook and Parquet files before the first case runs."""
-    if parquet:
-        if out is None:
-            raise click.UsageError("--parquet needs --out, the folder for its files")
-        from wearsim.result.parquet import pyarrow
+def _check_parquet(out: Path | None, parquet: bool) -> None:
+    """Find what is in the way of Parquet files before the first case runs."""
+    if not parquet:
+        return
+    if out is None:
+        raise click.UsageError("--parquet needs --out, the folder for its files")
+    from wearsim.result.parquet import pyarrow
 
-        pyarrow()
-    if xlsx is not None:
-        from wearsim.report.workbook import check_workbook
-
-        check_workbook(xlsx, force)
+    pyarrow()
 
 
 def _run(case: "Case", folder: Path | None, force: bool, parquet: bool) -> "WearResult":

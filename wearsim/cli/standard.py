@@ -159,6 +159,27 @@ def worn(case: "Case") -> "WearResult":
         return simulate(case, told)
 
 
+def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
+    """Find what is in the way of a workbook before the first case runs.
+
+    Parameters
+    ----------
+    out : pathlib.Path or None
+        The folder that is written too.
+    xlsx : pathlib.Path or None
+        Place of the workbook; None where none is asked for.
+    force : bool
+        Whether it may be replaced.
+    """
+    if xlsx is None:
+        return
+    from wearsim.report import workbook
+
+    if out is not None and out.resolve() == xlsx.resolve():
+        raise OutputError(f"{xlsx}: must not be the folder of --out: choose another place")
+    workbook.check_workbook(xlsx, force)
+
+
 def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool) -> None:
     """Write results into a workbook, with titles that tell them apart, and say where it is.
 

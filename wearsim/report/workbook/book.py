@@ -84,12 +84,12 @@ class Page:
         row, column : int
             From 0.
         value : float, int, bool, str or None
-            None and nan leave the cell empty, infinity is a text.
+            None, nan and an empty text leave the cell empty, infinity is a text.
         **style
             Properties of the cell's format.
         """
         form = self.book.style(**style)
-        if value is None or value != value:
+        if value is None or value != value or value == "":
             self.sheet.write_blank(row, column, None, form)
         elif isinstance(value, bool):
             self.sheet.write_boolean(row, column, value, form)
