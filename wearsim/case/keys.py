@@ -58,7 +58,7 @@ def words(field: FieldInfo) -> tuple[str, ...]:
     --------
     >>> from wearsim.case.schema import CaseTables
     >>> words(dict(schema_fields(CaseTables))["mechanism.kind"])
-    ('strand', 'wrap', 'prescribed')
+    ('strand', 'prescribed', 'wrap')
     """
     found: list[str] = []
     for part in _parts(field.annotation):
