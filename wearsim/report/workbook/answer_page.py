@@ -94,7 +94,7 @@ def _write_row(
     for column, value in enumerate(values, start=_FIRST_VALUE):
         form = number_format([value])
         page.put(row, column, value, num_format=form, bold=label in _BOLD, **style)
-    page.put(row, _FIRST_VALUE + len(values), meaning, indent=1, **style)
+    page.put(row, _FIRST_VALUE + len(values), meaning, align="left", indent=1, **style)
     texts = [(value, _VALUE) for value in values if isinstance(value, str)]
     page.fit_height(row, [*texts, (meaning, _MEANING)])
 

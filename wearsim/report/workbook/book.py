@@ -92,6 +92,8 @@ class Page:
         if value is None or value != value or value == "":
             self.sheet.write_blank(row, column, None, form)
         elif isinstance(value, bool):
+            # LibreOffice shows a truth value as 1 in any other format.
+            form = self.book.style(**{**style, "num_format": '"TRUE";"TRUE";"FALSE"'})
             self.sheet.write_boolean(row, column, value, form)
         elif _is_number(value) and math.isfinite(value):
             self.sheet.write_number(row, column, value, form)

@@ -10,6 +10,7 @@ from wearsim.result import WearResult
 _COLUMNS = {
     "case": 20, "key": 40, "value": 22, "unit": 12, "origin": 10, "why or source": 60, "meaning": 60,
 }  # fmt: skip
+_UNIT = list(_COLUMNS).index("unit")
 
 
 def write_inputs_page(
@@ -46,7 +47,8 @@ def _write_row(page: Page, row: int, label: str, found: InputRow) -> None:
     style: dict[str, Any] = {"valign": "top", "text_wrap": True}
     cells = (label, found.key, value, found.unit, found.origin, found.why, found.meaning)
     for column, cell in enumerate(cells):
-        page.put(row, column, cell, num_format=number_format([cell]), **style)
+        indent = {"align": "left", "indent": 1} if column == _UNIT else {}
+        page.put(row, column, cell, num_format=number_format([cell]), **indent, **style)
     texts = zip(cells, _COLUMNS.values(), strict=True)
     page.fit_height(row, [(cell, width) for cell, width in texts if isinstance(cell, str)])
 
