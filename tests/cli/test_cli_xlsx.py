@@ -228,7 +228,9 @@ def test_inputs_tell_where_they_come_from(cli, drive, tmp_path):
     assert sheet.auto_filter.ref == f"A1:G{sheet.max_row}"
 
 
-@pytest.mark.parametrize("title", ["=1+1", "=Inputs!$A$1", "+1", "-1", "@SUM(A1)", "http://x", "{=1}", "'=1"])
+@pytest.mark.parametrize(
+    "title", ["=1+1", "=Inputs!$A$1", "Wow!A1", "+1", "-1", "@SUM(A1)", "http://x", "{=1}", "'=1"]
+)
 def test_text_stays_text(cli, drive, tmp_path, title):
     book = tmp_path / "life.xlsx"
     cases = [drive("=2+2", title=f'"{title}"'), drive("b", title=f'"{title}"')]

@@ -1,6 +1,5 @@
 """Charts that Excel draws itself, so that they follow the cells."""
 
-import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,7 +8,7 @@ from wearsim.report.workbook.names import clean
 from wearsim.report.workbook.result_page import Place, ResultPlaces
 
 _SIZE = {"width": 620, "height": 340}
-_LONGEST_NAME = 60
+_LONGEST_NAME, _HEAD, _TAIL = 60, 30, 25
 
 _STEP = 360
 """Pixels from the top of a chart to that of the next."""
@@ -83,10 +82,10 @@ def _line(
 
 
 def _legend(title: str, part: str) -> str:
-    """Name of a line; after a blank it is a text for XlsxWriter even if it begins with ``=``."""
-    short = textwrap.shorten(clean(title), _LONGEST_NAME, placeholder=" ...")
-    name = f"{short}, {part}" if part else short
-    return f" {name}" if name.startswith("=") else name or " "
+    """Name of a line; XlsxWriter takes ``Sheet!A1`` for a reference, but not ``Sheet! A1``."""
+    text = clean(title).replace("!", "! ")
+    short = text if len(text) <= _LONGEST_NAME else f"{text[:_HEAD]} ... {text[-_TAIL:]}"
+    return f"{short}, {part}" if part else short
 
 
 def _chart(book: Book, titles: tuple[str, str, str], lines: list[dict[str, Any]]) -> Any:
