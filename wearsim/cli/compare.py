@@ -9,7 +9,6 @@ import click
 from wearsim.cli.complete import RunPath
 from wearsim.cli.standard import (
     SOME_FAILED,
-    check_workbook,
     error_json,
     exit_code,
     load_cases,
@@ -17,10 +16,9 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
-    workbook_option,
     worn,
-    write_workbook,
 )
+from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
 from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:

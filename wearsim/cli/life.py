@@ -10,7 +10,6 @@ from wearsim.cli.complete import CasePath, complete_key
 from wearsim.cli.standard import (
     NOT_MET,
     SOME_FAILED,
-    check_workbook,
     error_json,
     exit_code,
     finite,
@@ -20,11 +19,10 @@ from wearsim.cli.standard import (
     show_error,
     standard,
     warn,
-    workbook_option,
     working,
     worn,
-    write_workbook,
 )
+from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:

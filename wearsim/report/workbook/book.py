@@ -132,7 +132,7 @@ class Page:
             Each text with the width of its cell.
         """
         lines = [math.ceil(len(text) / (_CHARACTERS_PER_LINE * width)) for text, width in texts]
-        self.sheet.set_row(row, _LINE_POINTS * min(max(1, *lines, 1), _MOST_LINES))
+        self.sheet.set_row(row, _LINE_POINTS * min(max([1, *lines]), _MOST_LINES))
 
     def freeze(self, rows: int, columns: int = 0) -> None:
         """Keep the header in sight, on the screen and on every printed page.
