@@ -61,6 +61,8 @@ _WRITTEN = {
         "inputs",
         "summary.md",
         "maintenance.md",
+        "history.parquet",
+        "flank.parquet",
     ),
     *(f"{name}.csv" for name in _TABLES),
     *(f"{gear}.{kind}" for gear in ("pinion", "wheel") for kind in ("dxf", "stl")),

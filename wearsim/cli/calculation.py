@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import (
     error_json,
     exit_code,
@@ -64,7 +65,7 @@ def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compu
             click.option(
                 "--out", type=click.Path(path_type=Path), help="New folder for tables and pictures."
             ),
-            click.argument("case", type=click.Path(path_type=Path), metavar="CASE"),
+            click.argument("case", type=CasePath(path_type=Path), metavar="CASE"),
         ):
             command = option(command)
         return click.command(name, short_help=short_help)(command)

@@ -5,13 +5,12 @@ from pathlib import Path
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import load_cases, overrides, standard
 
 
 @click.command(short_help="Is a case complete, and can it run?")
-@click.argument(
-    "cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE..."
-)
+@click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
 @standard

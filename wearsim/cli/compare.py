@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.complete import RunPath
 from wearsim.cli.standard import (
     SOME_FAILED,
     error_json,
@@ -17,6 +18,7 @@ from wearsim.cli.standard import (
     warn,
     worn,
 )
+from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
 from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:
@@ -25,39 +27,51 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
 @click.argument(
-    "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE_OR_RUN..."
+    "sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN..."
 )
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
-@click.option("--force", is_flag=True, help="Replace the folder.")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder.")
+@workbook_option
+@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
 @standard
 def compare(
-    sources: tuple[Path, ...], out: Path, force: bool, as_json: bool, settings: tuple[str, ...]
-) -> int:
+    sources: tuple[Path, ...], out: Path | None, xlsx: Path | None, force: bool, as_json: bool,
+    settings: tuple[str, ...],
+) -> int:  # fmt: skip
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
-    pressure and sliding along them, and of depth against hours.
+    pressure and sliding along them, and of depth against hours; the workbook a sheet for each
+    case. At least one of both is needed.
     """
-    from wearsim.output import check_folder
+    if out is None and xlsx is None:
+        raise click.UsageError("give --out DIR, --xlsx FILE or both")
+    check_workbook(out, xlsx, force)
+    if out is not None:
+        from wearsim.output import check_folder
 
-    check_folder(out, force)
+        check_folder(out, force)
     found = _results(sources, settings, as_json)
-    from wearsim.report.compare import differing_limits, distinct, save_comparison
+    from wearsim.report.compare import comparison_text, differing_limits, distinct
 
     results = distinct(list(found.values()), [str(path) for path in found])
-    summary = save_comparison(results, out, force)
+    if out is not None:
+        from wearsim.report.compare import save_comparison
+
+        save_comparison(results, out, force)
+        warn(f"written to {out}")
     if as_json:
         from wearsim.report.service import life_json
 
         for result in results:
             click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
     else:
-        click.echo(summary)
+        click.echo(comparison_text(results))
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
-    warn(f"written to {out}")
+    if xlsx is not None:
+        write_workbook(found, xlsx, force)
     return SOME_FAILED if len(found) < len(set(sources)) else 0
 
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.cli.complete import complete_chain
 from wearsim.cli.standard import standard
 from wearsim.errors import CaseError, Fault
 
@@ -16,7 +17,10 @@ _FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568"
 
 
 @click.command(short_help="A commented case to start from.")
-@click.option("--chain", default="16B-1", show_default=True, metavar="DESIGNATION")
+@click.option(
+    "--chain", default="16B-1", show_default=True, metavar="DESIGNATION",
+    shell_complete=complete_chain,
+)  # fmt: skip
 @click.option("--teeth", type=int, default=20, show_default=True)
 @click.option(
     "--kind", type=click.Choice(["strand", "wrap"]), default="strand", show_default=True,

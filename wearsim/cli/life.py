@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.complete import CasePath, complete_key
 from wearsim.cli.standard import (
     NOT_MET,
     SOME_FAILED,
@@ -21,6 +22,7 @@ from wearsim.cli.standard import (
     working,
     worn,
 )
+from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
@@ -30,13 +32,16 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="The life of a drive in hours.")
-@click.argument(
-    "cases", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="CASE..."
-)
+@click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
 @click.option(
     "--out", type=click.Path(path_type=Path), help="New folder for result, history and flank."
 )
-@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option(
+    "--parquet", is_flag=True,
+    help="Write both tables as Parquet files too (pip install 'wearsim[parquet]').",
+)  # fmt: skip
+@workbook_option
+@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
     "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
@@ -44,7 +49,7 @@ if TYPE_CHECKING:
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
 )  # fmt: skip
 @click.option(
-    "--solve-for", "key", metavar="TABLE.KEY",
+    "--solve-for", "key", metavar="TABLE.KEY", shell_complete=complete_key,
     help="Find the value of this number at which the CASE lives --require-hours.",
 )  # fmt: skip
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
@@ -52,28 +57,33 @@ if TYPE_CHECKING:
 @overrides
 @standard
 def life(
-    cases: tuple[Path, ...], out: Path | None, force: bool, as_json: bool,
-    require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
+    cases: tuple[Path, ...], out: Path | None, parquet: bool, xlsx: Path | None, force: bool,
+    as_json: bool, require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
     settings: tuple[str, ...],
 ) -> int:  # fmt: skip
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
-    flank.csv; for several cases, DIR/<file stem> does.
+    flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases.
     """
     if key is not None:
-        if verify_grid or strict:
-            raise click.UsageError("--solve-for takes neither --verify-grid nor --strict")
+        if verify_grid or strict or parquet or xlsx:
+            raise click.UsageError(
+                "--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx"
+            )
         return _solve(cases, key, require_hours, settings, out, force, as_json)
+    _check_parquet(out, parquet)
+    check_workbook(out, xlsx, force)
     loaded = load_cases(cases, settings, as_json)
     if require_hours is not None:
         loaded = [case.with_horizon(require_hours) for case in loaded]
     folders = _folders(cases, out, force)
+    results: dict[Path, WearResult] = {}
     failures: list[WearsimError] = []
     missed = False
     for path, case, folder in zip(cases, loaded, folders, strict=True):
         try:
-            result = _run(case, folder, force)
+            result = _run(case, folder, force, parquet)
             grid = _verified(case) if verify_grid else None
         except WearsimError as error:
             if len(loaded) == 1 and not as_json:
@@ -84,7 +94,10 @@ def life(
             show_error(error, path)
             continue
         _show(result, grid, path, as_json)
+        results[path] = result
         missed = _missed(result, require_hours, strict) or missed
+    if xlsx is not None and results:
+        write_workbook(results, xlsx, force)
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
@@ -122,10 +135,21 @@ def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Pat
     return folders
 
 
-def _run(case: "Case", folder: Path | None, force: bool) -> "WearResult":
+def _check_parquet(out: Path | None, parquet: bool) -> None:
+    """Find what is in the way of Parquet files before the first case runs."""
+    if not parquet:
+        return
+    if out is None:
+        raise click.UsageError("--parquet needs --out, the folder for its files")
+    from wearsim.result.parquet import pyarrow
+
+    pyarrow()
+
+
+def _run(case: "Case", folder: Path | None, force: bool, parquet: bool) -> "WearResult":
     result = worn(case)
     if folder is not None:
-        result.save(folder, force)
+        result.save(folder, force, parquet)
     return result
 
 

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import finite, load_cases, overrides, standard, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
-@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--elongation", type=click.FloatRange(0.0, 10.0), default=0.0, show_default=True,
     metavar="PERCENT", callback=finite, help="Elongation of the chain.",

@@ -11,8 +11,11 @@ import click
 
 import wearsim
 from wearsim.cli.check import check
+from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
+from wearsim.cli.completion import completion, use_own_bash
 from wearsim.cli.convex_concave import convex_concave
+from wearsim.cli.doctor import doctor
 from wearsim.cli.face_load import face_load
 from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
@@ -71,6 +74,9 @@ for _command in (
     init,
     schema,
     list_table,
+    cite,
+    doctor,
+    completion,
 ):
     wearsim_command.add_command(_command)
 
@@ -92,6 +98,7 @@ def main() -> None:
         signal.signal(signal.SIGINT, interrupt)
     try:
         if "_WEARSIM_COMPLETE" in os.environ:
+            use_own_bash()
             wearsim_command.main(prog_name="wearsim")
         # Not click's own main: it turns a closed pipe into exit code 1.
         with wearsim_command.make_context("wearsim", sys.argv[1:]) as context:

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import error_json, load_cases, overrides, print_json, standard, warn
 from wearsim.errors import WearsimError
 
 
 @click.command(short_help="When to replace the chain: chains, hours, cost.")
-@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture."
 )

@@ -4,12 +4,13 @@ from pathlib import Path
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import load_cases, overrides, standard
 from wearsim.errors import OutputError
 
 
 @click.command(short_help="The working flank as a CSV file of points.")
-@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--out", type=click.Path(path_type=Path, allow_dash=True), default="-", show_default=True,
     help="New CSV file; - is stdout.",

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import (
     error_json,
     finite,
@@ -19,7 +20,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 
 @click.command(short_help="Hours left after one reading in service.")
-@click.argument("case", type=click.Path(path_type=Path), metavar="CASE")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--hours", required=True, type=_POSITIVE, metavar="H", callback=finite,
     help="Running hours of the part that was measured, sprocket or chain, since it was new.",

@@ -4,6 +4,7 @@ import json
 
 import click
 
+from wearsim.cli.complete import complete_kind
 from wearsim.cli.standard import standard
 
 
@@ -13,6 +14,7 @@ from wearsim.cli.standard import standard
     "--of",
     "command",
     metavar="KIND",
+    shell_complete=complete_kind,
     help="Of the input of a gear pair (gear) or of a calculation (wave-drive, ...) instead.",
 )
 @standard

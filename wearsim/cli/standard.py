@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from wearsim.cli.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
 
 if TYPE_CHECKING:
@@ -64,6 +65,7 @@ def overrides(function: Function) -> Function:
     """
     return click.option(
         "--set", "settings", multiple=True, metavar="TABLE.KEY=VALUE",
+        shell_complete=complete_setting,
         help="Override a key of the case; VALUE is TOML, else a string. Repeatable.",
     )(function)  # fmt: skip
 

@@ -15,6 +15,7 @@ from wearsim.errors import OutputError
 from wearsim.geometry.profile import Vector
 from wearsim.output import new_folder
 from wearsim.result.life import Life, LimitState, LowerBound
+from wearsim.result.parquet import write_parquet
 
 if TYPE_CHECKING:
     from wearsim.result.wear_result import WearResult
@@ -58,7 +59,7 @@ FILE_KEYS = (
 """Tables and keys of the inputs that name a file."""
 
 
-def write_result(result: WearResult, folder: Path, force: bool) -> None:
+def write_result(result: WearResult, folder: Path, force: bool, parquet: bool) -> None:
     """Write a result into a folder.
 
     Parameters
@@ -69,11 +70,15 @@ def write_result(result: WearResult, folder: Path, force: bool) -> None:
         New folder.
     force : bool
         Replace a folder that is there.
+    parquet : bool
+        Write both tables as Parquet files too.
 
     Raises
     ------
     OutputError
         The folder is there, or cannot be written.
+    CaseError
+        pyarrow is not installed, which Parquet needs.
     """
     with new_folder(folder, force) as place:
         lives = {name: asdict(getattr(result, name)) for name in ("life", "life_low", "life_high")}
@@ -87,6 +92,9 @@ def write_result(result: WearResult, folder: Path, force: bool) -> None:
             (place / _INPUTS / name).write_text(text, encoding="utf-8")
         result.history.to_csv(place / "history.csv", index=False)
         result.flank.to_csv(place / "flank.csv", index=False)
+        if parquet:
+            write_parquet(place / "history.parquet", result.history_columns)
+            write_parquet(place / "flank.parquet", result.flank_columns)
 
 
 def _lock(result: WearResult) -> str:

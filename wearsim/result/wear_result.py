@@ -189,7 +189,7 @@ class WearResult:
             "governing_life_hours": lives[name].hours if name is not None else None,
         }
 
-    def save(self, folder: str | Path, force: bool = False) -> None:
+    def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:
         """Write the result into a folder, all of it or nothing.
 
         Parameters
@@ -199,13 +199,17 @@ class WearResult:
             flank.csv and ``inputs`` with the CSV files of the case.
         force : bool
             Replace a folder that is there.
+        parquet : bool
+            Write history.parquet and flank.parquet too (extra ``parquet``).
 
         Raises
         ------
         OutputError
             The folder is there, or cannot be written.
+        CaseError
+            pyarrow is not installed, which Parquet needs.
         """
-        write_result(self, Path(folder), force)
+        write_result(self, Path(folder), force, parquet)
 
     @classmethod
     def load(cls, folder: str | Path) -> WearResult:

@@ -1,0 +1,83 @@
+"""The keys that an input file may hold, by their dotted names."""
+
+from collections.abc import Iterator
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from wearsim.case.schema.table import Table
+
+
+def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
+    """Give every key of a schema.
+
+    Parameters
+    ----------
+    model : type
+        Tables of an input file.
+    prefix : str
+        Dotted name of the table and a dot.
+
+    Yields
+    ------
+    str
+        Dotted key; a list of tables has ``[]`` after its name.
+    pydantic.fields.FieldInfo
+        What it may hold.
+
+    Examples
+    --------
+    >>> from wearsim.case.schema import CaseTables
+    >>> keys = dict(schema_fields(CaseTables))
+    >>> "run.horizon_hours" in keys, "duty[].speed_rpm" in keys
+    (True, True)
+    """
+    for name, field in model.model_fields.items():
+        tables = list(_tables(field.annotation))
+        many = "[]" if any(get_origin(part) is list for part in _parts(field.annotation)) else ""
+        for table in tables:
+            yield from schema_fields(table, f"{prefix}{name}{many}.")
+        if not tables:
+            yield f"{prefix}{name}", field
+
+
+def words(field: FieldInfo) -> tuple[str, ...]:
+    """Return the words that a key may hold.
+
+    Parameters
+    ----------
+    field : pydantic.fields.FieldInfo
+        What it may hold.
+
+    Returns
+    -------
+    tuple of str
+        Empty where any text or only numbers are allowed.
+
+    Examples
+    --------
+    >>> from wearsim.case.schema import CaseTables
+    >>> words(dict(schema_fields(CaseTables))["mechanism.kind"])
+    ('strand', 'prescribed', 'wrap')
+    """
+    found: list[str] = []
+    for part in _parts(field.annotation):
+        if get_origin(part) is Literal:
+            found += [word for word in get_args(part) if isinstance(word, str)]
+        if part is bool:
+            found += ["true", "false"]
+    return tuple(found)
+
+
+def _parts(annotation: Any) -> Iterator[Any]:
+    """Give a type and all types that it is made of."""
+    yield annotation
+    if get_origin(annotation) is not Literal:
+        for inner in get_args(annotation):
+            yield from _parts(inner)
+
+
+def _tables(annotation: Any) -> Iterator[type[Table]]:
+    for part in _parts(annotation):
+        if isinstance(part, type) and issubclass(part, Table):
+            yield part

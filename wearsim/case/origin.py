@@ -1,0 +1,133 @@
+"""Every key of a complete case: its value, its unit, and where the value comes from."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wearsim.case.keys import schema_fields
+from wearsim.case.schema import CaseTables, Table
+from wearsim.catalogue.tables import chains, rows, wear_conditions
+from wearsim.quantities import quantities
+
+
+@dataclass(frozen=True)
+class InputRow:
+    """A key of a case.
+
+    Attributes
+    ----------
+    key : str
+        Dotted, tables of a list by their numbers from 1.
+    value : float, int, str, bool or list
+        As it was used.
+    unit, meaning : str
+        Of the quantity.
+    origin : str
+        ``given`` by the user, ``taken`` by wearsim, or ``default`` where the value is that of the
+        schema, so that it makes no difference whether it was given.
+    why : str
+        Why it was taken, or the source of the row of a catalogue that it names.
+    """
+
+    key: str
+    value: Any
+    unit: str
+    meaning: str
+    origin: str
+    why: str
+
+
+def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[InputRow]:
+    """Return the keys of a case in their order.
+
+    Parameters
+    ----------
+    inputs : mapping
+        All tables of the case with every default taken.
+    assumptions : sequence of str
+        What was taken for granted, as the case or its result has it.
+
+    Returns
+    -------
+    list of InputRow
+        One for each key that has a value.
+
+    Examples
+    --------
+    >>> (row,) = input_rows({"run": {"horizon_hours": 50000.0}}, [])
+    >>> row.key, row.value, row.unit, row.origin
+    ('run.horizon_hours', 50000.0, 'h', 'default')
+    """
+    defaults = {
+        key: field.get_default(call_default_factory=True)
+        for key, field in schema_fields(_schema(inputs))
+        if not field.is_required()
+    }
+    found = []
+    for key, value in _keys(inputs):
+        name = key.rpartition(".")[2]
+        quantity = quantities().get(name)
+        why, origin = _why_taken(key, value, assumptions), "taken"
+        if not why:
+            default = defaults.get(re.sub(r"\.\d+\.", "[].", key))
+            origin = "given" if default is None or value != default else "default"
+            why = _source(key, value)
+        unit, meaning = (quantity.unit, quantity.meaning) if quantity else ("", "")
+        found.append(InputRow(key, value, unit, meaning, origin, why))
+    return found
+
+
+def _schema(inputs: Mapping[str, Any]) -> type[Table]:
+    if "gear" not in inputs:
+        return CaseTables
+    # Models of tables take time to build, and most cases are not of gears.
+    from wearsim.case.schema.gear import GearTables
+
+    return GearTables
+
+
+def _keys(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _keys(value, f"{prefix}{name}.")
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            for number, entry in enumerate(value, start=1):
+                yield from _keys(entry, f"{prefix}{name}.{number}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+def _why_taken(key: str, value: Any, assumptions: Sequence[str]) -> str:
+    """Reason in the assumption that tells of a key; empty where none does."""
+    shown = f"{value:.6g}" if isinstance(value, float) else value
+    for lead in (f"{key} = {shown} (", f"{key} = {value} ("):
+        for text in assumptions:
+            if text.startswith(lead) and text.endswith(")"):
+                return text.removeprefix(lead).removesuffix(")")
+    return ""
+
+
+def _source(key: str, value: Any) -> str:
+    """Source of the row of a catalogue that a key names; empty where it names none."""
+    table, _, name = key.partition(".")
+    if key == "chain.designation":
+        return _chain_source(value)
+    if key == "wear.condition":
+        return wear_conditions()[value].source
+    if table == "material" and name.endswith(".name"):
+        return _row("materials", "name", value)
+    return ""
+
+
+def _chain_source(name: str) -> str:
+    chain = chains()[name]
+    base = f"{chain.designation.rpartition('-')[0]}-1"
+    for row in rows("chains"):
+        if row["designation"].partition(" (")[0] in (chain.designation, base):
+            return f"{chain.series}: {row['source']}"
+    return chain.series
+
+
+def _row(table: str, column: str, value: str) -> str:
+    return next((row["source"] for row in rows(table) if row[column] == value), "")

@@ -1,0 +1,43 @@
+"""``wearsim doctor``: whether this installation is in order."""
+
+import json
+from dataclasses import asdict
+
+import click
+
+from wearsim.cli.list import shipped_cases
+from wearsim.cli.standard import standard
+
+_NOT_IN_ORDER = 1
+_SELF_TEST = "hertz-arc-prescribed"
+
+
+@click.command(short_help="Is this installation in order, and what to do if not?")
+@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@standard
+def doctor(as_json: bool) -> int:
+    """Check versions, kernels, cache, folders, extras and browser, and run a life that is known.
+
+    The exit code is 1 where something that is needed has failed; what is only noted does not
+    count.
+    """
+    from wearsim.doctor import findings
+
+    case = next((path for path in shipped_cases() if path.stem == _SELF_TEST), None)
+    found = findings(case)
+    failed = [one.name for one in found if one.state == "failed"]
+    if as_json:
+        content = {
+            "schema_version": 1,
+            "in_order": not failed,
+            "findings": [asdict(one) for one in found],
+        }
+        click.echo(json.dumps(content, ensure_ascii=False))
+        return _NOT_IN_ORDER if failed else 0
+    width = max(len(one.name) for one in found)
+    for one in found:
+        click.echo(f"{one.state:<6}  {one.name:<{width}}  {one.found}")
+        if one.advice:
+            click.echo(f"{'':<6}  {'':<{width}}  -> {one.advice}")
+    click.echo(f"to be mended: {', '.join(failed)}" if failed else "all that is needed is in order")
+    return _NOT_IN_ORDER if failed else 0

@@ -1,0 +1,81 @@
+"""Libraries that not every user has: installed by ``pip install 'wearsim[EXTRA]'``."""
+
+import csv
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from wearsim.errors import CaseError, Fault
+
+
+@dataclass(frozen=True)
+class Library:
+    """A library that wearsim uses.
+
+    Attributes
+    ----------
+    name : str
+        As it is installed.
+    extra : str
+        Extra of wearsim that brings it, empty where it always comes.
+    lowest, newest : str
+        Versions between which the tests have passed.
+    """
+
+    name: str
+    extra: str
+    lowest: str
+    newest: str
+
+
+@cache
+def libraries() -> tuple[Library, ...]:
+    """Return the libraries that wearsim uses, those of extras last.
+
+    Returns
+    -------
+    tuple of Library
+        As ``pyproject.toml`` demands them.
+    """
+    path = Path(__file__).with_name("libraries.csv")
+    with path.open(encoding="utf-8", newline="") as file:
+        return tuple(
+            Library(row["library"], row["extra"], row["lowest"], row["newest"])
+            for row in csv.DictReader(file)
+        )
+
+
+def library(module: str, extra: str, option: str) -> Any:
+    """Return a library of an extra.
+
+    Parameters
+    ----------
+    module : str
+        Its name in Python.
+    extra : str
+        The extra of wearsim that it belongs to.
+    option : str
+        What needs it, as the user wrote it.
+
+    Returns
+    -------
+    module
+        The library.
+
+    Raises
+    ------
+    CaseError
+        It is not installed.
+
+    Examples
+    --------
+    >>> library("math", "report", "--xlsx").sqrt(9.0)
+    3.0
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        text = f"needs {module}, which is not installed: pip install 'wearsim[{extra}]'"
+        raise CaseError([Fault(text, file=option)]) from None

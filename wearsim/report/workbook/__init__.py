@@ -1,0 +1,97 @@
+"""Results as a workbook of Excel: answer, a sheet for each result, inputs, native charts."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from wearsim.errors import OutputError
+from wearsim.extras import library
+from wearsim.output import check_free, write_file
+from wearsim.report.workbook.answer_page import write_answer_page
+from wearsim.report.workbook.book import Book
+from wearsim.report.workbook.charts import add_charts
+from wearsim.report.workbook.inputs_page import write_inputs_page
+from wearsim.report.workbook.names import sheet_names
+from wearsim.report.workbook.result_page import write_result_page
+from wearsim.result import WearResult
+
+_FIRST_CHART_ROW = 1
+
+
+def check_workbook(path: Path, force: bool) -> None:
+    """Raise where a workbook could not be written, before anything is calculated.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        Place of the file.
+    force : bool
+        Whether it may be replaced.
+
+    Raises
+    ------
+    OutputError
+        It has another ending than ``.xlsx``, or something is in the way.
+    CaseError
+        XlsxWriter is not installed.
+    """
+    if path.suffix.lower() != ".xlsx":
+        raise OutputError(f"{path}: must end in .xlsx, or no program opens it: give such a name")
+    check_free(path, force)
+    library("xlsxwriter", "report", "--xlsx")
+
+
+def workbook(results: Sequence[WearResult]) -> bytes:
+    """Return results as a workbook.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one; titles are the labels.
+
+    Returns
+    -------
+    bytes
+        What the file holds: the answer or comparison with charts, a sheet for each result
+        with its history and its last flank, all inputs.
+
+    Raises
+    ------
+    CaseError
+        XlsxWriter is not installed.
+    """
+    title = "; ".join(result.title for result in results)
+    book = Book(library("xlsxwriter", "report", "--xlsx"), title)
+    first, inputs = "Answer" if len(results) == 1 else "Comparison", "Inputs"
+    names = sheet_names([result.case for result in results], taken=(first, inputs))
+    page, free_column = write_answer_page(book, first, results, names)
+    places = []
+    for name, result in zip(names, results, strict=True):
+        own, place = write_result_page(book, name, result)
+        add_charts(book, own, [place], (_FIRST_CHART_ROW, place.right))
+        places.append(place)
+    add_charts(book, page, places, (_FIRST_CHART_ROW, free_column))
+    write_inputs_page(book, inputs, results, names)
+    return book.content()
+
+
+def save_workbook(results: Sequence[WearResult], path: Path, force: bool) -> None:
+    """Write results into a workbook, all of it or nothing.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one; titles are the labels.
+    path : pathlib.Path
+        Place of the file.
+    force : bool
+        Replace what is there.
+
+    Raises
+    ------
+    OutputError
+        It has another ending than ``.xlsx``, something is in the way, or it cannot be written.
+    CaseError
+        XlsxWriter is not installed.
+    """
+    check_workbook(path, force)
+    write_file(path, workbook(results), force)

@@ -1,0 +1,164 @@
+"""The first sheet: the answer of every result side by side, its limits, warnings, assumptions."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from wearsim.quantities import quantities
+from wearsim.report.answer import hours
+from wearsim.report.compare import comparison_table, differing_limits
+from wearsim.report.service import life_json
+from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
+from wearsim.result import Life, LimitState, WearResult
+
+_NOT_SHOWN = ("schema_version", "title", "limits", "assumptions", "warnings")
+_LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
+_FIRST_VALUE = 2
+_BOLD = ("life", "life_hours")
+
+
+def write_answer_page(
+    book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]
+) -> tuple[Page, int]:
+    """Write the first sheet: a row for every quantity, a column for every result.
+
+    Parameters
+    ----------
+    book : Book
+        The workbook.
+    name : str
+        Of the sheet.
+    results : sequence of WearResult
+        At least one.
+    labels : sequence of str
+        Name of each result, that of its sheet.
+
+    Returns
+    -------
+    Page
+        The sheet.
+    int
+        First free column.
+    """
+    page = Page(book, name)
+    meaning = _FIRST_VALUE + len(results)
+    for column, width in enumerate([_LABEL, _UNIT, *[_VALUE] * len(results), _MEANING]):
+        page.sheet.set_column(column, column, width)
+    titles = ["quantity", "unit", *(result.title for result in results), "meaning"]
+    for column, title in enumerate(titles):
+        page.put(0, column, title, **HEADER)
+    page.fit_height(0, [(title, _VALUE) for title in titles])
+    page.freeze(1, _FIRST_VALUE)
+    row = _write_rows(page, 1, _answers(results))
+    row = _write_limits(page, row, results)
+    row = _write_texts(page, row, "warnings", _warnings(results, labels), meaning)
+    assumptions = _pairs(labels, [result.assumptions for result in results])
+    _write_texts(page, row, "assumptions", assumptions, meaning)
+    return page, meaning + 2
+
+
+def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
+    """Values of every quantity, one for each result."""
+    answers = [_flat(life_json(result)) for result in results]
+    rows: dict[str, list[Any]] = {"life": [_in_words(result) for result in results]}
+    for name in dict.fromkeys(name for answer in answers for name in answer):
+        rows[name] = [answer.get(name) for answer in answers]
+    if len(results) > 1:
+        rows["ratio_to_first"] = comparison_table(list(results))["ratio_to_first"].tolist()
+    return rows
+
+
+def _flat(answer: Mapping[str, Any]) -> dict[str, Any]:
+    shown = {name: value for name, value in answer.items() if name not in _NOT_SHOWN}
+    return {**shown, **shown.pop("service", {})}
+
+
+def _in_words(result: WearResult) -> str:
+    reached = isinstance(result.life, Life)
+    return hours(result.life) if reached else f"{hours(result.life)} (limit not reached)"
+
+
+def _write_rows(page: Page, row: int, rows: Mapping[str, list[Any]]) -> int:
+    for name, values in rows.items():
+        _write_row(page, row, name, _unit(name), values, _meaning(name))
+        row += 1
+    return row
+
+
+def _write_row(
+    page: Page, row: int, label: str, unit: str, values: Sequence[Any], meaning: str
+) -> None:
+    style: dict[str, Any] = {"valign": "top", "text_wrap": True}
+    page.put(row, 0, label, **style)
+    page.put(row, 1, unit, **style)
+    for column, value in enumerate(values, start=_FIRST_VALUE):
+        form = number_format([value])
+        page.put(row, column, value, num_format=form, bold=label in _BOLD, **style)
+    page.put(row, _FIRST_VALUE + len(values), meaning, align="left", indent=1, **style)
+    texts = [(value, _VALUE) for value in values if isinstance(value, str)]
+    page.fit_height(row, [*texts, (meaning, _MEANING)])
+
+
+def _unit(name: str) -> str:
+    return quantities()[name].unit if name in quantities() else ""
+
+
+def _meaning(name: str) -> str:
+    if name == "life":
+        return "the answer in words; > where no limit was met within the running time"
+    return quantities()[name].meaning if name in quantities() else ""
+
+
+def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
+    """Write each limit, what its quantity has come to, and what is left between both."""
+    _write_section(page, row, "limits at the end of the life", _FIRST_VALUE + len(results))
+    states = [{state.name: state for state in result.limits} for result in results]
+    for name in dict.fromkeys(name for found in states for name in found):
+        chosen = [found.get(name) for found in states]
+        limits = [state.limit if state else None for state in chosen]
+        values = [state.value if state else None for state in chosen]
+        margins = [_margin(state) if state else None for state in chosen]
+        _write_row(page, row + 1, name, _unit(name), limits, _meaning(name))
+        _write_row(page, row + 2, "  has come to", _unit(name), values, _meaning("value"))
+        _write_row(page, row + 3, "  margin", _unit(name), margins, "what is left to the limit")
+        row += 3
+    return row + 1
+
+
+def _margin(state: LimitState) -> float:
+    """Distance to a limit, 0 where only rounding is left."""
+    near = math.isclose(state.limit, state.value, rel_tol=1e-9)
+    return 0.0 if near else abs(state.limit - state.value)
+
+
+def _write_section(page: Page, row: int, title: str, last_column: int) -> None:
+    for column in range(last_column + 1):
+        page.put(row, column, "" if column else title, **SECTION)
+
+
+def _warnings(results: Sequence[WearResult], labels: Sequence[str]) -> list[tuple[str, str]]:
+    limits = differing_limits(list(results))
+    found = [("all", limits)] if limits else []
+    return found + _pairs(labels, [result.warnings for result in results])
+
+
+def _pairs(labels: Sequence[str], texts: Sequence[Sequence[str]]) -> list[tuple[str, str]]:
+    """Give each sentence with the name of its result."""
+    return [
+        (label, text)
+        for label, found in zip(labels, texts, strict=True)
+        for text in found or ("none",)
+    ]
+
+
+def _write_texts(
+    page: Page, row: int, title: str, texts: Sequence[tuple[str, str]], last_column: int
+) -> int:
+    """Write sentences under each other, each beside the case that it belongs to."""
+    _write_section(page, row, title, last_column)
+    width = _UNIT + _VALUE * (last_column - _FIRST_VALUE) + _MEANING
+    for label, text in texts:
+        row += 1
+        page.put(row, 0, label, valign="top")
+        page.paragraph(row, (1, last_column), text, width)
+    return row + 1

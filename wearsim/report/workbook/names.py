@@ -1,0 +1,65 @@
+"""Names of sheets that Excel accepts."""
+
+import re
+from collections.abc import Iterable, Sequence
+
+_LONGEST = 31
+_NOT_IN_XML = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_FORBIDDEN = re.compile(r"[\[\]:*?/\\\t\n]")
+
+
+def clean(text: str) -> str:
+    """Return a text without what no XML file can hold.
+
+    Parameters
+    ----------
+    text : str
+        Any text.
+
+    Returns
+    -------
+    str
+        Control characters and halves of characters replaced.
+    """
+    return _NOT_IN_XML.sub("\ufffd", text)
+
+
+def sheet_names(names: Sequence[str], taken: Iterable[str] = ()) -> list[str]:
+    r"""Return names of sheets.
+
+    Parameters
+    ----------
+    names : sequence of str
+        What the sheets should be called.
+    taken : iterable of str
+        Names that other sheets have.
+
+    Returns
+    -------
+    list of str
+        At most 31 characters each, no two alike but for capitals, none with ``[]:*?/\`` or an
+        apostrophe at an end, none that Excel keeps for itself.
+
+    Examples
+    --------
+    >>> sheet_names(["16b/20t", "16B/20T"], taken=["Inputs"])
+    ['16b-20t', '16B-20T (2)']
+    """
+    used = {"history", *(name.casefold() for name in taken)}
+    found = []
+    for name in names:
+        base = _FORBIDDEN.sub("-", clean(name)).strip(" '") or "result"
+        chosen, number = _cut(base, ""), 1
+        while chosen.casefold() in used:
+            number += 1
+            chosen = _cut(base, f" ({number})")
+        used.add(chosen.casefold())
+        found.append(chosen)
+    return found
+
+
+def _cut(base: str, end: str) -> str:
+    """Cut a name so that it takes 31 units of UTF-16, as Excel counts, with its end."""
+    room = 2 * (_LONGEST - len(end))
+    head = base.encode("utf-16-le")[:room].decode("utf-16-le", "ignore")
+    return head.strip(" '") + end

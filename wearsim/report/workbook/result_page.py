@@ -1,0 +1,155 @@
+"""The sheet of one result: its history and its last flank, as the CSV files have them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wearsim.quantities import quantities
+from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
+from wearsim.result import WearResult
+
+_FIRST_ROW = 4
+_NARROWEST = 11
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where the columns of a table stand.
+
+    Attributes
+    ----------
+    sheet : str
+        Name of the sheet.
+    columns : mapping of str to int
+        Column of each name, from 0.
+    first, last : int
+        Rows of its cells, from 0.
+    """
+
+    sheet: str
+    columns: Mapping[str, int]
+    first: int
+    last: int
+
+    def cells(self, name: str, part: tuple[int, int] | None = None) -> list[Any]:
+        """Return the cells of a column as a chart takes them.
+
+        Parameters
+        ----------
+        name : str
+            Of the column.
+        part : tuple of int, optional
+            First and last row of a part of it, counted within the table.
+
+        Returns
+        -------
+        list
+            Sheet, first row, column, last row, column.
+        """
+        first, last = part or (0, self.last - self.first)
+        column = self.columns[name]
+        return [self.sheet, self.first + first, column, self.first + last, column]
+
+
+@dataclass(frozen=True)
+class ResultPlaces:
+    """Where the tables of a result stand.
+
+    Attributes
+    ----------
+    title : str
+        Of the result.
+    history, flank : Place
+        The tables.
+    parts : tuple
+        Name, first and last row of every gap of the last flank; one without a name where all
+        gaps are alike.
+    right : int
+        First free column.
+    """
+
+    title: str
+    history: Place
+    flank: Place
+    parts: tuple[tuple[str, tuple[int, int]], ...]
+    right: int
+
+
+def write_result_page(book: Book, name: str, result: WearResult) -> tuple[Page, ResultPlaces]:
+    """Write the sheet of a result.
+
+    Parameters
+    ----------
+    book : Book
+        The workbook.
+    name : str
+        Of the sheet.
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    Page
+        The sheet.
+    ResultPlaces
+        Where its tables stand.
+    """
+    page = Page(book, name)
+    last = last_flank(result)
+    history = _write_table(page, 0, "history: the run over time", result.history_columns)
+    left = len(history.columns) + 1
+    flank = _write_table(page, left, "flank: at the end of the run", last)
+    page.put(0, 0, result.title, bold=True, font_size=13)
+    right = left + len(flank.columns)
+    page.freeze(_FIRST_ROW)
+    page.sheet.set_column(left - 1, left - 1, 3)
+    page.sheet.print_area(0, 0, max(history.last, flank.last), right - 1)
+    return page, ResultPlaces(result.title, history, flank, _gaps(last), right + 1)
+
+
+def last_flank(result: WearResult) -> dict[str, Any]:
+    """Return the columns of the flank at the end of the run.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    dict
+        Arrays by the names of flank.csv.
+    """
+    cycles = result.flank_columns["cycles"]
+    at_end = cycles == cycles[-1]
+    return {name: np.asarray(values)[at_end] for name, values in result.flank_columns.items()}
+
+
+def _write_table(page: Page, left: int, title: str, table: Mapping[str, Any]) -> Place:
+    """Write columns side by side: what the table is, names, units, numbers."""
+    columns: dict[str, int] = {}
+    values: Sequence[Any] = ()
+    for column, name in enumerate(table, start=left):
+        columns[name] = column
+        page.sheet.set_column(column, column, max(_NARROWEST, len(name) + 2))
+        page.put(1, column, title if column == left else "", **SECTION)
+        page.put(2, column, name, **HEADER)
+        page.put(3, column, quantities()[name].unit, **HEADER)
+        values = np.asarray(table[name]).tolist()
+        form = number_format(values)
+        for row, value in enumerate(values, start=_FIRST_ROW):
+            page.put(row, column, value, num_format=form)
+    return Place(page.name, columns, _FIRST_ROW, _FIRST_ROW + len(values) - 1)
+
+
+def _gaps(flank: Mapping[str, Any]) -> tuple[tuple[str, tuple[int, int]], ...]:
+    """Rows of the gaps that are told apart."""
+    rows = len(flank["cycles"])
+    kinds = flank.get("gap_kind", np.ones(rows, dtype=int))
+    found = [(int(kind), np.flatnonzero(kinds == kind)) for kind in np.unique(kinds)]
+    return tuple(
+        (f"gap {kind}" if len(found) > 1 else "", (int(rows[0]), int(rows[-1])))
+        for kind, rows in found
+    )
