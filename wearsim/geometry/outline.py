@@ -1,5 +1,6 @@
 """A closed outline of lines and circular arcs, as drawing formats hold it."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,25 @@ import shapely
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.profile import Vector
+
+
+def turned(points: Vector, angle: float) -> Vector:
+    """Return points turned counterclockwise about the origin.
+
+    Parameters
+    ----------
+    points : numpy.ndarray
+        Coordinates [mm], shape (..., 2).
+    angle : float
+        Angle [rad].
+
+    Returns
+    -------
+    numpy.ndarray
+        Coordinates [mm].
+    """
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,10 +48,21 @@ class Outline:
     >>> circle = Outline(np.array([[-1.0, 0.0], [1.0, 0.0]]), np.array([1.0, 1.0]))
     >>> round(shapely.Polygon(circle.polygon(1e-8)).area, 6)
     3.141593
+    >>> round(circle.area, 12) == round(math.pi, 12)
+    True
     """
 
     vertices: Vector
     bulges: Vector
+
+    @property
+    def area(self) -> float:
+        """Area inside, that between arcs and their chords included [mm2]."""
+        (x, y), (u, v) = self.vertices.T, np.roll(self.vertices, -1, axis=0).T
+        sweep = 4.0 * np.arctan(self.bulges)
+        half = np.sin(0.5 * np.where(sweep == 0.0, 1.0, sweep))
+        radius = 0.5 * np.hypot(u - x, v - y) / half
+        return 0.5 * float(np.sum(x * v - u * y) + np.sum(radius**2 * (sweep - np.sin(sweep))))
 
     def polygon(self, tolerance: float) -> Vector:
         """Return points of the outline, arcs by chords.
