@@ -13,6 +13,7 @@ import wearsim
 from wearsim.cli.check import check
 from wearsim.cli.compare import compare
 from wearsim.cli.convex_concave import convex_concave
+from wearsim.cli.export import export
 from wearsim.cli.face_load import face_load
 from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
@@ -58,6 +59,7 @@ for _command in (
     check,
     loads,
     profile,
+    export,
     compare,
     maintain,
     remaining,

@@ -6,7 +6,7 @@ tip, so that a wheel of them is run counterclockwise.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -34,11 +34,20 @@ class Stretch:
     bulges : numpy.ndarray
         Of the ways between them, shape (n - 1,): tan of a quarter of the arc's angle, positive
         counterclockwise, 0 for a line.
+    is_curve : bool
+        Whether the vertices are points of a smooth curve; else the arcs and lines are the form.
     """
 
     part: str
     vertices: Vector
     bulges: Vector
+    is_curve: bool = False
+
+    @property
+    def sagitta(self) -> float:
+        """Greatest distance of an arc from its chord [mm]."""
+        chord = np.hypot(*np.diff(self.vertices, axis=0).T)
+        return float((0.5 * chord * np.abs(self.bulges)).max())
 
     def turned(self, angle: float) -> "Stretch":
         """Return the stretch turned counterclockwise about the origin.
@@ -53,7 +62,7 @@ class Stretch:
         Stretch
             The same part.
         """
-        return Stretch(self.part, turned(self.vertices, angle), self.bulges)
+        return replace(self, vertices=turned(self.vertices, angle))
 
     def mirrored(self, part: str) -> "Stretch":
         """Return the mirror image on +y, run from the other end.
@@ -68,7 +77,9 @@ class Stretch:
         Stretch
             Bulges keep their signs: mirror image and reversal both turn them.
         """
-        return Stretch(part, self.vertices[::-1] * (-1.0, 1.0), self.bulges[::-1])
+        return Stretch(
+            part, self.vertices[::-1] * (-1.0, 1.0), self.bulges[::-1], self.is_curve
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +145,7 @@ class Chain:
             As it is, elsewhere.
         """
         there = (
-            Stretch(part.part, part.vertices + centre, part.bulges) for part in self.stretches
+            replace(part, vertices=part.vertices + centre) for part in self.stretches
         )
         return Chain(tuple(there), self.teeth, self.closed)
 
@@ -230,7 +241,7 @@ def along_points(part: str, points: Vector) -> Stretch:
     lesser = np.where(np.abs(before) < np.abs(after), before, after)
     bent = np.where(before * after > 0.0, lesser, 0.0)
     half_sweep = np.arcsin(np.clip(0.5 * bent * chord, -0.5, 0.5))
-    return Stretch(part, points, np.tan(0.5 * half_sweep))
+    return Stretch(part, points, np.tan(0.5 * half_sweep), is_curve=True)
 
 
 def up_to(flank: Stretch, point: Vector) -> Stretch:
@@ -257,6 +268,7 @@ def up_to(flank: Stretch, point: Vector) -> Stretch:
         flank.part,
         np.concatenate([flank.vertices[:kept], [point]]),
         np.concatenate([flank.bulges[: kept - 1], [last]]),
+        flank.is_curve,
     )
 
 

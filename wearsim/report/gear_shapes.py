@@ -112,7 +112,7 @@ def _space(drive: GearDrive, gear: int, points: Vector) -> Space:
     vertices, bulges, foot = half_tooth(body, None, "radial")
     vertices = turned(vertices, -math.pi / body.teeth)
     right = (
-        Stretch("back_flank", vertices[: foot + 1], bulges[:foot]),
+        Stretch("back_flank", vertices[: foot + 1], bulges[:foot], is_curve=True),
         Stretch("root", vertices[foot:], bulges[foot:]),
     )
     return Space(right, (right[1].mirrored("root"), right[0].mirrored("flank")))
