@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 _FORMATS = ("dxf", "svg", "csv", "step")
 _GAUGES = ("pdf", "svg", "dxf")
 
+_LONGER = 1000.0
+"""Times the horizon of a case that the limit of a gauge is looked for in."""
+
 
 @click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
 @click.argument("source", type=click.Path(path_type=Path), metavar="CASE_OR_RUN")
@@ -62,9 +65,7 @@ def export(
     case, result = _loaded(source, settings)
     shown = state or ("new" if result is None else "both")
     states = ("new", "worn") if shown == "both" else (shown,)
-    from wearsim.report.wheel_shapes import wheel_shapes
-
-    shapes = wheel_shapes(case, None)  # Refuses before the case is worn.
+    _check_shapes(case, kind)
     if result is None and ("worn" in states or template is not None):
         result = worn(case)
     written: list[tuple[Path, bytes]] = []
@@ -72,8 +73,34 @@ def export(
         from wearsim.report.export import export as content
 
         written.append((out, content(case, result, states, kind)))
+    if template is not None and gauge is not None and result is not None:
+        from wearsim.report.gauge_sheet import gauge_sheet
+
+        written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
     for path, data in written:
         _write(path, data, force)
+
+
+def _check_shapes(case: "Case", kind: str | None) -> None:
+    """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
+    from wearsim.report.wheel_shapes import wheel_shapes
+
+    shapes = wheel_shapes(case, None)
+    if kind == "step" and not all(shape.new[0].rooted for shape in shapes):
+        message = (
+            "the outline of both gears must be closed to be solids, but the case tells no root of their "
+            "teeth: take --format dxf, svg or csv, which hold the flanks"
+        )
+        raise CaseError([Fault(message, "gear", case.name)])
+
+
+def _worn_out(case: "Case", result: "WearResult") -> "WearResult":
+    """Return a run to the limit of the teeth, a longer one where that was not reached."""
+    from wearsim.report.gauge_sheet import is_worn_out
+
+    if is_worn_out(result):
+        return result
+    return worn(case.with_horizon(_LONGER * case.run.horizon_hours))
 
 
 def _check_places(places: list[Path], source: Path, force: bool) -> None:

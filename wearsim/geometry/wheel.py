@@ -422,7 +422,7 @@ def ring(spaces: Sequence[Space], turn: float = 0.0) -> tuple[Chain, ...]:
         start = (space.left or space.right)[-1].vertices[-1]
         end = following.right[0].vertices[0]
         own = space.right + space.left if space.rooted else space.left
-        rows.append((*own, *_tip(start, end), *(() if space.rooted else following.right)))
+        rows.append((*own, *arc_about_axis("tip", start, end), *(() if space.rooted else following.right)))
     if spaces[0].rooted:
         numbers = tuple(n for n, row in enumerate(rows, 1) for _ in row)
         return (Chain(tuple(part for row in rows for part in row), numbers, True),)
@@ -437,9 +437,38 @@ def _placed(space: Space, angle: float) -> Space:
     )
 
 
-def _tip(start: Vector, end: Vector) -> tuple[Stretch, ...]:
-    """Arc about the axis from one side of a tooth to the other, none where it is pointed."""
+def arc_about_axis(part: str, start: Vector, end: Vector) -> tuple[Stretch, ...]:
+    """Return the arc about the axis from one point to another at its radius.
+
+    Parameters
+    ----------
+    part : str
+        What it is.
+    start, end : numpy.ndarray
+        Coordinates [mm].
+
+    Returns
+    -------
+    tuple of Stretch
+        The shorter way round; none where both are one point.
+    """
     if math.dist(start, end) < _APART:
         return ()
-    angle = math.atan2(start[0] * end[1] - start[1] * end[0], start @ end)
-    return (Stretch("tip", np.array([start, end]), np.array([math.tan(0.25 * angle)])),)
+    bulge = math.tan(0.25 * angle_between(start, end))
+    return (Stretch(part, np.array([start, end]), np.array([bulge])),)
+
+
+def angle_between(start: Vector, end: Vector) -> float:
+    """Return the angle from one point to another about the axis.
+
+    Parameters
+    ----------
+    start, end : numpy.ndarray
+        Coordinates [mm].
+
+    Returns
+    -------
+    float
+        Counterclockwise positive, between -pi and pi [rad].
+    """
+    return math.atan2(start[0] * end[1] - start[1] * end[0], float(start @ end))

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.errors import GeometryError
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.wheel import Chain, Stretch
 from wearsim.report.wheel_shapes import State, WheelShape
@@ -29,7 +28,7 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     Parameters
     ----------
     shapes : sequence of WheelShape
-        The wheels, where they lie.
+        The wheels, where they lie, with closed outlines.
     states : sequence of str
         ``new``, ``worn`` or both: a solid each.
 
@@ -37,30 +36,16 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     -------
     bytes
         In mm: the outlines from z = 0 over the face width, without a bore.
-
-    Raises
-    ------
-    GeometryError
-        A wheel whose outline is open, since its root is not known.
     """
-    chains = {
-        (shape.name, state, shape.width): shape.chains(state)
-        for shape in shapes
-        for state in states
-    }
-    for (name, _, _), found in chains.items():
-        if not found[0].closed:
-            raise GeometryError(
-                f"STEP: the outline of the {name} must be closed to be a solid, but the case tells no "
-                "root of its teeth: take --format dxf, svg or csv, which hold the flanks"
-            )
     from build123d import Compound, export_step
 
     solids = []
-    for (name, state, width), (chain,) in chains.items():
-        body = solid(chain, width)
-        body.label = f"{name} {state}"
-        solids.append(body)
+    for shape in shapes:
+        for state in states:
+            (chain,) = shape.chains(state)
+            body = solid(chain, shape.width)
+            body.label = f"{shape.name} {state}"
+            solids.append(body)
     stream = io.BytesIO()
     whole = solids[0] if len(solids) == 1 else Compound(label="wheels", children=solids)
     export_step(whole, stream, write_pcurves=False, timestamp="1970-01-01T00:00:00")

@@ -46,6 +46,8 @@ class WheelShape:
         Angle by which the first space is turned from +y counterclockwise [rad].
     centre : tuple of float
         Where the axis lies [mm].
+    most_worn : int
+        Index of a space that is worn most.
     """
 
     name: str
@@ -56,6 +58,7 @@ class WheelShape:
     notes: tuple[str, ...]
     turn: float = 0.0
     centre: tuple[float, float] = (0.0, 0.0)
+    most_worn: int = 0
 
     def chains(self, state: State) -> tuple[Chain, ...]:
         """Return the outline in one state, where it lies in the drawing.
@@ -193,16 +196,25 @@ def _wrap_shape(case: Case, drive: WrapDrive, result: WearResult | None) -> Whee
         new = Space((along_points("gap", _points(drive.outline)),), ())
         notes = ["the gap as the case gives it, by points; tips are arcs about the axis"]
     worn: tuple[Space, ...] = ()
+    most_worn = 0
     if result is not None:
-        kinds = _worn_kinds(new, last_state(result))
+        last = last_state(result)
+        kinds = _worn_kinds(new, last)
         places = _kind_of_gaps(drive.gaps, case.engaged_every, len(kinds))
         worn = tuple(new if kind is None else kinds[kind] for kind in places)
+        most_worn = places.index(int(last["gap_kind"][int(last["depth_mm"].argmax())]) - 1)
         if len(kinds) > 1:
             notes.append("gaps that meet inner links and gaps that meet outer ones in turn")
         notes += _alike(math.gcd(drive.gaps, case.engaged_every)) if len(kinds) == 1 else ()
     radius = 0.5 * drive.layout.pitch / math.sin(0.5 * drive.pitch_angle)
     return WheelShape(
-        "sprocket", (new,) * drive.gaps, worn, radius, drive.face_width, tuple(notes)
+        "sprocket",
+        (new,) * drive.gaps,
+        worn,
+        radius,
+        drive.face_width,
+        tuple(notes),
+        most_worn=most_worn,
     )
 
 
