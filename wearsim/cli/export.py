@@ -1,5 +1,6 @@
 """``wearsim export``: the wheel for CAD, and a gauge that tells when it is worn out."""
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,10 +11,17 @@ from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.report.wheel_shapes import State
     from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv", "step")
 _GAUGES = ("pdf", "svg", "dxf")
+
+_STATES: "dict[str, tuple[State, ...]]" = {
+    "new": ("new",),
+    "worn": ("worn",),
+    "both": ("new", "worn"),
+}
 
 _LONGER = 1000.0
 """Times the horizon of a case that the limit of a gauge is looked for in."""
@@ -29,7 +37,7 @@ _LONGER = 1000.0
     "--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells."
 )
 @click.option(
-    "--state", type=click.Choice(("new", "worn", "both")),
+    "--state", type=click.Choice(tuple(_STATES)),
     help="Of the wheel; else new for a case, both for a run.",
 )  # fmt: skip
 @click.option(
@@ -64,7 +72,7 @@ def export(
         _check_step()
     case, result = _loaded(source, settings)
     shown = state or ("new" if result is None else "both")
-    states = ("new", "worn") if shown == "both" else (shown,)
+    states = _STATES[shown]
     _check_shapes(case, kind)
     if result is None and ("worn" in states or template is not None):
         result = worn(case)
@@ -151,7 +159,7 @@ def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult 
 
 def _write(path: Path, data: bytes, force: bool) -> None:
     if str(path) == "-":
-        click.get_binary_stream("stdout").write(data)
+        sys.stdout.buffer.write(data)
         return
     from wearsim.output import write_file
 

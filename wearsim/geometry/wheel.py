@@ -77,9 +77,7 @@ class Stretch:
         Stretch
             Bulges keep their signs: mirror image and reversal both turn them.
         """
-        return Stretch(
-            part, self.vertices[::-1] * (-1.0, 1.0), self.bulges[::-1], self.is_curve
-        )
+        return Stretch(part, self.vertices[::-1] * (-1.0, 1.0), self.bulges[::-1], self.is_curve)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,9 +142,7 @@ class Chain:
         Chain
             As it is, elsewhere.
         """
-        there = (
-            replace(part, vertices=part.vertices + centre) for part in self.stretches
-        )
+        there = (replace(part, vertices=part.vertices + centre) for part in self.stretches)
         return Chain(tuple(there), self.teeth, self.closed)
 
     @property
@@ -422,7 +418,9 @@ def ring(spaces: Sequence[Space], turn: float = 0.0) -> tuple[Chain, ...]:
         start = (space.left or space.right)[-1].vertices[-1]
         end = following.right[0].vertices[0]
         own = space.right + space.left if space.rooted else space.left
-        rows.append((*own, *arc_about_axis("tip", start, end), *(() if space.rooted else following.right)))
+        rows.append(
+            (*own, *arc_about_axis("tip", start, end), *(() if space.rooted else following.right))
+        )
     if spaces[0].rooted:
         numbers = tuple(n for n, row in enumerate(rows, 1) for _ in row)
         return (Chain(tuple(part for row in rows for part in row), numbers, True),)

@@ -96,9 +96,8 @@ def _condition(result: WearResult | None, states: Sequence[State]) -> str:
     if result is None:
         return "New."
     both = "New, and worn" if len(states) > 1 else "Worn"
-    return (
-        f"{both} after {grouped(result.hours_run)} h: {result.max_depth:.3g} mm off at the deepest point."
-    )
+    deepest = f"{result.max_depth:.3g} mm off at the deepest point"
+    return f"{both} after {grouped(result.hours_run)} h: {deepest}."
 
 
 def _greatest_sagitta(shapes: Sequence[WheelShape]) -> float:

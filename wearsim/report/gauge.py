@@ -11,8 +11,8 @@ from wearsim.geometry.outline import turned
 from wearsim.geometry.wheel import Chain, angle_between, arc_about_axis, line
 from wearsim.report.wheel_shapes import WheelShape
 
-_HEAD = 0.35
-_LEAST_HEAD = 8.0
+_HEAD = 0.5
+_LEAST_HEAD = 20.0
 """Height of the gauge above the tips: part of the pitch, and its least [mm]."""
 
 
@@ -71,7 +71,9 @@ def gauge(shape: WheelShape) -> Gauge:
     right, left = sides[0].vertices[0], sides[-1].vertices[-1]
     land = math.tau / len(shape.new) - angle_between(right, left)
     half = 0.5 * max(land, 0.0)
-    top = shape.tip_radius + max(_LEAST_HEAD, _HEAD * math.tau * shape.pitch_radius / len(shape.new))
+    top = shape.tip_radius + max(
+        _LEAST_HEAD, _HEAD * math.tau * shape.pitch_radius / len(shape.new)
+    )
     left_end, right_end = turned(left, half), turned(right, -half)
     upper_left = left_end * (top / math.hypot(*left_end))
     upper_right = right_end * (top / math.hypot(*right_end))

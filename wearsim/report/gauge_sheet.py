@@ -2,12 +2,14 @@
 
 import math
 import textwrap
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 import wearsim
 from wearsim.case.model import Case, GearDrive, WrapDrive
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.geometry.wheel import Chain, Stretch
+from wearsim.geometry.wheel import Chain, arc_about_axis
 from wearsim.report.answer import grouped
 from wearsim.report.dxf import add_polyline, new_drawing
 from wearsim.report.gauge import Gauge, gauge
@@ -19,8 +21,6 @@ from wearsim.simulation.limits import tooth_criteria
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-Form = Literal["pdf", "svg", "dxf"]
-
 BAR = 50.0
 SQUARE = 10.0
 """Length of the bar and side of the square that check the print [mm]."""
@@ -28,16 +28,16 @@ SQUARE = 10.0
 _SHEETS = ((210.0, 297.0), (297.0, 420.0), (420.0, 594.0), (594.0, 841.0), (841.0, 1189.0))
 _MARGIN = 15.0
 _TEXT, _LINE = 3.0, 5.2
-_LETTER = 0.75
+_LETTER = 0.68
 """Height of letters, distance of lines [mm], and width of a letter over its height."""
 
 _COARSE = 0.5
 """Depth of a limit [mm] below which paper is too coarse for it."""
 
 _LAYERS = {
-    "GAUGE": (7, 35, "Continuous"),
-    "NEW": (8, 13, "DASHED"),
-    "PITCH_CIRCLE": (8, 13, "DASHDOT"),
+    "GAUGE": (7, 13, "Continuous"),
+    "NEW": (8, 9, "DASHED"),
+    "PITCH_CIRCLE": (8, 9, "DASHDOT"),
     "CHECK": (7, 25, "Continuous"),
     "NOTES": (7, 13, "Continuous"),
 }
@@ -59,7 +59,7 @@ def is_worn_out(result: WearResult) -> bool:
     return isinstance(result.parts.get("sprocket", result.life), Life)
 
 
-def gauge_sheet(case: Case, result: WearResult, form: Form) -> bytes:
+def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
     """Return the gauge of a case as the content of a file.
 
     Parameters
@@ -158,34 +158,26 @@ def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str
 
 
 def _add_gauge(drawing: "Drawing", one: Gauge, shift: tuple[float, float]) -> None:
-    outline, space = one.outline.moved(shift), drawing.modelspace()
+    outline = one.outline.moved(shift)
     add_polyline(drawing, "GAUGE", outline.vertices, outline.bulges, closed=True)
     for chain in (*one.new, _pitch_arc(one)):
         there = chain.moved(shift)
         layer = "NEW" if chain in one.new else "PITCH_CIRCLE"
         add_polyline(drawing, layer, there.vertices, there.bulges, closed=False)
     left, bottom, wide, tall = one.box
-    x, y = shift
-    top = y + bottom + tall - 1.0
-    middle = x + left + 0.5 * wide
-    name = "" if one.name == "sprocket" else f"{one.name.upper()}  "
-    for words, place in (
-        (f"{name}W", (x + left + 3.0, top - 5.0)),
-        ("U", (x + left + wide - 6.0, top - 5.0)),
-    ):
-        add_text(drawing, words, place, _TEXT)
-    space.add_line((middle, top - 7.0), (middle, top - 2.0), dxfattribs={"layer": "NOTES"})
+    x, top = shift[0] + left, shift[1] + bottom + tall - 1.0
+    add_text(drawing, "W", (x + 4.0, top - 5.0), _TEXT)
+    add_text(drawing, "U", (x + wide - 7.0, top - 5.0), _TEXT)
+    if one.name != "sprocket":
+        add_text(drawing, one.name, (x + wide + 5.0, top - 5.0), _TEXT)
 
 
 def _pitch_arc(one: Gauge) -> Chain:
     """Pitch circle across the gauge."""
     half = min(0.5 * one.box[2] / one.pitch_radius, 1.0)
-    ends = [(s * one.pitch_radius * math.sin(half), one.pitch_radius * math.cos(half)) for s in (1, -1)]
-    import numpy as np
-
-    return Chain(
-        (Stretch("pitch", np.array(ends), np.array([math.tan(0.5 * half)])),), (1,), False
-    )
+    x, y = one.pitch_radius * math.sin(half), one.pitch_radius * math.cos(half)
+    ends = np.array([[x, y], [-x, y]])
+    return Chain(arc_about_axis("pitch_circle", ends[0], ends[1]), (1,), False)
 
 
 def _add_check(drawing: "Drawing", place: tuple[float, float]) -> None:
@@ -221,11 +213,11 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
         f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
         "by 10 mm, else do not use this sheet.",
-        f"2. Cut along the thick line, from stiff paper or sheet metal.{coarse} Clean the teeth.",
+        f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
         "3. Hold it into the gap between two teeth, edge U against the side that carries no load, edge W "
         "to the side that does, and let its shoulders come down on both tips.",
-        "4. It does not come down to the tips: not worn out yet. It rests on the tips and touches along W: "
-        "worn to the limit, replace. It rests on the tips and light shows along W: worn beyond the limit.",
+        "4. It does not come down to the tips: not worn out yet. It rests on the tips and touches along "
+        "W: worn to the limit, replace. It rests on the tips and light shows along W: worn beyond it.",
         "Dashed: the new tooth. Dash-dotted: the pitch circle. Hold it to the gap worn most. "
         f"wearsim {wearsim.__version__}",
     ]

@@ -14,6 +14,8 @@ _UNITS_PER_MM = 1e4
 """Of the coordinates of an SVG file, which are whole numbers: steps of 0.1 um."""
 
 _POINTS_PER_MM = 72.0 / 25.4
+_THINNEST = 0.1
+"""Line in a PDF [points]."""
 
 
 def svg_text(drawing: "Drawing", box: Box) -> str:
@@ -31,14 +33,15 @@ def svg_text(drawing: "Drawing", box: Box) -> str:
     str
         With width and height in mm; arcs are Bezier curves within 3e-4 of their radius.
     """
-    from ezdxf.addons.drawing import Frontend, RenderContext
+    from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
+    from ezdxf.addons.drawing.properties import RenderContext
     from ezdxf.addons.drawing.svg import SVGBackend
     from ezdxf.math import BoundingBox2d
 
     left, bottom, width, height = box
     backend = SVGBackend()
-    Frontend(RenderContext(drawing), backend, config=_ink()).draw_layout(drawing.modelspace())
+    Frontend(RenderContext(drawing), backend, config=_ink(1.0)).draw_layout(drawing.modelspace())
     return backend.get_string(
         Page(width, height, Units.mm, Margins.all(0.0)),
         settings=Settings(
@@ -65,15 +68,17 @@ def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
     bytes
         One page, without a date.
     """
-    from ezdxf.addons.drawing import Frontend, RenderContext
+    from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
+    from ezdxf.addons.drawing.properties import RenderContext
     from matplotlib.figure import Figure
 
     left, bottom, width, height = box
     figure = Figure(figsize=(width / 25.4, height / 25.4))
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     backend = MatplotlibBackend(axes, adjust_figure=False)
-    Frontend(RenderContext(drawing), backend, config=_ink()).draw_layout(drawing.modelspace())
+    ink = _ink(_POINTS_PER_MM)
+    Frontend(RenderContext(drawing), backend, config=ink).draw_layout(drawing.modelspace())
     axes.set_aspect("auto")
     axes.set_xlim(left, left + width)
     axes.set_ylim(bottom, bottom + height)
@@ -83,8 +88,12 @@ def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
     return stream.getvalue()
 
 
-def _ink() -> "Configuration":
-    """Colours on white, lines in mm as thick as their layers say."""
+def _ink(units_per_mm: float) -> "Configuration":
+    """Colours on white, lines as thick as their layers say."""
     from ezdxf.addons.drawing.config import BackgroundPolicy, Configuration
 
-    return Configuration(background_policy=BackgroundPolicy.WHITE, lineweight_scaling=1.0)
+    return Configuration(
+        background_policy=BackgroundPolicy.WHITE,
+        lineweight_scaling=units_per_mm,
+        min_lineweight=_THINNEST,
+    )
