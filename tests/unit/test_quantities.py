@@ -22,6 +22,8 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
+from wearsim.report.wheel_points import wheel_points
+from wearsim.report.wheel_shapes import wheel_shapes
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.simulation.loads import tooth_loads
 
@@ -142,6 +144,7 @@ def written(tmp_path_factory):
         *result.summary(),
         *schema["$defs"]["life"]["properties"],
         *profile_table(case),
+        *wheel_points(wheel_shapes(case, None), ("new",)),
         *comparison_table([result]),
         *wrapped(),
         *FLANK_COLUMNS["gear_pair"],

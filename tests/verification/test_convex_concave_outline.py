@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 from wearsim.errors import GeometryError
 from wearsim.geometry.convex_concave import ConvexConcave
 from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.convex_concave_outline import gear_outline, root_radius, tip_overlap, turned
-from wearsim.geometry.outline import Outline
+from wearsim.geometry.convex_concave_outline import gear_outline, root_radius, tip_overlap
+from wearsim.geometry.outline import Outline, turned
 from wearsim.report.dxf import write_dxf
 from wearsim.report.stl import prism, write_stl
 

@@ -16,6 +16,7 @@ from wearsim.cli.compare import compare
 from wearsim.cli.completion import completion, use_own_bash
 from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.doctor import doctor
+from wearsim.cli.export import export
 from wearsim.cli.face_load import face_load
 from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
@@ -61,6 +62,7 @@ for _command in (
     check,
     loads,
     profile,
+    export,
     compare,
     maintain,
     remaining,

@@ -14,32 +14,13 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.convex_concave import ConvexConcave
 from wearsim.geometry.convex_concave_flank import Flank
 from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.outline import Outline
+from wearsim.geometry.outline import Outline, turned
 from wearsim.geometry.profile import Vector
 
 RootForm = Literal["radial", "fillet"]
 
 _FLANK_POINTS = 33
 """Of head and of foot; with arcs between them the outline follows the flank to about 2e-7 module."""
-
-
-def turned(points: Vector, angle: float) -> Vector:
-    """Return points turned counterclockwise about the origin.
-
-    Parameters
-    ----------
-    points : numpy.ndarray
-        Coordinates [mm], shape (..., 2).
-    angle : float
-        Angle [rad].
-
-    Returns
-    -------
-    numpy.ndarray
-        Coordinates [mm].
-    """
-    cos, sin = math.cos(angle), math.sin(angle)
-    return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]))
 
 
 def root_radius(gear: ConvexConcaveGear, clearance: float | None, root: RootForm) -> float:
@@ -100,18 +81,46 @@ def gear_outline(gear: ConvexConcaveGear, clearance: float | None, root: RootFor
     GeometryError
         The root circle is none, or the fillet is too large for the gap.
     """
-    vertices, bulges = _flank(gear)
-    radius = root_radius(gear, clearance, root)
-    below, below_bulges = (_radial if root == "radial" else _fillet)(gear, radius)
-    # The left half of a tooth whose centre line is +y, from the tip to the middle of the gap.
-    half = turned(np.concatenate([vertices, below]), gear.half_tooth)
-    half_bulges = np.concatenate([bulges, below_bulges])
+    half, half_bulges, _ = half_tooth(gear, clearance, root)
     tip = 2.0 * math.atan2(-half[0, 0], half[0, 1])
     tooth = np.concatenate([half[:0:-1] * (-1.0, 1.0), half[:1] * (-1.0, 1.0), half[:-1]])
     tooth_bulges = np.concatenate([half_bulges[::-1], [math.tan(0.25 * tip)], half_bulges])
     pitch, first = 2.0 * math.pi / gear.teeth, -0.5 * math.pi / gear.teeth
     teeth = [turned(tooth, first + k * pitch) for k in range(gear.teeth)]
     return Outline(np.concatenate(teeth), np.tile(tooth_bulges, gear.teeth))
+
+
+def half_tooth(
+    gear: ConvexConcaveGear, clearance: float | None, root: RootForm
+) -> tuple[Vector, Vector, int]:
+    """Return the left half of a tooth whose centre line is +y.
+
+    Parameters
+    ----------
+    gear : ConvexConcaveGear
+        The gear.
+    clearance : float or None
+        What the root circle lies below the addendum of a rack [mm]; see :func:`root_radius`.
+    root : str
+        ``radial`` or ``fillet``; see :func:`gear_outline`.
+
+    Returns
+    -------
+    vertices, bulges : numpy.ndarray
+        From the tip to the middle of the gap [mm], and the arcs between the vertices.
+    foot : int
+        Index of the vertex where the foot ends.
+
+    Raises
+    ------
+    GeometryError
+        The root circle is none, or the fillet is too large for the gap.
+    """
+    vertices, bulges = _flank(gear)
+    radius = root_radius(gear, clearance, root)
+    below, below_bulges = (_radial if root == "radial" else _fillet)(gear, radius)
+    half = turned(np.concatenate([vertices, below]), gear.half_tooth)
+    return half, np.concatenate([bulges, below_bulges]), len(bulges)
 
 
 def _flank(gear: ConvexConcaveGear) -> tuple[Vector, Vector]:

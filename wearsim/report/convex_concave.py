@@ -10,7 +10,7 @@ import pandas as pd
 
 from wearsim.geometry.convex_concave import SignCondition
 from wearsim.geometry.convex_concave_flank import Flank
-from wearsim.geometry.convex_concave_outline import turned
+from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
 from wearsim.report.answer import numbered, row
 from wearsim.report.convex_concave_figure import convex_concave_figure

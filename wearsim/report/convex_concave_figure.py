@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from wearsim.geometry.convex_concave_outline import turned
+from wearsim.geometry.outline import turned
 from wearsim.sizing.convex_concave import Layout
 
 _TOLERANCE = 1e-3

@@ -1,11 +1,73 @@
 """Outlines as DXF drawings."""
 
+import io
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ezdxf.filemanagement import new
 from ezdxf.units import MM
 
 from wearsim.geometry.outline import Outline
+from wearsim.geometry.profile import Vector
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+
+
+def new_drawing() -> "Drawing":
+    """Return an empty drawing in mm.
+
+    Returns
+    -------
+    ezdxf.document.Drawing
+        Of DXF R2010, with dashed and dash-dotted line types.
+    """
+    return new("R2010", setup=["linetypes"], units=MM)
+
+
+def add_polyline(
+    drawing: "Drawing", layer: str, vertices: Vector, bulges: Vector, closed: bool
+) -> None:
+    """Add one polyline with arcs.
+
+    Parameters
+    ----------
+    drawing : ezdxf.document.Drawing
+        Where to.
+    layer : str
+        Its layer.
+    vertices : numpy.ndarray
+        Coordinates [mm], shape (n, 2); of a closed one the first is not repeated.
+    bulges : numpy.ndarray
+        Of the ways from each vertex to the next, n of them if it is closed, else n - 1.
+    closed : bool
+        Whether the last vertex is joined to the first.
+    """
+    own = bulges.tolist() + [0.0] * (len(vertices) - len(bulges))
+    drawing.modelspace().add_lwpolyline(
+        [(x, y, bulge) for (x, y), bulge in zip(vertices.tolist(), own, strict=True)],
+        format="xyb",
+        close=closed,
+        dxfattribs={"layer": layer},
+    )
+
+
+def dxf_text(drawing: "Drawing") -> str:
+    """Return a drawing as the text of a DXF file.
+
+    Parameters
+    ----------
+    drawing : ezdxf.document.Drawing
+        The drawing.
+
+    Returns
+    -------
+    str
+        Of R2010, to be encoded in UTF-8.
+    """
+    stream = io.StringIO()
+    drawing.write(stream)
+    return stream.getvalue()
 
 
 def write_dxf(outline: Outline, path: Path) -> None:
@@ -18,12 +80,7 @@ def write_dxf(outline: Outline, path: Path) -> None:
     path : pathlib.Path
         File to write.
     """
-    drawing = new("R2010", units=MM)
+    drawing = new_drawing()
     drawing.layers.add("OUTLINE")
-    drawing.modelspace().add_lwpolyline(
-        [(x, y, b) for (x, y), b in zip(outline.vertices, outline.bulges, strict=True)],
-        format="xyb",
-        close=True,
-        dxfattribs={"layer": "OUTLINE"},
-    )
+    add_polyline(drawing, "OUTLINE", outline.vertices, outline.bulges, closed=True)
     drawing.saveas(path)

@@ -1,0 +1,167 @@
+"""``wearsim export``: the wheel for CAD, and a gauge that tells when it is worn out."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.cli.standard import load_cases, overrides, standard, warn, worn
+from wearsim.errors import CaseError, Fault, OutputError
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.report.wheel_shapes import State
+    from wearsim.result import WearResult
+
+_FORMATS = ("dxf", "svg", "csv", "step")
+_GAUGES = ("pdf", "svg", "dxf")
+
+_STATES: "dict[str, tuple[State, ...]]" = {
+    "new": ("new",),
+    "worn": ("worn",),
+    "both": ("new", "worn"),
+}
+
+_LONGER = 1000.0
+"""Times the horizon of a case that the limit of a gauge is looked for in."""
+
+
+@click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
+@click.argument("source", type=click.Path(path_type=Path), metavar="CASE_OR_RUN")
+@click.option(
+    "--out", type=click.Path(path_type=Path, allow_dash=True),
+    help="New file of the wheel; - is stdout.",
+)  # fmt: skip
+@click.option(
+    "--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells."
+)
+@click.option(
+    "--state", type=click.Choice(tuple(_STATES)),
+    help="Of the wheel; else new for a case, both for a run.",
+)  # fmt: skip
+@click.option(
+    "--template", type=click.Path(path_type=Path), metavar="FILE",
+    help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and hold between the teeth.",
+)  # fmt: skip
+@click.option("--force", is_flag=True, help="Replace the files.")
+@overrides
+@standard
+def export(
+    source: Path,
+    out: Path | None,
+    form: str | None,
+    state: str | None,
+    template: Path | None,
+    force: bool,
+    settings: tuple[str, ...],
+) -> None:
+    """Write the wheel of a case (.toml) or of a run (folder of life --out) for CAD.
+
+    DXF and SVG hold outlines on layers of their own, circles and a note; CSV the points; STEP a
+    solid (pip install 'wearsim[step]'). A worn wheel of a case is worn first, until its limit.
+    --template writes the outline of the gap at the wear limit, with a bar to check the print.
+    """
+    if out is None and template is None:
+        raise click.UsageError("give --out FILE, --template FILE or both")
+    places = [path for path in (out, template) if path is not None and str(path) != "-"]
+    _check_places(places, source, force)
+    kind = None if out is None else _ending(out, form, _FORMATS, "--format")
+    gauge = None if template is None else _ending(template, None, _GAUGES, ".pdf")
+    if kind == "step":
+        _check_step()
+    case, result = _loaded(source, settings)
+    shown = state or ("new" if result is None else "both")
+    states = _STATES[shown]
+    _check_shapes(case, kind)
+    if result is None and ("worn" in states or template is not None):
+        result = worn(case)
+    written: list[tuple[Path, bytes]] = []
+    if out is not None and kind is not None:
+        from wearsim.report.export import export as content
+
+        written.append((out, content(case, result, states, kind)))
+    if template is not None and gauge is not None and result is not None:
+        from wearsim.report.gauge_sheet import gauge_sheet
+
+        written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
+    for path, data in written:
+        _write(path, data, force)
+
+
+def _check_shapes(case: "Case", kind: str | None) -> None:
+    """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
+    from wearsim.report.wheel_shapes import wheel_shapes
+
+    shapes = wheel_shapes(case, None)
+    if kind == "step" and not all(shape.new[0].rooted for shape in shapes):
+        message = (
+            "the outline of both gears must be closed to be solids, but the case tells no root of their "
+            "teeth: take --format dxf, svg or csv, which hold the flanks"
+        )
+        raise CaseError([Fault(message, "gear", case.name)])
+
+
+def _worn_out(case: "Case", result: "WearResult") -> "WearResult":
+    """Return a run to the limit of the teeth, a longer one where that was not reached."""
+    from wearsim.report.gauge_sheet import is_worn_out
+
+    if is_worn_out(result):
+        return result
+    return worn(case.with_horizon(_LONGER * case.run.horizon_hours))
+
+
+def _check_places(places: list[Path], source: Path, force: bool) -> None:
+    from wearsim.output import check_free
+
+    for place in places:
+        check_free(place, force)
+        if place.resolve() == source.resolve():
+            raise OutputError(f"{place}: must not be the case itself: choose another place")
+    if len({place.resolve() for place in places}) < len(places):
+        raise OutputError(f"{places[0]}: must not be both --out and --template: choose two places")
+
+
+def _ending(path: Path, given: str | None, known: tuple[str, ...], hint: str) -> str:
+    """Format of a file by its ending."""
+    found = given or path.suffix.removeprefix(".").lower().replace("stp", "step")
+    if found not in known:
+        endings = ", ".join(f".{name}" for name in known)
+        raise OutputError(f"{path}: must end in one of {endings}: choose another name, or {hint}")
+    return found
+
+
+def _check_step() -> None:
+    """Raise where build123d is missing, without loading it: that takes seconds."""
+    from importlib.util import find_spec
+
+    if find_spec("build123d") is None:
+        raise OutputError(
+            "--format step: needs build123d, which is not installed: pip install 'wearsim[step]'"
+        )
+
+
+def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult | None]":
+    """Return a case, and its run where the folder of one is given."""
+    if not source.is_dir():
+        (case,) = load_cases([source], settings, as_json=False)
+        return case, None
+    if settings:
+        raise click.UsageError("--set changes cases, it cannot change the folder of a run")
+    from dataclasses import replace
+
+    from wearsim.result import WearResult
+
+    result = WearResult.load(source)
+    (case,) = load_cases([source / "case.lock.toml"], (), as_json=False)
+    return replace(case, name=result.case, title=result.title), result
+
+
+def _write(path: Path, data: bytes, force: bool) -> None:
+    if str(path) == "-":
+        sys.stdout.buffer.write(data)
+        return
+    from wearsim.output import write_file
+
+    write_file(path, data, force)
+    warn(f"written to {path}")

@@ -1,0 +1,99 @@
+"""Drawings on paper: SVG and PDF of the same drawing, 1 mm of it 1 mm of the page."""
+
+import io
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ezdxf.addons.drawing.config import Configuration
+    from ezdxf.document import Drawing
+
+Box = tuple[float, float, float, float]
+"""Left, bottom, width and height of what is shown of a drawing [mm]."""
+
+_UNITS_PER_MM = 1e4
+"""Of the coordinates of an SVG file, which are whole numbers: steps of 0.1 um."""
+
+_POINTS_PER_MM = 72.0 / 25.4
+_THINNEST = 0.1
+"""Line in a PDF [points]."""
+
+
+def svg_text(drawing: "Drawing", box: Box) -> str:
+    """Return a drawing as SVG in its true size.
+
+    Parameters
+    ----------
+    drawing : ezdxf.document.Drawing
+        In mm.
+    box : tuple of float
+        What is shown of it.
+
+    Returns
+    -------
+    str
+        With width and height in mm; arcs are Bezier curves within 3e-4 of their radius.
+    """
+    from ezdxf.addons.drawing.frontend import Frontend
+    from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
+    from ezdxf.addons.drawing.properties import RenderContext
+    from ezdxf.addons.drawing.svg import SVGBackend
+    from ezdxf.math import BoundingBox2d
+
+    left, bottom, width, height = box
+    backend = SVGBackend()
+    Frontend(RenderContext(drawing), backend, config=_ink(1.0)).draw_layout(drawing.modelspace())
+    return backend.get_string(
+        Page(width, height, Units.mm, Margins.all(0.0)),
+        settings=Settings(
+            fit_page=False, output_coordinate_space=max(width, height) * _UNITS_PER_MM
+        ),
+        render_box=BoundingBox2d([(left, bottom), (left + width, bottom + height)]),
+    )
+
+
+def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
+    """Return a drawing as a PDF page in its true size.
+
+    Parameters
+    ----------
+    drawing : ezdxf.document.Drawing
+        In mm.
+    box : tuple of float
+        What is shown of it: the page.
+    title : str
+        Of the document.
+
+    Returns
+    -------
+    bytes
+        One page, without a date.
+    """
+    from ezdxf.addons.drawing.frontend import Frontend
+    from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
+    from ezdxf.addons.drawing.properties import RenderContext
+    from matplotlib.figure import Figure
+
+    left, bottom, width, height = box
+    figure = Figure(figsize=(width / 25.4, height / 25.4))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    backend = MatplotlibBackend(axes, adjust_figure=False)
+    ink = _ink(_POINTS_PER_MM)
+    Frontend(RenderContext(drawing), backend, config=ink).draw_layout(drawing.modelspace())
+    axes.set_aspect("auto")
+    axes.set_xlim(left, left + width)
+    axes.set_ylim(bottom, bottom + height)
+    stream = io.BytesIO()
+    metadata = {"Title": title, "CreationDate": None, "Creator": "wearsim"}
+    figure.savefig(stream, format="pdf", metadata=metadata)
+    return stream.getvalue()
+
+
+def _ink(units_per_mm: float) -> "Configuration":
+    """Colours on white, lines as thick as their layers say."""
+    from ezdxf.addons.drawing.config import BackgroundPolicy, Configuration
+
+    return Configuration(
+        background_policy=BackgroundPolicy.WHITE,
+        lineweight_scaling=units_per_mm,
+        min_lineweight=_THINNEST,
+    )
