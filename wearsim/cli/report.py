@@ -15,7 +15,9 @@ from wearsim.errors import OutputError
 )
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
 @click.option(
-    "--single-file", is_flag=True, help="Every page holds its script (about 5 MB each) and moves alone."
+    "--single-file",
+    is_flag=True,
+    help="Every page holds its script (about 5 MB each) and moves alone.",
 )
 @click.option(
     "--detail",
@@ -61,6 +63,4 @@ def _check_installed() -> None:
     from importlib.util import find_spec
 
     if any(find_spec(name) is None for name in ("jinja2", "plotly")):
-        raise OutputError(
-            "report: the pages need jinja2 and plotly: pip install 'wearsim[report]'"
-        )
+        raise OutputError("report: the pages need jinja2 and plotly: pip install 'wearsim[report]'")

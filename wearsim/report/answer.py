@@ -12,6 +12,9 @@ from wearsim.result import Life, LowerBound, WearResult
 _WIDTH = 100
 _LABEL = 13
 
+BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
+"""Labels of findings that a page shows in its own way."""
+
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
@@ -141,7 +144,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
     """
     return [
         ("Life", _life(result)),
-        ("With the wear coefficient at its low / high end:", _band(result)),
+        (BAND, _band(result)),
         *_service(result),
         *_parts(result),
         ("Worn most", _worst(result)),
@@ -165,7 +168,7 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
         f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
         for state in result.limits
     )
-    limits = [("Limits", f"at the end of the life {used}")]
+    limits = [(LIMITS, f"at the end of the life {used}")]
     if not result.parts:
         return limits
     lives = ", ".join(
@@ -309,11 +312,32 @@ def numbered(assumptions: tuple[str, ...]) -> str:
     >>> numbered(("all teeth alike", "run.method = advance (default)", "wear.law = archard (default)"))
     '1 all teeth alike; 2 defaults: run.method = advance, wear.law = archard'
     """
-    defaults = [text for text in assumptions if _DEFAULT.match(text)]
-    shown = [text for text in assumptions if text not in defaults]
+    shown, defaults = told_apart(assumptions)
     if defaults:
         shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
+
+
+def told_apart(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    """Return what a result takes for granted, and the defaults it takes.
+
+    Parameters
+    ----------
+    assumptions : tuple of str
+        Of a result.
+
+    Returns
+    -------
+    tuple of list of str
+        The two kinds, each in its order.
+
+    Examples
+    --------
+    >>> told_apart(("all teeth alike", "wear.law = archard (default)"))
+    (['all teeth alike'], ['wear.law = archard (default)'])
+    """
+    defaults = [text for text in assumptions if _DEFAULT.match(text)]
+    return [text for text in assumptions if text not in defaults], defaults
 
 
 def _worst(result: WearResult) -> str:

@@ -17,6 +17,9 @@ from wearsim.result.folder import with_files
 _LARGEST_SHOWN = 0.12
 """Depth in the picture of a flank, as a fraction of the flank's extent."""
 
+_FINE = 2e-4
+"""Deviation of the wheel's outline in a picture, as a fraction of the pitch."""
+
 _ROUND = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
@@ -111,7 +114,8 @@ def outline(result: WearResult) -> tuple[Vector, Vector]:
         return np.empty(0), np.empty(0)
     drive = case_of(result).drive
     assert isinstance(drive, StrandDrive)
-    points = np.array(drive.tooth.wheel().exterior.coords)
+    wheel = drive.tooth.wheel().exterior.simplify(_FINE * drive.chain.pitch)
+    points = np.array(wheel.coords)
     return points[:, 0], points[:, 1]
 
 

@@ -19,6 +19,7 @@ from wearsim.report.html.sketch import (
     line,
     scaled,
     straight_arrow,
+    text_size,
     turn_arrow,
     turned,
 )
@@ -61,16 +62,16 @@ def wrap_sketch(drive: WrapDrive) -> Sketch:
     arrow = 0.35 * min(pitch_radii)
     strokes += [Stroke("arrow", turn_arrow(*centre, arrow, 1)) for centre in centres]
     middle, rise = 0.5 * layout.centre_distance, 0.5 * (pitch_radii[0] + pitch_radii[1])
-    box = around([(*c, max(t, p + radius)) for c, t, p in zip(centres, tips, pitch_radii, strict=True)])
-    text = 0.03 * box[2]
-    gap = radius + 0.5 * text
+    box = around(
+        [(*c, max(t, p + radius)) for c, t, p in zip(centres, tips, pitch_radii, strict=True)]
+    )
+    text = text_size(box)
+    gap = radius + 0.5 * text + 3.5 * text * abs(math.tan(layout.inclination))
     labels = (
         Label(middle, -rise - gap, "tight strand"),
         Label(middle, rise + gap + 0.75 * text, "slack strand"),
     )
-    return scaled(
-        Sketch(box, 0.0, tuple(strokes), labels, _wrap_alt(drive), _wrap_notes(drive))
-    )
+    return scaled(Sketch(box, 0.0, tuple(strokes), labels, _wrap_alt(drive), _wrap_notes(drive)))
 
 
 def _wrap_alt(drive: WrapDrive) -> str:
@@ -124,9 +125,12 @@ def roller_places(layout: DriveLayout) -> Vector:
     part = np.searchsorted(ends, places, side="right")
     way = (places - (ends - lengths)[part]) / lengths[part]
     upper = 0.5 * math.pi + layout.inclination
-    driver, driven = (0.0, 0.5 * layout.pitch_diameter_1), (
-        layout.centre_distance,
-        0.5 * layout.pitch_diameter_2,
+    driver, driven = (
+        (0.0, 0.5 * layout.pitch_diameter_1),
+        (
+            layout.centre_distance,
+            0.5 * layout.pitch_diameter_2,
+        ),
     )
     return np.concatenate(
         [
@@ -191,11 +195,15 @@ def strand_sketch(drive: StrandDrive, engaged_every: int) -> Sketch:
         Stroke("worn", _outline(drive)),
         Stroke("pitch", circle(0.0, 0.0, strand.centrode_radius)),
         Stroke("chain", line([(-reach, y), (reach, y)])),
-        Stroke("roller", "".join(circle(x, y, radius) for x in rollers if x <= reach + 0.1 * pitch)),
+        Stroke(
+            "roller", "".join(circle(x, y, radius) for x in rollers if x <= reach + 0.1 * pitch)
+        ),
         Stroke("arrow", turn_arrow(0.0, 0.0, 0.3 * tip, -1)),
         Stroke(
             "arrow",
-            straight_arrow((0.45 * reach, y + 2.2 * radius), (0.95 * reach, y + 2.2 * radius), radius),
+            straight_arrow(
+                (0.45 * reach, y + 2.2 * radius), (0.95 * reach, y + 2.2 * radius), radius
+            ),
         ),
     )
     box = around([(0.0, 0.0, tip), (-reach, y, radius), (reach, y, radius), (0.0, y, 2.6 * radius)])
@@ -205,8 +213,8 @@ def strand_sketch(drive: StrandDrive, engaged_every: int) -> Sketch:
         f"{pitch:g} mm, {strand.offset:.4g} mm inside its centrode."
     )
     notes = (
-        f"{tooth.teeth} teeth, pitch {pitch:g} mm, centrode radius {strand.centrode_radius:.2f} mm, line of "
-        f"roller centres {strand.offset:.4g} mm inside it",
+        f"{tooth.teeth} teeth, pitch {pitch:g} mm, centrode radius {strand.centrode_radius:.2f} mm, line "
+        f"of roller centres {strand.offset:.4g} mm inside it",
         f"a roller in every {'gap' if engaged_every == 1 else f'{engaged_every}. gap'}; the strand is "
         "straight and guided: no wrap, and the second sprocket has no part in it",
         f"pull {grouped(drive.pull)} N at most",

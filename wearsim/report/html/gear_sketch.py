@@ -5,7 +5,16 @@ import math
 import numpy as np
 
 from wearsim.case.model import GearDrive
-from wearsim.report.html.sketch import Label, Sketch, Stroke, around, circle, line, scaled, turn_arrow
+from wearsim.report.html.sketch import (
+    Label,
+    Sketch,
+    Stroke,
+    around,
+    circle,
+    line,
+    scaled,
+    turn_arrow,
+)
 
 
 def gear_sketch(drive: GearDrive) -> Sketch:
@@ -45,8 +54,8 @@ def gear_sketch(drive: GearDrive) -> Sketch:
     ratio = f"{mesh.contact_ratio:.3g}"
     notes = (
         f"pinion {pinion} teeth, wheel {wheel} teeth, centre distance {centre:.2f} mm",
-        f"pitch circles {2 * circles.pinion_radius:.2f} and {2 * circles.wheel_radius:.2f} mm (dash-dotted), "
-        f"tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
+        f"pitch circles {2 * circles.pinion_radius:.2f} and {2 * circles.wheel_radius:.2f} mm "
+        f"(dash-dotted), tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
         f"thick: path of contact, contact ratio {ratio}, pressure angle in the pole "
         f"{math.degrees(drive.pair.pole_angle):.2f} degrees",
         "a pair of gears has no wrap",

@@ -5,6 +5,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic import BaseModel
+
+from wearsim.case.schema import CaseTables
+from wearsim.case.schema.gear import GearTables
 from wearsim.catalogue.tables import chain_name, chains, rows, wear_conditions
 from wearsim.quantities import quantities
 from wearsim.result import WearResult
@@ -48,24 +52,24 @@ def input_table(result: WearResult) -> list[Input]:
     list of Input
         In the order of the tables.
     """
-    taken = {}
-    for text in result.assumptions:
-        if found := _TAKEN.match(text):
-            taken[found[1]] = found[2] or "default"
-    known = quantities()
+    taken = _taken(result)
+    known, tables = quantities(), GearTables if "gear" in result.inputs else CaseTables
     lines = []
     for key, value in _leaves(result.inputs, ""):
-        name = re.sub(r"\[\d+\]", "", key.rpartition(".")[2])
-        quantity = known.get(name)
-        reason = taken.get(key)
-        source = "given" if reason is None else f"default: {reason}"
+        plain = re.sub(r"\[\d+\]", "", key)
+        quantity = known.get(plain.rpartition(".")[2])
+        if key in taken:
+            source = f"default: {taken[key]}" if taken[key] else "default"
+        else:
+            alike = value == _default(tables, plain.split("."))
+            source = "default of the format, or given" if alike else "given"
         lines.append(
             Input(
                 key,
                 _shown(value),
                 quantity.unit if quantity else "",
                 quantity.meaning if quantity else "",
-                source.replace("default: default", "default"),
+                source,
             )
         )
     return lines
@@ -100,10 +104,38 @@ def catalogue_sources(result: WearResult) -> list[tuple[str, str]]:
         found.append((f"wear condition '{condition}'", wear_conditions()[condition].source))
     else:
         found.append(("wear coefficient", "given in the case; its band: " + result.band))
+    reasons = set(_taken(result).values())
+    found += [
+        (f"material {row['name']}", row["source"])
+        for row in rows("materials")
+        if row["name"] in reasons
+    ]
     found += [
         (f"file {name}", "read by the case, kept with the run") for name in result.input_files
     ]
     return found
+
+
+def _taken(result: WearResult) -> dict[str, str]:
+    """Keys taken by default and why; empty where that is all there is to say."""
+    found = (_TAKEN.match(text) for text in result.assumptions)
+    return {
+        match[1]: (match[2] or "").removesuffix("default").removesuffix(", ")
+        for match in found
+        if match
+    }
+
+
+def _default(model: type[BaseModel], path: list[str]) -> Any:
+    """Value of a key that an input may leave out; None where it has no such value."""
+    field = model.model_fields.get(path[0])
+    if field is None:
+        return None
+    if len(path) == 1:
+        return field.get_default()
+    inner = [field.annotation, *getattr(field.annotation, "__args__", ())]
+    below = [kind for kind in inner if isinstance(kind, type) and issubclass(kind, BaseModel)]
+    return _default(below[0], path[1:]) if below else None
 
 
 def _leaves(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:

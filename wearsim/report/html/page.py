@@ -5,27 +5,22 @@ from dataclasses import dataclass
 
 import wearsim
 from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
-from wearsim.report.answer import ending, findings, hours
+from wearsim.report.answer import BAND, LIMITS, ending, findings, hours, told_apart
 from wearsim.report.compare import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.chain_sketch import strand_sketch, wrap_sketch
-from wearsim.report.html.charts import (
-    Chart,
-    along_chart,
-    history_chart,
-    lives_chart,
-    loads_chart,
-)
+from wearsim.report.html.charts import Chart
 from wearsim.report.html.citation import Citation, citation
 from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
+from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.picture import picture
+from wearsim.report.html.run_charts import along_chart, history_chart, loads_chart
 from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import Life, WearResult
-from wearsim.simulation.loads import tooth_loads
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +55,9 @@ class DrivePage:
         Every key.
     sources : list of tuple of str
         Of the catalogue's numbers.
-    assumptions, warnings : tuple of str
+    assumptions, defaults : list of str
+        What is taken for granted, and the defaults taken.
+    warnings : tuple of str
         Of the result.
     versions : list of tuple of str
         Of what calculated it and of what wrote the page.
@@ -85,7 +82,8 @@ class DrivePage:
     pictures: dict[str, str]
     inputs: list[Input]
     sources: list[tuple[str, str]]
-    assumptions: tuple[str, ...]
+    assumptions: list[str]
+    defaults: list[str]
     warnings: tuple[str, ...]
     versions: list[tuple[str, str]]
     citation: Citation
@@ -146,7 +144,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
     charts = [] if brief else _charts(result, case)
     figures = comparison_figures([result])
     used = {chart.still for chart in (*tooth, *charts)}
-    rest = [row for row in findings(result) if row[0] not in ("Limits",)][2:]
+    taken, defaults = told_apart(result.assumptions)
     return DrivePage(
         name=name,
         title=result.title,
@@ -157,7 +155,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         low=hours(result.life_low),
         high=hours(result.life_high),
         band=result.band,
-        findings=[findings(result)[0], *rest],
+        findings=[found for found in findings(result) if found[0] not in (BAND, LIMITS)],
         margins=margins(result, case),
         tooth=tooth,
         charts=charts,
@@ -165,9 +163,13 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         pictures={stem: picture(figure) for stem, figure in figures.items() if stem in used},
         inputs=[] if brief else input_table(result),
         sources=[] if brief else catalogue_sources(result),
-        assumptions=result.assumptions,
+        assumptions=taken,
+        defaults=defaults,
         warnings=result.warnings,
-        versions=[("page written by", f"wearsim {wearsim.__version__}"), *result.environment.items()],
+        versions=[
+            ("page written by", f"wearsim {wearsim.__version__}"),
+            *result.environment.items(),
+        ],
         citation=citation(result.environment["wearsim"]),
     )
 
@@ -176,6 +178,8 @@ def _charts(result: WearResult, case: Case) -> list[Chart]:
     label = [result.case]
     found = []
     if isinstance(case.drive, WrapDrive):
+        from wearsim.simulation.loads import tooth_loads  # takes 0.4 s, for its kernels
+
         grown = tooth_loads(case, case.drive.joint.elongation_limit)
         found.append(loads_chart(tooth_loads(case), grown))
     return [*found, along_chart([result], label), history_chart([result], label)]
@@ -207,7 +211,11 @@ def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> Comp
     """
     several = list(results)
     head, rows = comparison_cells(several)
-    charts = [lives_chart(several, names), along_chart(several, names), history_chart(several, names)]
+    charts = [
+        lives_chart(several, names),
+        along_chart(several, names),
+        history_chart(several, names),
+    ]
     still = {chart.still for chart in charts}
     figures = comparison_figures(several)
     return ComparisonPage(

@@ -84,12 +84,17 @@
     });
   }
 
-  function enlarge(place, slider, factor) {
-    const x = slider.x.map((value, index) => value + factor * slider.dx[index]);
-    const y = slider.y.map((value, index) => value + factor * slider.dy[index]);
-    const at = slider.deepest;
-    const between = [slider.x.concat(x.slice().reverse()), slider.y.concat(y.slice().reverse())];
-    Plotly.restyle(place, { x: [between[0], x, [x[at]]], y: [between[1], y, [y[at]]] }, [0, 2, 3]);
+  // One coordinate of what is worn off, of the new flank, the worn one and its deepest point.
+  function enlarged(start, shift, slider, factor) {
+    const worn = start.map((value, index) => value + factor * shift[index]);
+    return [start.concat(worn.slice().reverse()), start, worn, [worn[slider.deepest]]];
+  }
+
+  function enlarge(slider, factor) {
+    return {
+      x: enlarged(slider.x, slider.dx, slider, factor),
+      y: enlarged(slider.y, slider.dy, slider, factor),
+    };
   }
 
   function listen(place, chart) {
@@ -101,7 +106,8 @@
     input.addEventListener("input", () => {
       output.textContent = `× ${input.value}`;
       input.setAttribute("aria-valuetext", `${input.value} times`);
-      enlarge(place, chart.slider, Number(input.value));
+      const flanks = [0, 1, 2, 3].map((index) => chart.slider.first + index);
+      Plotly.restyle(place, enlarge(chart.slider, Number(input.value)), flanks);
     });
   }
 
@@ -109,6 +115,11 @@
   const places = [...document.querySelectorAll("[data-chart]")];
   for (const place of places) {
     const chart = charts[place.dataset.chart];
+    if ("first" in chart.slider) {
+      const { x, y } = enlarge(chart.slider, chart.slider.factor);
+      x.forEach((values, index) =>
+        Object.assign(chart.data[chart.slider.first + index], { x: values, y: y[index] }));
+    }
     Plotly.newPlot(place, ...drawn(place, chart), settings);
     place.on("plotly_afterplot", () => reachable(place));
     reachable(place);
@@ -119,7 +130,12 @@
       places.forEach((place) => Plotly.react(place, ...drawn(place, charts[place.id]), settings));
     }
   });
+  let opened = [];
   window.addEventListener("beforeprint", () => {
-    document.querySelectorAll("details").forEach((one) => one.setAttribute("open", ""));
+    opened = [...document.querySelectorAll("details:not([open])")];
+    opened.forEach((one) => one.setAttribute("open", ""));
+  });
+  window.addEventListener("afterprint", () => {
+    opened.forEach((one) => one.removeAttribute("open"));
   });
 })();

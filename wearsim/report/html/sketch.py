@@ -175,12 +175,12 @@ def _head(tip: Vector, way: Vector, length: float) -> str:
     return line([back + 0.45 * length * across, tip, back - 0.45 * length * across])
 
 
-def turned(points: ArrayLike, angle: float) -> Vector:
+def turned(points: Vector, angle: float) -> Vector:
     """Return points turned anticlockwise about the origin.
 
     Parameters
     ----------
-    points : array_like
+    points : numpy.ndarray
         x and y, shape (n, 2).
     angle : float
         Angle [rad].
@@ -191,7 +191,7 @@ def turned(points: ArrayLike, angle: float) -> Vector:
         Shape (n, 2).
     """
     cosine, sine = math.cos(angle), math.sin(angle)
-    return np.asarray(points) @ np.array([[cosine, sine], [-sine, cosine]])
+    return np.asarray(points @ np.array([[cosine, sine], [-sine, cosine]]))
 
 
 def scaled(sketch: Sketch) -> Sketch:
@@ -209,7 +209,7 @@ def scaled(sketch: Sketch) -> Sketch:
     """
     left, top, width, height = sketch.box
     edge = _MARGIN * width
-    text = _TEXT * (width + 2.0 * edge)
+    text = text_size(sketch.box)
     bar = round_length(0.25 * width)
     y = top + height + 2.6 * text
     tick = 0.4 * text
@@ -223,6 +223,22 @@ def scaled(sketch: Sketch) -> Sketch:
         strokes=(*sketch.strokes, Stroke("scale", path)),
         labels=(*sketch.labels, Label(x + 0.5 * bar, y - 0.8 * tick, f"{bar:g} mm")),
     )
+
+
+def text_size(box: tuple[float, float, float, float]) -> float:
+    """Return the height of letters in a sketch.
+
+    Parameters
+    ----------
+    box : tuple of float
+        Of what is drawn: left, top, width and height [mm].
+
+    Returns
+    -------
+    float
+        Height [mm].
+    """
+    return _TEXT * (1.0 + 2.0 * _MARGIN) * box[2]
 
 
 def round_length(length: float) -> float:

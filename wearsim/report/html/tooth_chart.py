@@ -26,56 +26,35 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     Returns
     -------
     list of Chart
-        One or two; their sliders go together.
+        One or two, each with its slider, whose points the script of the page fills in.
     """
     first, last = snapshot(result, 0), snapshot(result, -1)
-    depth = float(last["depth_mm"].max())
-    gears = "wheel_x_mm" in last
-    name = "pinion" if gears else "tooth"
-    new = Profile(first["x_mm"], first["y_mm"])
-    found = [_chart(result, name, new, (last["x_mm"], last["y_mm"]), last["depth_mm"])]
-    figure = found[0].figure
-    _add_mate(figure, result, new, int(last["depth_mm"].argmax()))
-    x, y = outline(result)
-    if x.size:
-        wheel = go.Scatter(
-            x=listed(x), y=listed(y), mode="lines", fill="toself", name="outline", hoverinfo="skip",
-            showlegend=False, meta={"role": "body"}, line={"width": 1},
-        )  # fmt: skip
-        figure.add_trace(wheel)
-    if gears and depth > 0.0:
-        mate = Profile(first["wheel_x_mm"], first["wheel_y_mm"])
-        worn = last["wheel_x_mm"], last["wheel_y_mm"]
-        found.append(_chart(result, "wheel", mate, worn, last["wheel_depth_mm"]))
-    return found
+    new, worn = Profile(first["x_mm"], first["y_mm"]), (last["x_mm"], last["y_mm"])
+    around = [*_body(result), _mate(result, new, int(last["depth_mm"].argmax()))]
+    if "wheel_x_mm" not in last:
+        return [_chart(result, "tooth", new, worn, last["depth_mm"], around)]
+    mate = Profile(first["wheel_x_mm"], first["wheel_y_mm"])
+    worn_mate = last["wheel_x_mm"], last["wheel_y_mm"]
+    return [
+        _chart(result, "pinion", new, worn, last["depth_mm"], around),
+        _chart(result, "wheel", mate, worn_mate, last["wheel_depth_mm"], []),
+    ]
 
 
 def _chart(
-    result: WearResult, name: str, new: Profile, worn: tuple[Vector, Vector], depth: Vector
+    result: WearResult,
+    name: str,
+    new: Profile,
+    worn: tuple[Vector, Vector],
+    depth: Vector,
+    around: list[go.Scatter],
 ) -> Chart:
     extent = float(max(np.ptp(new.x), np.ptp(new.y)))
-    deepest, greatest = int(depth.argmax()), float(depth.max())
+    greatest, room = float(depth.max()), _AROUND * extent
     factor = enlargement(greatest, extent)
-    shift = worn[0] - new.x, worn[1] - new.y
-    x, y = new.x + factor * shift[0], new.y + factor * shift[1]
     figure = panels(1)
-    between = curve(np.append(new.x, x[::-1]), np.append(new.y, y[::-1]), "worn off", "between", "mm")
-    between.update(fill="toself", line={"width": 0}, hoverinfo="skip", hovertemplate=None)
-    figure.add_trace(between)
-    figure.add_trace(curve(new.x, new.y, "new", "new", "mm"))
-    flank = curve(x, y, "worn", "worn", "mm")
-    flank.update(
-        customdata=listed(depth), hovertemplate="%{customdata:.4g} mm deep<extra>worn</extra>"
-    )
-    figure.add_trace(flank)
-    point = go.Scatter(
-        x=listed(x[deepest : deepest + 1]), y=listed(y[deepest : deepest + 1]), mode="markers",
-        name="deepest", marker={"size": 9}, meta={"role": "worn"},
-        hovertemplate=f"deepest, {greatest:.3g} mm<extra></extra>",
-    )  # fmt: skip
-    figure.add_trace(point)
+    figure.add_traces([*around, *_flanks(depth)])
     figure.update_layout(hovermode="closest")
-    room = _AROUND * extent
     figure.update_xaxes(title_text="x, mm", range=[new.x.min() - room, new.x.max() + room])
     figure.update_yaxes(
         title_text="y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x"
@@ -90,22 +69,59 @@ def _chart(
         tall=2,
         still="flanks" if name != "wheel" else "",
         slider={
-            "x": listed(new.x), "y": listed(new.y), "dx": listed(shift[0]), "dy": listed(shift[1]),
-            "deepest": deepest, "factor": factor, "most": max(10, 3 * factor),
+            "first": len(around),
+            "x": listed(new.x),
+            "y": listed(new.y),
+            "dx": listed(worn[0] - new.x),
+            "dy": listed(worn[1] - new.y),
+            "deepest": int(depth.argmax()),
+            "factor": factor,
+            "most": max(10, 3 * factor),
             "depth": f"{grouped(greatest, 3)} mm",
         },
-    )  # fmt: skip
+    )
 
 
-def _add_mate(figure: go.Figure, result: WearResult, new: Profile, deepest: int) -> None:
-    """Add the circle that touches the new flank where it wears most."""
+def _flanks(depth: Vector) -> list[go.Scatter]:
+    """What is worn off, the new flank, the worn one and its deepest point: without points yet."""
+    between, new, worn = (
+        curve([], [], name, role, "mm")
+        for name, role in (("worn off", "between"), ("new", "new"), ("worn", "worn"))
+    )
+    between.update(fill="toself", line={"width": 0}, hoverinfo="skip", hovertemplate=None)
+    worn.update(
+        customdata=listed(depth), hovertemplate="%{customdata:.4g} mm deep<extra>worn</extra>"
+    )
+    deepest = curve([], [], "deepest", "worn", "mm")
+    deepest.update(
+        mode="markers",
+        marker={"size": 9},
+        hovertemplate=f"deepest, {depth.max():.3g} mm<extra></extra>",
+    )
+    return [between, new, worn, deepest]
+
+
+def _body(result: WearResult) -> list[go.Scatter]:
+    """The new wheel, or the teeth beside a gap; nothing where only the flank is known."""
+    x, y = outline(result)
+    if not x.size:
+        return []
+    body = curve(x, y, "outline", "body", "mm")
+    body.update(
+        fill="toself", hoverinfo="skip", hovertemplate=None, showlegend=False, line={"width": 1}
+    )
+    return [body]
+
+
+def _mate(result: WearResult, new: Profile, deepest: int) -> go.Scatter:
+    """The circle that touches the new flank where it wears most."""
     place = float(snapshot(result, -1)["arc_length_mm"][deepest])
-    radius, mate = touching_circle(result, place)
+    radius, name = touching_circle(result, place)
     x = new.x[deepest] + radius * new.normal_x[deepest]
     y = new.y[deepest] + radius * new.normal_y[deepest]
-    angle = np.linspace(0.0, math.tau, 181)
+    angle = np.linspace(0.0, math.tau, 91)
     circle = curve(
-        x + radius * np.cos(angle), y + radius * np.sin(angle), mate, "mate", "mm", "dash"
+        x + radius * np.cos(angle), y + radius * np.sin(angle), name, "mate", "mm", "dash"
     )
     circle.update(hoverinfo="skip", hovertemplate=None, line={"width": 1.2})
-    figure.add_trace(circle)
+    return circle

@@ -88,8 +88,13 @@ def render(template: str, page: Any, single_file: bool, several: bool) -> str:
     """
     loader = FileSystemLoader(_HERE / "templates")
     environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=loader,
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
+    environment.filters["kept"] = kept
     own = (_HERE / "report.js").read_text(encoding="utf-8")
     charts = [*getattr(page, "tooth", ()), *page.charts]
     content = {chart.name: chart.content for chart in charts}
@@ -106,6 +111,27 @@ def render(template: str, page: Any, single_file: bool, several: bool) -> str:
         plotly=Markup(get_plotlyjs()) if single_file else None,  # noqa: S704
         plotly_file=_SCRIPT,
     )
+
+
+def kept(text: str) -> str:
+    """Return a text whose numbers do not break off their groups and units.
+
+    Parameters
+    ----------
+    text : str
+        Such as ``21 090 h``.
+
+    Returns
+    -------
+    str
+        With no-break spaces.
+
+    Examples
+    --------
+    >>> kept("until 21 090 h").encode("ascii", "replace")
+    b'until 21?090?h'
+    """
+    return re.sub(r"(?<=\d) (?=\d{3}\b|(?:h|mm|N|MPa|%)(?:\W|$))", "\u00a0", text)
 
 
 def page_names(cases: Sequence[str]) -> list[str]:
