@@ -16,6 +16,7 @@ from wearsim.report.html import writer
 from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
 from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.margins import margins
+from wearsim.report.html.run_charts import along_chart
 from wearsim.report.html.writer import page_names, save_report
 from wearsim.result import WearResult
 
@@ -32,6 +33,15 @@ WRAP = {
     "sprocket": {"teeth": 20, "profile": "iso606", "nodes": 601},
     "mechanism": {"kind": "wrap", "phases": 1},
 }
+GEARS = {
+    "format_version": 1,
+    "gear": {
+        "pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61,
+    },
+    "load": {"torque_N_m": 100, "speed_rpm": 1450},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
+    "stop": {"critical_depth_mm": 0.02},
+}  # fmt: skip
 
 
 def points(path):
@@ -87,14 +97,7 @@ def test_the_roller_of_a_strand_touches_the_drawn_flank():
 
 
 def test_circles_of_gears_are_to_scale():
-    tables = {
-        "format_version": 1,
-        "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30},
-        "load": {"torque_N_m": 100, "speed_rpm": 1450},
-        "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
-        "stop": {"critical_depth_mm": 0.02},
-    }
-    sketch = gear_sketch(wearsim.load_case(tables).drive)
+    sketch = gear_sketch(wearsim.load_case(GEARS).drive)
     radii = [float(re.search(r"a([\d.]+) ", path)[1]) for path in strokes(sketch, "pitch")]
     assert radii == [28.5, 91.5]
     (contact,) = strokes(sketch, "contact")
@@ -132,16 +135,8 @@ def test_a_run_that_moved_still_has_its_case(tmp_path):
 
 
 def test_a_life_that_the_wheel_ends_is_told():
-    tables = {
-        "format_version": 1,
-        "gear": {
-            "pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61,
-        },
-        "load": {"torque_N_m": 100, "speed_rpm": 1450},
-        "wear": {"specific_wear_rate_mm2_per_N": 1e-11, "wheel_wear_ratio": 20.0},
-        "stop": {"critical_depth_mm": 0.02},
-    }  # fmt: skip
-    result = wearsim.simulate(wearsim.load_case(tables))
+    case = wearsim.load_case(GEARS, ["wear.wheel_wear_ratio=20"])
+    result = wearsim.simulate(case)
     assert result.stop == "wheel_critical_depth_mm"
     assert ending(result) == "until 0.02 mm is worn off the wheel"
     assert "worn off the wheel" in " ".join(answer(result, "x.toml").split())
@@ -155,6 +150,17 @@ def test_pages_are_the_same_for_the_same_run_and_small(strand, tmp_path, single_
         texts.append((tmp_path / name / "index.html").read_bytes())
     assert texts[0] == texts[1]
     assert len(texts[0]) < (6_000_000 if single_file else 300_000)
+
+
+def test_legends_name_every_drive_once(strand):
+    gears = wearsim.simulate(wearsim.load_case(GEARS))
+    traces = along_chart([strand, gears, strand], ["first", "gears", "third"]).figure.data
+    assert [trace.name for trace in traces if trace.showlegend] == ["first", "gears", "third"]
+    roles = {trace.name: trace.meta["role"] for trace in traces}
+    assert roles["first"] == "series-1" and roles["gears"] == roles["gears, wheel"] == "series-2"
+    alone = along_chart([gears], ["gears"]).figure.data
+    assert [trace.name for trace in alone if trace.showlegend] == ["pinion", "wheel"]
+    assert not any(trace.showlegend for trace in along_chart([strand], ["x"]).figure.data)
 
 
 def test_names_of_pages_are_safe_and_different():

@@ -43,27 +43,14 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     """
     shown = [row for row in _ALONG if any(row[0] in result.flank_columns for result in results)]
     figure = panels(len(shown))
+    alone = len(results) == 1
     for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
-        first, last = snapshot(result, 0), snapshot(result, -1)
-        alone = len(results) == 1
         role = "worn" if alone else series(number)
         for row, (name, what, unit) in enumerate(shown, start=1):
-            if name not in last:
-                continue
-            text = what if alone else label
-            end = curve(last["arc_length_mm"], last[name], text, role, unit)
-            end.update(legendgroup=label, showlegend=row == 1 and not alone)
-            figure.add_trace(end, row, 1)
-            if row > 1:
-                new = curve(first["arc_length_mm"], first[name], f"{text}, new", role, unit, "dash")
-                new.update(legendgroup=label, showlegend=False, opacity=0.7)
-                figure.add_trace(new, row, 1)
-        if "wheel_depth_mm" in last:
-            text = "wheel" if alone else f"{label}, wheel"
-            wheel = curve(last["arc_length_mm"], last["wheel_depth_mm"], text, role, "mm", "dot")
-            wheel.update(legendgroup=text, showlegend=alone)
-            figure.add_trace(wheel, 1, 1)
-            figure.data[0].update(name="pinion" if alone else label, showlegend=True)
+            traces = _at_the_end(result, name, unit, "" if alone else label, what, role)
+            if alone and "wheel_depth_mm" not in result.flank_columns:
+                traces = [trace.update(showlegend=False) for trace in traces]
+            figure.add_traces(traces, row, 1)
     for row, (_, what, unit) in enumerate(shown, start=1):
         figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
     start = " or ".join(dict.fromkeys(_start(result) for result in results))
@@ -78,6 +65,29 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         tall=len(shown),
         still="along_flank",
     )
+
+
+def _at_the_end(
+    result: WearResult, column: str, unit: str, label: str, what: str, role: str
+) -> list[go.Scatter]:
+    """One quantity along the flank: at the end, and when new or of the wheel; depths have the legend."""
+    first, last = snapshot(result, 0), snapshot(result, -1)
+    if column not in last:
+        return []
+    place, gears = last["arc_length_mm"], "wheel_depth_mm" in last
+    end = curve(place, last[column], label or ("pinion" if gears else what), role, unit)
+    end.update(legendgroup=label, showlegend=column == "depth_mm")
+    if column != "depth_mm":
+        new = curve(place, first[column], f"{label or what}, new", role, unit, "dash")
+        new.update(legendgroup=label, showlegend=False, opacity=0.7)
+        return [end, new]
+    if not gears:
+        return [end]
+    wheel = curve(
+        place, last["wheel_depth_mm"], f"{label}, wheel" if label else "wheel", role, unit, "dot"
+    )
+    wheel.update(legendgroup=label or "wheel", showlegend=not label)
+    return [end, wheel]
 
 
 def _start(result: WearResult) -> str:
