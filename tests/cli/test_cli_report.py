@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -248,3 +249,14 @@ def test_a_case_that_fails_is_left_out(cli, drive, tmp_path, monkeypatch):
     assert done.code == 5
     assert "the life would be wrong" in done.err
     assert {path.name for path in out.iterdir()} == {"index.html", "plotly.min.js"}
+
+
+def test_page_of_a_table_of_loads(cli, tmp_path):
+    """Where loads come from a table nothing is known of a drive, and nothing is drawn of it."""
+    case = Path(__file__).parents[2] / "cases" / "hertz-arc-prescribed.toml"
+    out = tmp_path / "out"
+    assert cli("report", case, "--out", out).code == 0
+    assert set(charts_of(out / "index.html")) == {"tooth", "along", "history"}
+    page = text_of(out / "index.html")
+    assert '<section id="drive"' not in page
+    assert "<dt>file hertz-arc-prescribed.csv</dt>" in page

@@ -47,9 +47,7 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
         role = "worn" if alone else series(number)
         for row, (name, what, unit) in enumerate(shown, start=1):
-            traces = _at_the_end(result, name, unit, "" if alone else label, what, role)
-            if alone and "wheel_depth_mm" not in result.flank_columns:
-                traces = [trace.update(showlegend=False) for trace in traces]
+            traces = _along(result, name, unit, "" if alone else label, what, role)
             figure.add_traces(traces, row, 1)
     for row, (_, what, unit) in enumerate(shown, start=1):
         figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
@@ -67,25 +65,24 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     )
 
 
-def _at_the_end(
+def _along(
     result: WearResult, column: str, unit: str, label: str, what: str, role: str
 ) -> list[go.Scatter]:
-    """One quantity along the flank: at the end, and when new or of the wheel; depths have the legend."""
+    """One quantity at the end, and when new or of the wheel; the depth has the legend."""
     first, last = snapshot(result, 0), snapshot(result, -1)
     if column not in last:
         return []
     place, gears = last["arc_length_mm"], "wheel_depth_mm" in last
     end = curve(place, last[column], label or ("pinion" if gears else what), role, unit)
-    end.update(legendgroup=label, showlegend=column == "depth_mm")
+    end.update(legendgroup=label, showlegend=column == "depth_mm" and bool(label or gears))
     if column != "depth_mm":
         new = curve(place, first[column], f"{label or what}, new", role, unit, "dash")
         new.update(legendgroup=label, showlegend=False, opacity=0.7)
         return [end, new]
     if not gears:
         return [end]
-    wheel = curve(
-        place, last["wheel_depth_mm"], f"{label}, wheel" if label else "wheel", role, unit, "dot"
-    )
+    name = f"{label}, wheel" if label else "wheel"
+    wheel = curve(place, last["wheel_depth_mm"], name, role, unit, "dot")
     wheel.update(legendgroup=label or "wheel", showlegend=not label)
     return [end, wheel]
 
