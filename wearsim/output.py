@@ -63,12 +63,16 @@ _WRITTEN = {
         "maintenance.md",
         "history.parquet",
         "flank.parquet",
+        "plotly.min.js",
     ),
     *(f"{name}.csv" for name in _TABLES),
     *(f"{gear}.{kind}" for gear in ("pinion", "wheel") for kind in ("dxf", "stl")),
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 }
 """What wearsim itself puts into a folder."""
+
+_PAGE = b'<meta name="generator" content="wearsim '
+"""What is near the top of every page that wearsim writes."""
 
 
 def check_folder(folder: Path, force: bool) -> None:
@@ -93,7 +97,7 @@ def check_folder(folder: Path, force: bool) -> None:
         raise OutputError(
             f"{folder}: must be a folder to be replaced, but is a file: choose another place"
         )
-    foreign = sorted(entry.name for entry in folder.iterdir() if entry.name not in _WRITTEN)
+    foreign = sorted(entry.name for entry in folder.iterdir() if not _own(entry))
     if foreign:
         raise OutputError(
             f"{folder}: must hold nothing but a result to be replaced, but holds {foreign[0]}: choose "
@@ -101,6 +105,14 @@ def check_folder(folder: Path, force: bool) -> None:
         )
     if Path.cwd().is_relative_to(folder.resolve()):
         raise OutputError(f"{folder}: must not be the folder you are in: choose another place")
+
+
+def _own(entry: Path) -> bool:
+    """Whether wearsim wrote what is in a folder; the name of a page is that of its case."""
+    if entry.suffix != ".html" or not entry.is_file():
+        return entry.name in _WRITTEN
+    with entry.open("rb") as file:
+        return _PAGE in file.read(500)
 
 
 @contextlib.contextmanager

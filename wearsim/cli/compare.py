@@ -2,27 +2,13 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from wearsim.cli.complete import RunPath
-from wearsim.cli.standard import (
-    SOME_FAILED,
-    error_json,
-    exit_code,
-    load_cases,
-    overrides,
-    show_error,
-    standard,
-    warn,
-    worn,
-)
+from wearsim.cli.sources import results_of
+from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
 from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
-from wearsim.errors import OutputError, WearsimError
-
-if TYPE_CHECKING:
-    from wearsim.result import WearResult
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
@@ -52,7 +38,7 @@ def compare(
         from wearsim.output import check_folder
 
         check_folder(out, force)
-    found = _results(sources, settings, as_json)
+    found = results_of(sources, settings, as_json)
     from wearsim.report.compare import comparison_text, differing_limits, distinct
 
     results = distinct(list(found.values()), [str(path) for path in found])
@@ -73,32 +59,3 @@ def compare(
     if xlsx is not None:
         write_workbook(found, xlsx, force)
     return SOME_FAILED if len(found) < len(set(sources)) else 0
-
-
-def _results(
-    sources: tuple[Path, ...], settings: tuple[str, ...], as_json: bool
-) -> "dict[Path, WearResult]":
-    """Load the runs and run the cases; a failed case is shown and left out of the rest."""
-    from wearsim.result import WearResult
-
-    for path in sources:
-        if not path.is_dir() and path.suffix != ".toml":
-            raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
-    if settings and any(path.is_dir() for path in sources):
-        raise click.UsageError("--set changes cases, it cannot change the folder of a run")
-    paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]
-    cases = dict(zip(paths, load_cases(paths, settings, as_json), strict=True))
-    runs = {path: WearResult.load(path) for path in dict.fromkeys(sources) if path.is_dir()}
-    found: dict[Path, WearResult] = {}
-    failures: list[WearsimError] = []
-    for path in dict.fromkeys(sources):
-        try:
-            found[path] = runs[path] if path in runs else worn(cases[path])
-        except WearsimError as error:
-            failures.append(error)
-            if as_json:
-                click.echo(error_json(path.stem, error))
-            show_error(error, path)
-    if not found:
-        raise click.exceptions.Exit(max(exit_code(error) for error in failures))
-    return found

@@ -26,6 +26,7 @@ from wearsim.cli.loads import loads
 from wearsim.cli.maintain import maintain
 from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
+from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
@@ -40,6 +41,7 @@ How long will this sprocket live?
   wearsim check drive.toml           is it complete, and can it run?
   wearsim life drive.toml            the life in hours
   wearsim compare drive.toml other.toml --out reports/first
+  wearsim report drive.toml --out reports/page      pages for a browser
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
 
@@ -64,6 +66,7 @@ for _command in (
     profile,
     export,
     compare,
+    report,
     maintain,
     remaining,
     strength,

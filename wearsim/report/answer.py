@@ -12,6 +12,9 @@ from wearsim.result import Life, LowerBound, WearResult
 _WIDTH = 100
 _LABEL = 13
 
+BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
+"""Labels of findings that a page shows in its own way."""
+
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
@@ -61,6 +64,47 @@ def hours(life: Life | LowerBound) -> str:
     return f"> {grouped(life.hours_run)} h"
 
 
+def limit_text(name: str, value: float) -> str:
+    """Return a limit in words.
+
+    Parameters
+    ----------
+    name : str
+        Key of the limit with its unit.
+    value : float
+        In that unit.
+
+    Returns
+    -------
+    str
+        Such as ``critical depth 0.34 mm``.
+
+    Examples
+    --------
+    >>> limit_text("elongation_percent", 3.0)
+    'elongation 3 %'
+    """
+    words, unit = limit_name(name)
+    return f"{words} {grouped(value)} {unit}"
+
+
+def limit_name(name: str) -> tuple[str, str]:
+    """Return the key of a limit as words and its unit.
+
+    Parameters
+    ----------
+    name : str
+        Key of the limit.
+
+    Returns
+    -------
+    tuple of str
+        Such as ``critical depth`` and ``mm``.
+    """
+    words, _, unit = name.rpartition("_")
+    return words.replace("_", " "), {"percent": "%", "hours": "h"}.get(unit, unit)
+
+
 def answer(result: WearResult, source: str) -> str:
     """Return the answer of one case as ``wearsim life`` prints it.
 
@@ -77,18 +121,36 @@ def answer(result: WearResult, source: str) -> str:
         Several lines, at most a hundred characters wide.
     """
     rows = [
-        ("Life", _life(result)),
-        ("With the wear coefficient at its low / high end:", _band(result)),
-        *_service(result),
-        *_governing(result),
-        *_parts(result),
-        ("Worn most", _worst(result)),
-        ("Removed", _removed(result)),
+        *findings(result),
         ("Assumes", numbered(result.assumptions)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
     return "\n".join([result.title, *(row(label, text) for label, text in rows)])
+
+
+def findings(result: WearResult) -> list[tuple[str, str]]:
+    """Return what a run has found, the life first.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    list of tuple of str
+        Labels with their texts.
+    """
+    return [
+        ("Life", _life(result)),
+        (BAND, _band(result)),
+        *_service(result),
+        *_governing(result),
+        *_parts(result),
+        ("Worn most", _worst(result)),
+        ("Removed", _removed(result)),
+    ]
 
 
 def _removed(result: WearResult) -> str:
@@ -133,7 +195,7 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
         f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
         for state in result.limits
     )
-    limits = [("Limits", f"at the end of the life {used}")]
+    limits = [(LIMITS, f"at the end of the life {used}")]
     if "chain" not in result.parts:
         return limits
     lives = ", ".join(f"{name} {hours(result.parts[name])}" for name in ("chain", "sprocket"))
@@ -194,35 +256,52 @@ def row(label: str, text: str) -> str:
     )
 
 
+def ending(result: WearResult) -> str:
+    """Return in words what ended a life, or what is worn off where nothing did.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    str
+        Such as ``until 0.306 mm is worn off``.
+    """
+    if not isinstance(result.life, Life):
+        return f"{result.max_depth:.3g} mm is worn off by then"
+    return {
+        "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
+        "wheel_critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off the wheel",
+        "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
+        "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
+        "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",
+        "over_pins_change_mm": (
+            f"until the measurement over pins is {result.stop_value:.3g} mm less"
+        ),
+        "min_slack_tension_N": (
+            f"until the chain needs a slack tension of {result.stop_value:.3g} N on the worn teeth"
+            if "min_slack_tension_N" in result.inputs["stop"]
+            else "until the chain jumps on the worn teeth"
+        ),
+        "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
+    }[result.stop]
+
+
 def _life(result: WearResult) -> str:
     speed = f"{result.speed_rpm:g} rpm"
     if isinstance(result.life, Life):
-        what = {
-            "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
-            "wheel_critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off the wheel",
-            "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
-            "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
-            "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",
-            "over_pins_change_mm": (
-                f"until the measurement over pins is {result.stop_value:.3g} mm less"
-            ),
-            "min_slack_tension_N": (
-                f"until the chain needs a slack tension of {result.stop_value:.3g} N on the worn teeth"
-                if "min_slack_tension_N" in result.inputs["stop"]
-                else "until the chain jumps on the worn teeth"
-            ),
-            "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
-        }[result.stop]
         error = result.numerical_error
         bound = max(error, result.life_tolerance)
         sign = "<" if error <= result.life_tolerance else "about"
         return (
-            f"{hours(result.life)}   ({result.life.cycles:.3g} cycles at {speed}) {what}; "
+            f"{hours(result.life)}   ({result.life.cycles:.3g} cycles at {speed}) {ending(result)}; "
             f"numerical error {sign} {100 * bound:.2g} %"
         )
     return (
         f"{hours(result.life)} (limit not reached)   ({result.cycles_run:.3g} cycles at {speed}); "
-        f"{result.max_depth:.3g} mm is worn off by then"
+        f"{ending(result)}"
     )
 
 
@@ -256,11 +335,32 @@ def numbered(assumptions: tuple[str, ...]) -> str:
     >>> numbered(("all teeth alike", "run.method = advance (default)", "wear.law = archard (default)"))
     '1 all teeth alike; 2 defaults: run.method = advance, wear.law = archard'
     """
-    defaults = [text for text in assumptions if _DEFAULT.match(text)]
-    shown = [text for text in assumptions if text not in defaults]
+    shown, defaults = told_apart(assumptions)
     if defaults:
         shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
+
+
+def told_apart(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    """Return what a result takes for granted, and the defaults it takes.
+
+    Parameters
+    ----------
+    assumptions : tuple of str
+        Of a result.
+
+    Returns
+    -------
+    tuple of list of str
+        The two kinds, each in its order.
+
+    Examples
+    --------
+    >>> told_apart(("all teeth alike", "wear.law = archard (default)"))
+    (['all teeth alike'], ['wear.law = archard (default)'])
+    """
+    defaults = [text for text in assumptions if _DEFAULT.match(text)]
+    return [text for text in assumptions if text not in defaults], defaults
 
 
 def _worst(result: WearResult) -> str:

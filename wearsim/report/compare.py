@@ -1,14 +1,18 @@
 """Several results side by side: pandas tables and matplotlib figures."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from pathlib import Path
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from wearsim.output import new_folder
-from wearsim.report.answer import grouped, hours
+from wearsim.report.answer import hours, limit_text
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, LowerBound, WearResult
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def comparison_table(results: list[WearResult]) -> pd.DataFrame:
@@ -26,6 +30,8 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
         known), ratio to the first, the limit that ended it, peak pressure, removed
         area, where the deepest point is.
     """
+    import pandas as pd  # takes 0.3 s, and a page of one drive has no table
+
     first = results[0].life
     rows = []
     for result in results:
@@ -53,6 +59,41 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[str]]]:
+    """Return the comparison in words, bounds with their sign.
+
+    Parameters
+    ----------
+    results : list of WearResult
+        At least one.
+
+    Returns
+    -------
+    tuple of list of str and list of list of str
+        Heads of the columns, and the cells of a row per result.
+    """
+    head = [
+        "case", "life", "limit", "at low / high wear", "ratio to first", "peak pressure, MPa",
+        "removed area, mm2", "deepest, mm",
+    ]  # fmt: skip
+    rows = []
+    for result, row in zip(results, comparison_table(results).to_dict("records"), strict=True):
+        ratio = row["ratio_to_first"]
+        start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
+        cells = [
+            result.title,
+            hours(result.life),
+            limit_text(result.stop, result.stop_value),
+            f"{hours(result.life_high)} / {hours(result.life_low)}",
+            f"{ratio:.3g}" if ratio == ratio else "-",
+            f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}",
+            f"{row['removed_area_mm2']:.3g}",
+            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f} from the {start}",
+        ]
+        rows.append(cells)
+    return head, rows
+
+
 def comparison_text(results: list[WearResult]) -> str:
     """Return the comparison as a Markdown table, bounds with their sign.
 
@@ -66,26 +107,11 @@ def comparison_text(results: list[WearResult]) -> str:
     str
         A row per result.
     """
-    table = comparison_table(results)
-    head = [
-        "case", "life", "limit", "at low / high wear", "ratio to first", "peak pressure, MPa",
-        "removed area, mm2", "deepest, mm",
-    ]  # fmt: skip
+    head, rows = comparison_cells(results)
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    for result, row in zip(results, table.to_dict("records"), strict=True):
-        ratio = row["ratio_to_first"]
-        start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
-        cells = [
-            result.title,
-            hours(result.life),
-            _limit(result.stop, result.stop_value),
-            f"{hours(result.life_high)} / {hours(result.life_low)}",
-            f"{ratio:.3g}" if ratio == ratio else "-",
-            f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}",
-            f"{row['removed_area_mm2']:.3g}",
-            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f} from the {start}",
-        ]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    lines += [
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows
+    ]
     return "\n".join(lines)
 
 
@@ -106,7 +132,7 @@ def differing_limits(results: list[WearResult]) -> str:
     for result in results:
         for state in result.limits:
             values = cases.setdefault(state.name, {})
-            values.setdefault(_limit(state.name, state.limit), []).append(result.case)
+            values.setdefault(limit_text(state.name, state.limit), []).append(result.case)
     found = [
         f"{limit} ({', '.join(names)})"
         for values in cases.values()
@@ -180,13 +206,6 @@ def _page(results: list[WearResult], table: str) -> str:
     pictures = ("flanks", "along_flank", "depth_over_hours")
     parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
     return "\n\n".join(parts) + "\n"
-
-
-def _limit(name: str, value: float) -> str:
-    """Value of a limit in words, such as ``critical depth 0.34 mm``."""
-    words, _, unit = name.rpartition("_")
-    shown = {"percent": "%", "hours": "h"}.get(unit, unit)
-    return f"{words.replace('_', ' ')} {grouped(value)} {shown}"
 
 
 def _number(life: Life | LowerBound) -> float:

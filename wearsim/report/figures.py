@@ -11,20 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
-from wearsim.case.load import load_case
-from wearsim.case.model import GearDrive, StrandDrive
-from wearsim.catalogue.tables import chains
-from wearsim.geometry.profile import Profile, Vector
-from wearsim.report.answer import grouped
+from wearsim.geometry.profile import Profile
+from wearsim.report.flank_view import enlargement, outline, run_time, snapshot, touching_circle
 from wearsim.result import Life, WearResult
-
-_LARGEST_SHOWN = 0.12
-"""Depth in the picture of a flank, as a fraction of the flank's extent."""
 
 _LEGEND = 0.24
 """Part of the height of the same picture that is left free for the legend."""
-
-_ROUND = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def comparison_figures(results: list[WearResult]) -> dict[str, Figure]:
@@ -90,14 +82,14 @@ def flanks_figure(results: list[WearResult]) -> Figure:
 
 
 def _draw_flank(panel: Axes, result: WearResult) -> None:
-    first, last = _snapshot(result, 0), _snapshot(result, -1)
+    first, last = snapshot(result, 0), snapshot(result, -1)
     new = Profile(first["x_mm"], first["y_mm"])
     extent = max(np.ptp(new.x), np.ptp(new.y))
-    enlarged = max(n for n in _ROUND if n == 1 or n * result.max_depth <= _LARGEST_SHOWN * extent)
+    enlarged = enlargement(result.max_depth, extent)
     x = new.x + enlarged * (last["x_mm"] - new.x)
     y = new.y + enlarged * (last["y_mm"] - new.y)
     deepest = int(last["depth_mm"].argmax())
-    panel.fill(*_outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
+    panel.fill(*outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
     radius, centre_x, centre_y = _draw_mate(panel, result, new, deepest)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
@@ -118,7 +110,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
     title = textwrap.fill(result.title, 42)
-    panel.set_title(f"{title}\nafter {_run_time(result)}", fontsize=9)
+    panel.set_title(f"{title}\nafter {run_time(result)}", fontsize=9)
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
@@ -126,7 +118,7 @@ def _draw_mate(
     panel: Axes, result: WearResult, new: Profile, deepest: int
 ) -> tuple[float, float, float]:
     """Draw the circle that touches the new flank where it wears most; return its radius and centre."""
-    radius, mate = _mate(result, float(_snapshot(result, -1)["arc_length_mm"][deepest]))
+    radius, mate = touching_circle(result, float(snapshot(result, -1)["arc_length_mm"][deepest]))
     x, y = new.x[deepest], new.y[deepest]
     normal_x, normal_y = new.normal_x[deepest], new.normal_y[deepest]
     centre = x + radius * normal_x, y + radius * normal_y
@@ -135,53 +127,6 @@ def _draw_mate(
     place = x + way * normal_x, y + way * normal_y
     panel.text(*place, mate, color="grey", ha="center", va="center", clip_on=True)
     return abs(radius), *centre
-
-
-def _mate(result: WearResult, arc_length: float) -> tuple[float, str]:
-    """Radius of what touches the flank at a place, below 0 if hollow, and what it is."""
-    if "gear" in result.inputs:
-        last = _snapshot(result, -1)
-        place = float(np.interp(arc_length, last["arc_length_mm"], last["path_mm"]))
-        drive = load_case(result.inputs).drive
-        assert isinstance(drive, GearDrive)
-        mesh = drive.pair.mesh(drive.points)
-        return 1.0 / float(np.interp(place, mesh.pole_distance, mesh.curvature[1])), "wheel"
-    chain = result.inputs["chain"]
-    if "designation" in chain:
-        return 0.5 * chains()[chain["designation"]].roller_diameter, "roller"
-    return 0.5 * float(chain["roller_diameter_mm"]), "roller"
-
-
-def _outline(result: WearResult) -> tuple[Vector, Vector]:
-    """Points of the new wheel, or of the teeth beside a gap; none where only a flank is known."""
-    if result.inputs["mechanism"]["kind"] == "wrap":
-        return _beside_gap(result)
-    sprocket = result.inputs.get("sprocket", {})
-    strand = result.inputs["mechanism"]["kind"] == "strand"
-    if not strand or sprocket["profile"] != "evolute":
-        return np.empty(0), np.empty(0)
-    drive = load_case(result.inputs).drive
-    assert isinstance(drive, StrandDrive)
-    points = np.array(drive.tooth.wheel().exterior.coords)
-    return points[:, 0], points[:, 1]
-
-
-def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
-    """Half of the teeth on both sides of a gap, down to the sprocket's axis."""
-    first = _snapshot(result, 0)
-    x, y = first["x_mm"], first["y_mm"]
-    half = np.pi / result.inputs["sprocket"]["teeth"]
-    tip = np.hypot(x[0], y[0])
-    across, up = tip * np.sin(half), tip * np.cos(half)
-    return np.append(x, (-across, 0.0, across)), np.append(y, (up, 0.0, up))
-
-
-def _run_time(result: WearResult) -> str:
-    if "sprocket" in result.parts:
-        reached = "sprocket worn" if isinstance(result.parts["sprocket"], Life) else "run ends"
-    else:
-        reached = "life" if isinstance(result.life, Life) else "limit not reached"
-    return f"{grouped(result.hours_run)} h ({reached})"
 
 
 def along_flank_figure(results: list[WearResult]) -> Figure:
@@ -206,7 +151,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     figure = Figure(figsize=(8.0, 2.2 + 2.1 * len(shown)), layout="constrained")
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
-        first, last = _snapshot(result, 0), _snapshot(result, -1)
+        first, last = snapshot(result, 0), snapshot(result, -1)
         (line,) = panels[0].plot(last["arc_length_mm"], last["depth_mm"], label=result.title)
         if "wheel_depth_mm" in last:
             wheel = last["arc_length_mm"], last["wheel_depth_mm"]
@@ -271,13 +216,3 @@ def depth_figure(results: list[WearResult]) -> Figure:
     panels[0].set_title(title, fontsize=9, loc="left")
     panels[0].legend(frameon=False, fontsize=8)
     return figure
-
-
-def _snapshot(result: WearResult, index: int) -> dict[str, Vector]:
-    """Columns of the flank at one snapshot; of the kind of gap that wears most."""
-    cycles = result.flank_columns["cycles"]
-    at = cycles == np.unique(cycles)[index]
-    if "gap_kind" in result.flank_columns:
-        kinds = result.flank_columns["gap_kind"]
-        at &= kinds == kinds[int(result.flank_columns["depth_mm"].argmax())]
-    return {name: values[at] for name, values in result.flank_columns.items()}

@@ -1,0 +1,212 @@
+"""What the pages of a report are made of."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+import wearsim
+from wearsim.geometry.drive_layout import DriveLayout, layout_with_links
+from wearsim.report.answer import answer, ending
+from wearsim.report.flank_view import case_of
+from wearsim.report.html import writer
+from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
+from wearsim.report.html.gear_sketch import gear_sketch
+from wearsim.report.html.margins import margins
+from wearsim.report.html.run_charts import along_chart
+from wearsim.report.html.writer import page_names, save_report
+from wearsim.result import WearResult
+
+STRAND = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 51},
+    "load": {"power_kW": 3, "speed_rpm": 100},
+    "wear": {"condition": "hardened, oiled"},
+    "run": {"horizon_hours": 100, "life_tolerance": 0.1},
+}
+WRAP = {
+    **STRAND,
+    "sprocket": {"teeth": 20, "profile": "iso606", "nodes": 601},
+    "mechanism": {"kind": "wrap", "phases": 1},
+}
+GEARS = {
+    "format_version": 1,
+    "gear": {
+        "pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61,
+    },
+    "load": {"torque_N_m": 100, "speed_rpm": 1450},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
+    "stop": {"critical_depth_mm": 0.02},
+}  # fmt: skip
+
+
+def points(path):
+    """Points of SVG path data, y upwards again."""
+    pairs = re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", path)
+    return np.array([(float(x), -float(y)) for x, y in pairs])
+
+
+def strokes(sketch, role):
+    return [stroke.path for stroke in sketch.strokes if stroke.role == role]
+
+
+@pytest.mark.parametrize("teeth", [(19, 57), (57, 19), (20, 20)])
+def test_rollers_are_a_pitch_apart_on_sprockets_and_spans(teeth):
+    layout = layout_with_links(12.7, *teeth, 120)
+    places = roller_places(layout)
+    gaps = np.hypot(*(np.roll(places, -1, axis=0) - places).T)
+    assert len(places) == 120
+    assert gaps == pytest.approx(12.7, rel=2e-3)
+    centres = ((0.0, layout.pitch_diameter_1), (layout.centre_distance, layout.pitch_diameter_2))
+    least = [np.hypot(places[:, 0] - x, places[:, 1]).min() for x, _ in centres]
+    assert least == pytest.approx([0.5 * diameter for _, diameter in centres])
+
+
+@pytest.mark.parametrize("role", ["driver", "driven"])
+def test_rollers_sit_in_the_gaps_of_the_drawn_wheel(role):
+    tables = {**WRAP, "sprocket": {**WRAP["sprocket"], "role": role}}
+    drive = wearsim.load_case(tables).drive
+    layout = drive.layout
+    (outline,) = strokes(wrap_sketch(drive), "worn")
+    wheel = shapely.Polygon(points(outline))
+    assert wheel.is_valid
+    clear = shapely.distance(shapely.points(roller_places(layout)), wheel)
+    assert clear.min() > 0.5 * drive.chain.roller_diameter - 0.05
+    seated = (clear < 0.5 * drive.chain.roller_diameter + 0.5).sum()
+    wrap = layout.engaged_1 if role == "driver" else layout.engaged_2
+    assert abs(seated - wrap) <= 1.5
+
+
+def test_the_roller_of_a_strand_touches_the_drawn_flank():
+    """The conjugate flank: touched by the roller one pitch before the pole line, cut by none."""
+    drive = wearsim.load_case(STRAND).drive
+    (outline,) = strokes(strand_sketch(drive, 1), "worn")
+    wheel = shapely.Polygon(points(outline))
+    pitch, height = drive.chain.pitch, drive.tooth.strand.height
+    clear = [
+        shapely.Point(place * pitch, height).distance(wheel) - drive.tooth.strand.roller_radius
+        for place in (-1, 0, 1)
+    ]
+    fine = 5e-3 * pitch + 0.02
+    assert abs(clear[0]) < fine
+    assert min(clear) > -fine
+
+
+def test_circles_of_gears_are_to_scale():
+    sketch = gear_sketch(wearsim.load_case(GEARS).drive)
+    radii = [float(re.search(r"a([\d.]+) ", path)[1]) for path in strokes(sketch, "pitch")]
+    assert radii == [28.5, 91.5]
+    (contact,) = strokes(sketch, "contact")
+    first, *_, last = points(contact)
+    (lean,) = np.degrees(np.arctan2([abs(last[0] - first[0])], [abs(last[1] - first[1])]))
+    assert lean == pytest.approx(20.0, abs=0.1)  # the pressure angle to the common tangent
+
+
+@pytest.fixture(scope="module")
+def strand():
+    return wearsim.simulate(wearsim.load_case(STRAND, ["stop.min_tip_land_mm=1.0"]))
+
+
+def test_margins_go_from_new_to_the_limit(strand):
+    found = {margin.name: margin for margin in margins(strand, case_of(strand))}
+    assert set(found) == {"critical depth", "min tip land"}
+    depth, land = found["critical depth"], found["min tip land"]
+    limits = {state.name: state for state in strand.limits}
+    state = limits["critical_depth_mm"]
+    assert depth.used == pytest.approx(state.value / state.limit)
+    state, new = limits["min_tip_land_mm"], case_of(strand).drive.tip_land
+    assert land.used == pytest.approx((new - state.value) / (new - 1.0))
+    assert not depth.ended and not land.ended
+    assert 0.0 < depth.used < 1.0
+
+
+def test_a_run_that_moved_still_has_its_case(tmp_path):
+    source = Path(__file__).parents[2] / "cases" / "beet-harvester-18t-soil.toml"
+    result = wearsim.simulate(wearsim.load_case(source, ["run.horizon_hours=5"]))
+    result.save(tmp_path / "run")
+    case = case_of(WearResult.load(tmp_path / "run"))
+    assert case.drive.tooth.tip_radius == pytest.approx(
+        wearsim.load_case(source).drive.tooth.tip_radius, rel=1e-12
+    )
+
+
+def test_a_life_that_the_wheel_ends_is_told():
+    case = wearsim.load_case(GEARS, ["wear.wheel_wear_ratio=20"])
+    result = wearsim.simulate(case)
+    assert result.stop == "wheel_critical_depth_mm"
+    assert ending(result) == "until 0.02 mm is worn off the wheel"
+    assert "worn off the wheel" in " ".join(answer(result, "x.toml").split())
+
+
+@pytest.mark.parametrize("single_file", [False, True])
+def test_pages_are_the_same_for_the_same_run_and_small(strand, tmp_path, single_file):
+    texts = []
+    for name in "ab":
+        save_report([strand], tmp_path / name, False, single_file, "full")
+        texts.append((tmp_path / name / "index.html").read_bytes())
+    assert texts[0] == texts[1]
+    assert len(texts[0]) < (6_000_000 if single_file else 300_000)
+
+
+def test_legends_name_every_drive_once(strand):
+    gears = wearsim.simulate(wearsim.load_case(GEARS))
+    traces = along_chart([strand, gears, strand], ["first", "gears", "third"]).figure.data
+    assert [trace.name for trace in traces if trace.showlegend] == ["first", "gears", "third"]
+    roles = {trace.name: trace.meta["role"] for trace in traces}
+    assert roles["first"] == "series-1" and roles["gears"] == roles["gears, wheel"] == "series-2"
+    alone = along_chart([gears], ["gears"]).figure.data
+    assert [trace.name for trace in alone if trace.showlegend] == ["pinion", "wheel"]
+    assert not any(trace.showlegend for trace in along_chart([strand], ["x"]).figure.data)
+
+
+def test_names_of_pages_are_safe_and_different():
+    assert page_names(["../x", "x", "X", "index", "привод", ""]) == [
+        "_x", "x", "X-2", "index-2", "привод", "drive",
+    ]  # fmt: skip
+
+
+def palette():
+    """Colours of the page in the light and in the dark."""
+    text = Path(writer.__file__).with_name("style.css").read_text()
+    light, dark = re.findall(r":root \{(.*?)\}", text, re.DOTALL)[:2]
+    found = [dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block)) for block in (light, dark)]
+    assert found[0].keys() == found[1].keys()
+    return found
+
+
+def luminance(colour):
+    """Relative luminance of WCAG 2."""
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+def contrast(one, other):
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_contrast_of_a_known_pair():
+    assert contrast("#ffffff", "#767676") == pytest.approx(4.54, abs=0.01)  # WCAG's own example
+
+
+@pytest.mark.parametrize("scheme", [0, 1])
+def test_letters_and_lines_stand_out(scheme):
+    colours = palette()[scheme]
+    for ground in ("page", "panel"):
+        for letters in ("text", "muted", "link"):
+            assert contrast(colours[letters], colours[ground]) >= 4.5, (letters, ground)
+        for mark in ("new", "worn", "mate", "limit", *(f"series-{n}" for n in range(1, 7))):
+            assert contrast(colours[mark], colours[ground]) >= 3.0, (mark, ground)
+    assert contrast(colours["warn"], colours["warn-page"]) >= 4.5
+
+
+def test_a_slack_layout_is_drawn_closed():
+    layout = DriveLayout(12.7, 17, 25, 80, 360.0)
+    places = roller_places(layout)
+    ends = math.dist(places[0], places[-1])
+    assert ends == pytest.approx(12.7, rel=0.05)

@@ -1,0 +1,66 @@
+"""``wearsim report``: pages for a browser, one for each drive."""
+
+from pathlib import Path
+
+import click
+
+from wearsim.cli.sources import results_of
+from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
+from wearsim.errors import OutputError
+
+
+@click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
+@click.argument(
+    "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RUN_OR_CASE..."
+)
+@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
+@click.option(
+    "--single-file",
+    is_flag=True,
+    help="Every page holds its script (about 5 MB each) and moves alone.",
+)
+@click.option(
+    "--detail",
+    type=click.Choice(["brief", "full"]),
+    default="full",
+    show_default=True,
+    help="brief: answer, tooth, margins, assumptions and warnings only.",
+)
+@click.option("--force", is_flag=True, help="Replace the folder.")
+@overrides
+@standard
+def report(
+    sources: tuple[Path, ...],
+    out: Path,
+    single_file: bool,
+    detail: str,
+    force: bool,
+    settings: tuple[str, ...],
+) -> int:
+    """Write pages about runs (folders of life --out) and cases (.toml, run now).
+
+    Open index.html of the folder: the page of the drive, or where there are several a page that
+    compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
+    """
+    from wearsim.output import check_folder
+
+    _check_installed()
+    check_folder(out, force)
+    found = results_of(sources, settings, False)
+    from wearsim.report.compare import differing_limits, distinct
+    from wearsim.report.html.writer import save_report
+
+    results = distinct(list(found.values()), [str(path) for path in found])
+    for page in save_report(results, out, force, single_file, detail):
+        click.echo(out / page)
+    if limits := differing_limits(results):
+        warn(f"warning: {limits}")
+    return SOME_FAILED if len(found) < len(set(sources)) else 0
+
+
+def _check_installed() -> None:
+    """Raise before anything runs where the libraries of the pages are missing."""
+    from importlib.util import find_spec
+
+    if any(find_spec(name) is None for name in ("jinja2", "plotly")):
+        raise OutputError("report: the pages need jinja2 and plotly: pip install 'wearsim[report]'")

@@ -1,0 +1,1 @@
+"""Pages for a browser: one for each drive, and one that compares them."""

@@ -1,0 +1,73 @@
+"""Lives side by side."""
+
+import html
+import math
+from collections.abc import Sequence
+
+import plotly.graph_objects as go
+
+from wearsim.report.answer import grouped, hours, limit_text
+from wearsim.report.html.charts import Chart, Values, panels, rounded, series
+from wearsim.result import Life, WearResult
+
+
+def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
+    """Return the lives of several drives with their bands.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one.
+    labels : sequence of str
+        Their names.
+
+    Returns
+    -------
+    Chart
+        On a logarithmic axis; an arrow is a life that was not reached.
+    """
+    figure = panels(1)
+    for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
+        life, low, high = (
+            one.hours_run for one in (result.life, result.life_low, result.life_high)
+        )
+        reached = isinstance(result.life, Life)
+        figure.add_trace(
+            go.Scatter(
+                x=[rounded(life)],
+                y=[html.escape(label, quote=False)],
+                mode="markers",
+                name=html.escape(label, quote=False),
+                showlegend=False,
+                marker={"size": 12, "symbol": "circle" if reached else "triangle-right"},
+                error_x={
+                    "array": [rounded(max(high - life, 0.0))],
+                    "arrayminus": [rounded(max(life - low, 0.0))],
+                },
+                meta={"role": series(number)},
+                hovertemplate=f"{hours(result.life)}, {limit_text(result.stop, result.stop_value)}<br>"
+                f"band {hours(result.life_low)} to {hours(result.life_high)}<extra></extra>",
+            )
+        )
+    figure.update_layout(hovermode="closest")
+    ends = [one.hours_run for result in results for one in (result.life_low, result.life_high)]
+    ticks = _log_ticks(min(ends), max(ends))
+    figure.update_xaxes(
+        type="log", title_text="life, h", tickvals=ticks, ticktext=[grouped(tick) for tick in ticks]
+    )
+    figure.update_yaxes(autorange="reversed", type="category")
+    return Chart(
+        name="lives",
+        title="lives and their bands",
+        alt="A dot for the life of each drive with the band of its wear coefficient; an arrow where no "
+        "limit was reached. The table above holds the values.",
+        figure=figure,
+        values=Values((), ()),
+    )
+
+
+def _log_ticks(low: float, high: float) -> list[float]:
+    """Powers of ten over a wide range, 1, 2 and 5 times them over a narrow one."""
+    factors = (1.0,) if high > 20.0 * low else (1.0, 2.0, 5.0)
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    return [factor * 10.0**power for power in powers for factor in factors]

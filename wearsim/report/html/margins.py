@@ -1,0 +1,83 @@
+"""How near every stop criterion is when the life ends."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.case.model import Case, StrandDrive, WrapDrive
+from wearsim.report.answer import grouped, limit_name
+from wearsim.result import WearResult
+
+_MET = 1e-9
+"""Part of a limit below which what is left to it is rounding."""
+
+
+@dataclass(frozen=True)
+class Margin:
+    """A limit and what is left to it.
+
+    Attributes
+    ----------
+    name, unit : str
+        The limit in words and its unit.
+    limit, value, left : str
+        Its value, what the quantity has come to, and how far that is from the limit.
+    used : float
+        Part of the way from new to the limit that is gone, from 0 to 1.
+    ended : bool
+        Whether it ended the life.
+    """
+
+    name: str
+    unit: str
+    limit: str
+    value: str
+    left: str
+    used: float
+    ended: bool
+
+
+def margins(result: WearResult, case: Case) -> list[Margin]:
+    """Return every limit of a result and how far its quantity is from it.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+    case : Case
+        Its case, for what the quantity was when new.
+
+    Returns
+    -------
+    list of Margin
+        In the order of the result's limits.
+    """
+    found = []
+    for state in result.limits:
+        name, unit = limit_name(state.name)
+        start = _when_new(state.name, case)
+        way, left = state.limit - start, abs(state.limit - state.value)
+        used = (state.value - start) / way if way else 1.0
+        found.append(
+            Margin(
+                name=name,
+                unit=unit,
+                limit=grouped(state.limit, 3),
+                value=grouped(state.value, 3),
+                left=grouped(left if left > _MET * abs(state.limit) else 0.0, 3),
+                used=float(np.clip(used, 0.0, 1.0)),
+                ended=state.name == result.stop,
+            )
+        )
+    return found
+
+
+def _when_new(name: str, case: Case) -> float:
+    """What the quantity of a limit is on new teeth; 0 of all that grow."""
+    drive = case.drive
+    if isinstance(drive, StrandDrive | WrapDrive):
+        if name == "min_tip_land_mm":
+            return drive.tip_land
+        if name == "min_tooth_thickness_mm":
+            return drive.pitch_line_thickness
+    return 0.0

@@ -1,0 +1,251 @@
+"""Charts of a run, or of several: loads, wear along the flank, wear over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import plotly.graph_objects as go
+
+from wearsim.report.answer import grouped, hours
+from wearsim.report.flank_view import snapshot
+from wearsim.report.html.charts import Chart, Values, curve, listed, panels, rounded, series
+from wearsim.result import Life, WearResult
+
+if TYPE_CHECKING:
+    from wearsim.simulation.loads import ToothLoads
+
+_ROWS = 21
+"""Rows of a table of values beside a chart."""
+
+_ALONG = (
+    ("depth_mm", "depth", "mm"),
+    ("pressure_MPa", "Hertz pressure", "MPa"),
+    ("sliding_speed_mm_per_s", "sliding speed", "mm/s"),
+)
+
+
+def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
+    """Return depth, pressure and sliding along the flanks, at the end and new.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one.
+    labels : sequence of str
+        Names for the legend; of a single result they are left out.
+
+    Returns
+    -------
+    Chart
+        A panel for each quantity that a result has at a point.
+    """
+    shown = [row for row in _ALONG if any(row[0] in result.flank_columns for result in results)]
+    figure = panels(len(shown))
+    alone = len(results) == 1
+    for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
+        role = "worn" if alone else series(number)
+        for row, (name, what, unit) in enumerate(shown, start=1):
+            traces = _along(result, name, unit, "" if alone else label, what, role)
+            figure.add_traces(traces, row, 1)
+    for row, (_, what, unit) in enumerate(shown, start=1):
+        figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
+    start = " or ".join(dict.fromkeys(_start(result) for result in results))
+    figure.update_xaxes(title_text="arc length, mm", row=len(shown), col=1)
+    more = "; solid at the end of the run, dashed when new" if len(shown) > 1 else ""
+    return Chart(
+        name="along",
+        title=f"{', '.join(what for _, what, _ in shown)} along the flank, {start}",
+        alt=f"Curves of {', '.join(what for _, what, _ in shown)} over the arc length {start}{more}.",
+        figure=figure,
+        values=_along_values(results[0]) if len(results) == 1 else Values((), ()),
+        tall=len(shown),
+        still="along_flank",
+    )
+
+
+def _along(
+    result: WearResult, column: str, unit: str, label: str, what: str, role: str
+) -> list[go.Scatter]:
+    """One quantity at the end, and when new or of the wheel; the depth has the legend."""
+    first, last = snapshot(result, 0), snapshot(result, -1)
+    if column not in last:
+        return []
+    place, gears = last["arc_length_mm"], "wheel_depth_mm" in last
+    end = curve(place, last[column], label or ("pinion" if gears else what), role, unit)
+    end.update(legendgroup=label, showlegend=column == "depth_mm" and bool(label or gears))
+    if column != "depth_mm":
+        new = curve(place, first[column], f"{label or what}, new", role, unit, "dash")
+        new.update(legendgroup=label, showlegend=False, opacity=0.7)
+        return [end, new]
+    if not gears:
+        return [end]
+    name = f"{label}, wheel" if label else "wheel"
+    wheel = curve(place, last["wheel_depth_mm"], name, role, unit, "dot")
+    wheel.update(legendgroup=label or "wheel", showlegend=not label)
+    return [end, wheel]
+
+
+def _start(result: WearResult) -> str:
+    """Where the arc length of a flank begins."""
+    if "gap_kind" in result.flank_columns:
+        return "from the gap's right tip"
+    gears = "path_mm" in result.flank_columns
+    return "from where contact starts" if gears else "from the root"
+
+
+def _along_values(result: WearResult) -> Values:
+    last = snapshot(result, -1)
+    columns = [("arc length, mm", last["arc_length_mm"])]
+    columns += [(f"{what}, {unit}", last[name]) for name, what, unit in _ALONG if name in last]
+    if "wheel_depth_mm" in last:
+        columns.append(("depth of the wheel, mm", last["wheel_depth_mm"]))
+    return _sampled(columns)
+
+
+def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
+    """Return greatest depth and elongation against running time, with their limits.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one.
+    labels : sequence of str
+        Names for the legend.
+
+    Returns
+    -------
+    Chart
+        With a mark at every life.
+    """
+    shown = [("max_depth_mm", "depth", "mm", "critical_depth_mm")]
+    if any("elongation_percent" in result.history_columns for result in results):
+        shown.append(("elongation_percent", "elongation", "%", "elongation_percent"))
+    figure = panels(len(shown))
+    alone = len(results) == 1
+    for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
+        columns = result.history_columns
+        role = "worn" if alone else series(number)
+        limits = {state.name: state.limit for state in result.limits}
+        for row, (name, what, unit, limit) in enumerate(shown, start=1):
+            if name not in columns:
+                continue
+            time = columns["time_hours"]
+            trace = curve(time, columns[name], what if alone else label, role, unit, at="h")
+            trace.update(legendgroup=label, showlegend=row == 1 and not alone)
+            figure.add_trace(trace, row, 1)
+            if limit in limits:
+                ends, level = [0.0, time[-1]], [limits[limit]] * 2
+                bound = curve(ends, level, "limit", "limit" if alone else role, unit, "dash", "h")
+                bound.update(legendgroup=label, showlegend=False)
+                figure.add_trace(bound, row, 1)
+        figure.add_trace(_life_mark(result, label, role), 1, 1)
+    for row, (_, what, unit, _) in enumerate(shown, start=1):
+        figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
+    figure.update_xaxes(rangemode="tozero")
+    figure.update_xaxes(title_text="running time, h", row=len(shown), col=1)
+    what = " and ".join(name for _, name, _, _ in shown)
+    return Chart(
+        name="history",
+        title=f"greatest {what} against hours",
+        alt=f"Curves of the greatest {what} over running time with their limits dashed; a mark at the "
+        "life.",
+        figure=figure,
+        values=_history_values(results[0]) if alone else Values((), ()),
+        tall=len(shown),
+        still="depth_over_hours",
+    )
+
+
+def _life_mark(result: WearResult, label: str, role: str) -> go.Scatter:
+    """Mark of the life on the curve of depth, or of the run's end where it was not reached."""
+    columns, end = result.history_columns, result.life.hours_run
+    depth = float(np.interp(end, columns["time_hours"], columns["max_depth_mm"]))
+    reached = isinstance(result.life, Life)
+    return go.Scatter(
+        x=[rounded(end)],
+        y=[rounded(depth)],
+        mode="markers",
+        marker={"symbol": "circle" if reached else "triangle-right", "size": 10},
+        name="life" if reached else "run ends",
+        legendgroup=label,
+        showlegend=False,
+        meta={"role": role},
+        hovertemplate=f"{hours(result.life)}<br>%{{y:.4g}} mm<extra>%{{fullData.name}}</extra>",
+    )
+
+
+def _history_values(result: WearResult) -> Values:
+    columns = result.history_columns
+    shown = [("running time, h", columns["time_hours"])]
+    shown.append(("greatest depth, mm", columns["max_depth_mm"]))
+    if "elongation_percent" in columns:
+        shown.append(("elongation, %", columns["elongation_percent"]))
+        shown.append(("chain", columns["chain"]))
+    shown.append(("peak pressure, MPa", columns["peak_pressure_MPa"]))
+    return _sampled(shown)
+
+
+def loads_chart(new: ToothLoads, grown: ToothLoads) -> Chart:
+    """Return the normal forces on the teeth of a wrap.
+
+    Parameters
+    ----------
+    new, grown : ToothLoads
+        Of a new chain and of one at its limit of elongation, on new teeth.
+
+    Returns
+    -------
+    Chart
+        A pair of bars for each tooth, tooth 1 at the tight end.
+    """
+    figure = panels(1)
+    rows = []
+    for found, label, role in (
+        (new, "new chain", "new"),
+        (grown, f"chain grown by {100 * grown.elongation:.3g} %", "worn"),
+    ):
+        teeth = np.arange(1, found.loads.force.size + 1)
+        rows.append(found.loads.force)
+        figure.add_trace(
+            go.Bar(
+                x=teeth.tolist(),
+                y=listed(found.loads.force),
+                name=label,
+                meta={"role": role},
+                hovertemplate=f"tooth %{{x}}: %{{y:.4g}} N<extra>{label}</extra>",
+            )
+        )
+    figure.update_layout(barmode="group", bargap=0.25)
+    figure.update_xaxes(title_text="tooth, from the tight end", dtick=max(1, len(rows[0]) // 12))
+    figure.update_yaxes(title_text="normal force, N")
+    cells = tuple(
+        (
+            str(tooth + 1),
+            *(_cell(force[tooth]) if tooth < force.size else "-" for force in rows),
+            _cell(new.loads.force[tooth] / new.face_width) if tooth < rows[0].size else "-",
+        )
+        for tooth in range(max(force.size for force in rows))
+    )
+    head = ("tooth", "force, new chain, N", "force, grown chain, N", "load, new chain, N/mm")
+    return Chart(
+        name="loads",
+        title="tooth loads over the wrap",
+        alt="Bars of the normal force on every tooth of the wrap, of a new chain and of one at its "
+        f"limit of elongation; the largest is {grouped(float(new.loads.force.max()))} N on a new chain.",
+        figure=figure,
+        values=Values(head, cells),
+    )
+
+
+def _sampled(columns: Sequence[tuple[str, Any]]) -> Values:
+    """Some rows of columns of the same length, first and last included."""
+    size = len(columns[0][1])
+    at = np.unique(np.linspace(0, size - 1, min(_ROWS, size)).round().astype(int))
+    rows = tuple(tuple(_cell(values[row]) for _, values in columns) for row in at)
+    return Values(tuple(head for head, _ in columns), rows)
+
+
+def _cell(value: float) -> str:
+    return grouped(float(value)) if np.isfinite(value) else "-"
