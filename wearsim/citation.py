@@ -131,8 +131,13 @@ def _bibtex_authors(known: dict[str, Any]) -> str:
     )  # fmt: skip
 
 
-def apa() -> str:
+def apa(version: str = wearsim.__version__) -> str:
     """Return the references in the style of the APA.
+
+    Parameters
+    ----------
+    version : str
+        Of the wearsim to cite.
 
     Returns
     -------
@@ -141,7 +146,7 @@ def apa() -> str:
     """
     known = facts()
     own = (
-        f"{_apa_authors(known)} ({known['year']}). {known['title']} (Version {known['version']}) "
+        f"{_apa_authors(known)} ({known['year']}). {known['title']} (Version {version}) "
         "[Computer software]."
     )
     return "\n".join([own, *map(_apa_source, known["references"])]) + "\n"

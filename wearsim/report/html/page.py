@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import wearsim
 from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
+from wearsim.citation import apa
 from wearsim.report.answer import BAND, LIMITS, ending, findings, hours, told_apart
 from wearsim.report.compare import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.chain_sketch import strand_sketch, wrap_sketch
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.citation import Citation, citation
 from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
 from wearsim.report.html.lives_chart import lives_chart
@@ -61,7 +61,7 @@ class DrivePage:
         Of the result.
     versions : list of tuple of str
         Of what calculated it and of what wrote the page.
-    citation : Citation
+    citation : str
         How to cite.
     """
 
@@ -86,7 +86,7 @@ class DrivePage:
     defaults: list[str]
     warnings: tuple[str, ...]
     versions: list[tuple[str, str]]
-    citation: Citation
+    citation: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +107,7 @@ class ComparisonPage:
         Of all drives together.
     pictures : mapping of str to str
         Still pictures as data URIs, by the stems that charts name.
-    citation : Citation
+    citation : str
         How to cite.
     """
 
@@ -119,7 +119,7 @@ class ComparisonPage:
     warnings: list[tuple[str, str]]
     charts: list[Chart]
     pictures: dict[str, str]
-    citation: Citation
+    citation: str
 
 
 def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
@@ -170,7 +170,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
             ("page written by", f"wearsim {wearsim.__version__}"),
             *result.environment.items(),
         ],
-        citation=citation(result.environment["wearsim"]),
+        citation=apa(result.environment["wearsim"]),
     )
 
 
@@ -227,5 +227,5 @@ def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> Comp
         warnings=[(result.title, text) for result in several for text in result.warnings],
         charts=charts,
         pictures={stem: picture(figure) for stem, figure in figures.items() if stem in still},
-        citation=citation(wearsim.__version__),
+        citation=apa(),
     )
