@@ -77,8 +77,13 @@ def fit_circle(points: Vector, weights: Vector | None = None) -> CircleFit:
     def _left(v: Vector) -> Vector:
         return np.asarray(root * (np.hypot(*(near - v[:2]).T) - v[2]))
 
+    def _slopes(v: Vector) -> Vector:
+        across = near - v[:2]
+        away = np.hypot(*across.T)[:, np.newaxis]
+        return np.asarray(-root[:, np.newaxis] * np.hstack([across / away, np.ones_like(away)]))
+
     v0 = np.array([start[0], start[1], math.sqrt(start[2] + start[0] ** 2 + start[1] ** 2)])
-    found = least_squares(_left, v0, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    found = least_squares(_left, v0, _slopes, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
     x, y, radius = (float(value) for value in found.x)
     return CircleFit(
         radius, (float(x + middle[0]), float(y + middle[1])), math.sqrt(2.0 * found.cost)
