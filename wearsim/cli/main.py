@@ -31,6 +31,7 @@ from wearsim.cli.schema import schema
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
+from wearsim.cli.sweep import sweep
 from wearsim.cli.synthesise import synthesise
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
@@ -74,6 +75,7 @@ for _command in (
     wave_drive,
     face_load,
     convex_concave,
+    sweep,
     synthesise,
     hertz_check,
     init,
