@@ -33,6 +33,7 @@ from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
 from wearsim.cli.sweep import sweep
 from wearsim.cli.synthesise import synthesise
+from wearsim.cli.uncertainty import uncertainty
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -72,6 +73,7 @@ for _command in (
     remaining,
     strength,
     stiffness_spectrum,
+    uncertainty,
     wave_drive,
     face_load,
     convex_concave,

@@ -1,6 +1,5 @@
 """Pictures of a sweep: curves, a heat map, and parallel coordinates."""
 
-import io
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,6 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from wearsim.quantities import quantities
+from wearsim.report.figures import picture_bytes
 from wearsim.study.sweep import Sweep
 
 _MOST_CURVES = 10
@@ -49,16 +49,8 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
     files = {}
     for name, figure in figures.items():
         figure.suptitle(sweep.title, fontsize=10)
-        files |= {f"{name}.{kind}": _picture(figure, kind) for kind in ("png", "svg")}
+        files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
     return files
-
-
-def _picture(figure: Figure, kind: str) -> bytes:
-    target = io.BytesIO()
-    metadata = {"Date": None} if kind == "svg" else None
-    with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
-        figure.savefig(target, format=kind, dpi=150, metadata=metadata)
-    return target.getvalue()
 
 
 def _is_numeric(column: "pd.Series[Any]") -> bool:

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PositiveInt, field_validator
 
 from wearsim.case.schema.calculation import CalculationTables
+from wearsim.case.schema.dotted import dotted
 from wearsim.case.schema.table import Table
 
 Value = bool | int | float | str | list[Any]
@@ -28,19 +29,6 @@ class Range(Table):
         return []
 
 
-def _flat(value: Any) -> Any:
-    """Dotted keys of nested tables; a table with ``from`` is a range."""
-    if not isinstance(value, dict):
-        return value
-    flat: dict[str, Any] = {}
-    for key, below in value.items():
-        if isinstance(below, dict) and "from" not in below:
-            flat |= {f"{key}.{name}": entry for name, entry in _flat(below).items()}
-        else:
-            flat[key] = below
-    return flat
-
-
 class SweepTables(CalculationTables):
     """A sweep: a case, and values for its keys by dotted names."""
 
@@ -52,12 +40,12 @@ class SweepTables(CalculationTables):
     @field_validator("grid", mode="before")
     @classmethod
     def _one(cls, value: Any) -> Any:
-        return _flat(value)
+        return dotted(value, "from")
 
     @field_validator("zip", "design", mode="before")
     @classmethod
     def _many(cls, value: Any) -> Any:
-        return [_flat(entry) for entry in value] if isinstance(value, list) else value
+        return [dotted(entry, "from") for entry in value] if isinstance(value, list) else value
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""
