@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from wearsim.cli.standard import SOME_FAILED, warn
-from wearsim.errors import StudyError, WearsimError
+from wearsim.errors import StudyError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -203,7 +203,9 @@ def exit_code(table: "pd.DataFrame") -> int:
     if failed.empty:
         return 0
     first = failed.iloc[0]
-    what = f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
+    what = (
+        f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
+    )
     if len(failed) == len(table):
         raise StudyError(what)
     warn(f"warning: {what}")

@@ -78,7 +78,9 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     groups = table.groupby(list(others), sort=False) if others else [((), table)]
     for number, (values, group) in enumerate(groups):
         group = group[group["error"] == ""].sort_values(key)
-        shown = ", ".join(f"{k.rpartition('.')[2]} {v}" for k, v in zip(others, values, strict=True))
+        shown = ", ".join(
+            f"{k.rpartition('.')[2]} {v}" for k, v in zip(others, values, strict=True)
+        )
         colour = f"C{number}"
         panel.plot(group[key], _hours(group), "-o", color=colour, markersize=4, label=shown or None)
         bound = group[group["life_hours"].isna()]

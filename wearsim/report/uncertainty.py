@@ -64,7 +64,9 @@ class Answer:
     def convergence(self) -> pd.DataFrame:
         """Percentiles of the first samples, doubled from row to row up to all."""
         count = len(self.sound)
-        counts = [count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST]
+        counts = [
+            count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST
+        ]
         rows = []
         for some in reversed(counts or [count]):
             found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
@@ -179,7 +181,8 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
     content |= {"samples": len(answer.sound), "failed": len(answer.table) - len(answer.sound)}
     content |= {"method": study.method, "seed": study.seed}
     content["inputs"] = {
-        scatter.key: scatter.distribution.model_dump(exclude_none=True) for scatter in study.scatters
+        scatter.key: scatter.distribution.model_dump(exclude_none=True)
+        for scatter in study.scatters
     }
     content["fits"] = [
         {"name": f.name, "shape": f.shape, "scale_hours": f.scale, "b10_hours": f.b10,

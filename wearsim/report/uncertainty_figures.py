@@ -43,7 +43,9 @@ def _lives(answer: "Answer") -> Figure:
     lives = np.sort(np.where(answer.reached, answer.hours, np.inf))
     share = (np.arange(lives.size) + 0.5) / lives.size
     seen = np.isfinite(lives)
-    panel.plot(lives[seen], stats.norm.ppf(share[seen]), ".", color="0.5", markersize=4, label="samples")
+    panel.plot(
+        lives[seen], stats.norm.ppf(share[seen]), ".", color="0.5", markersize=4, label="samples"
+    )
     grid = np.geomspace(lives[0], max(lives[seen][-1], 1.001 * lives[0]), 200) if seen.any() else []
     for fit, colour in zip(answer.fits, ("tab:blue", "tab:orange"), strict=False):
         law = stats.lognorm if fit.name == "lognormal" else stats.weibull_min

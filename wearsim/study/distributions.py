@@ -39,6 +39,9 @@ def quantile(scatter: Distribution, value: float) -> Quantile:
     >>> float(quantile(scatter, 2.0)(np.array([0.5]))[0])
     2.0
     """
+    if scatter.sigma_ln == 0.0:
+        median = value if scatter.median is None else scatter.median
+        return lambda share: np.full(share.shape, float(median))
     whole = _whole(scatter, value)
     if scatter.distribution in ("uniform", "triangular"):
         return lambda share: np.asarray(whole.ppf(share))
@@ -57,8 +60,7 @@ def _whole(scatter: Distribution, value: float) -> "stats.distributions.rv_froze
             sigma = float(scatter.sigma_ln or 0.0)
             if not median > 0.0:
                 raise ValueError(f"a log-normal key must be above 0, is {median:g}")
-            # Without scatter the median is all there is.
-            return stats.lognorm(sigma, scale=median) if sigma else stats.uniform(median, 0.0)
+            return stats.lognorm(sigma, scale=median)
         case "normal":
             mean = value if scatter.mean is None else scatter.mean
             return stats.norm(mean, scatter.standard_deviation)
@@ -100,4 +102,3 @@ def described(scatter: Distribution, value: float) -> str:
         given = {name: given.pop(name, value), **given}
     shown = ", ".join(f"{name} {number:.6g}" for name, number in given.items())
     return f"{scatter.distribution}, {shown}"
-

@@ -60,17 +60,17 @@ def percentile(lives: Vector, reached: Vector, share: float) -> Percentile:
     >>> percentile(np.arange(1.0, 100.0), np.full(99, True), 0.5).hours
     50.0
     """
-    ordered = np.sort(np.where(reached, lives, np.inf))
     floor = float(lives[~reached].min()) if not reached.all() else math.inf
+    ordered = np.sort(np.minimum(np.where(reached, lives, np.inf), floor))
     n = ordered.size
     tail = 0.5 * (1.0 - CONFIDENCE)
     first, last = (int(stats.binom.ppf(p, n, share)) for p in (tail, 1.0 - tail))
     low = float(ordered[first - 1]) if first > 0 else 0.0
     high = float(ordered[last]) if last < n else math.inf
     hours = float(np.quantile(ordered, share, method="median_unbiased"))
-    known = hours < floor
+    known = float(np.quantile(ordered, share, method="higher")) < floor
     return Percentile(
-        share, hours if known else floor, min(low, floor), high if high < floor else math.inf, known
+        share, hours if known else floor, low, high if high < floor else math.inf, known
     )
 
 

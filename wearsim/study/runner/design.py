@@ -10,8 +10,8 @@ from typing import Any
 
 from wearsim import __version__
 from wearsim.case.document import Document
-from wearsim.case.kind import WRAP_PROFILES
 from wearsim.case.keys import schema_fields
+from wearsim.case.kind import WRAP_PROFILES
 from wearsim.case.schema import CaseTables, Table
 from wearsim.catalogue.tables import nearest
 from wearsim.errors import CaseError, Fault

@@ -104,7 +104,9 @@ class Cluster:
     def open(self) -> Iterator[tuple[Executor, int]]:
         """Give an executor and the number of its workers."""
         dask = library("distributed", "dask", "--scheduler")
-        security = dask.Security(require_encryption=True, **self.security) if self.security else None
+        security = (
+            dask.Security(require_encryption=True, **self.security) if self.security else None
+        )
         place = self.address or str(self.scheduler_file)
         try:
             client = dask.Client(
