@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -93,7 +94,7 @@ def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[str]:
     return list(files)
 
 
-def _life(row: dict[str, Any]) -> str:
+def _life(row: Mapping[Any, Any]) -> str:
     if row["error"]:
         return f"failed: {row['error']}"
     if math.isnan(row["life_hours"]):

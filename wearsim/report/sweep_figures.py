@@ -10,13 +10,16 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from wearsim.quantities import quantities
+from wearsim.report.answer import grouped
 from wearsim.report.figures import picture_bytes
 from wearsim.study.sweep import Sweep
 
 _MOST_CURVES = 10
 _MOST_LINES = 2000
+_MOST_NUMBERS = 100
 
 
 def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
@@ -46,7 +49,7 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
         figures["heat_map"] = _heat_map(table, *numeric)
     if len(sweep.design.keys) > 1:
         figures["parallel"] = _parallel(table, sweep.design.keys)
-    files = {}
+    files: dict[str, bytes] = {}
     for name, figure in figures.items():
         figure.suptitle(sweep.title, fontsize=10)
         files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
@@ -57,14 +60,14 @@ def _is_numeric(column: "pd.Series[Any]") -> bool:
     return all(isinstance(value, int | float) and value is not True for value in column)
 
 
+def _is_whole(column: "pd.Series[Any]") -> bool:
+    return all(isinstance(value, int) for value in column)
+
+
 def _label(key: str) -> str:
     quantity = quantities().get(key.rpartition(".")[2])
-    return f"{key.replace('_' + quantity.unit, '')}, {quantity.unit}" if _unit(key) else key
-
-
-def _unit(key: str) -> str:
-    quantity = quantities().get(key.rpartition(".")[2])
-    return quantity.unit if quantity else ""
+    unit = quantity.unit if quantity else ""
+    return f"{key.rpartition('_')[0]}, {unit}" if unit else key
 
 
 def _hours(table: pd.DataFrame) -> "pd.Series[float]":
@@ -79,20 +82,22 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     for number, (values, group) in enumerate(groups):
         group = group[group["error"] == ""].sort_values(key)
         shown = ", ".join(
-            f"{k.rpartition('.')[2]} {v}" for k, v in zip(others, values, strict=True)
+            f"{_label(key)} {value:.4g}" if isinstance(value, float) else f"{_label(key)} {value}"
+            for key, value in zip(others, values, strict=True)
         )
         colour = f"C{number}"
         panel.plot(group[key], _hours(group), "-o", color=colour, markersize=4, label=shown or None)
         bound = group[group["life_hours"].isna()]
         panel.plot(bound[key], _hours(bound), "^", color=colour, markersize=9)
-    if table["life_hours"].isna().any():
+    if (table["life_hours"].isna() & (table["error"] == "")).any():
         panel.plot([], [], "^", color="0.4", label="limit not reached: at least")
     panel.set_xlabel(_label(key))
     panel.set_ylabel("life, h")
     panel.set_ylim(bottom=0.0)
+    panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
     panel.grid(alpha=0.3)
     if panel.get_legend_handles_labels()[0]:
-        panel.legend(frameon=False, fontsize=8)
+        panel.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
 
 
@@ -100,23 +105,32 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     hours = table.assign(hours=_hours(table)).pivot(index=up, columns=across, values="hours")
     figure = Figure(figsize=(7.0, 5.2), layout="constrained")
     panel = figure.subplots()
-    cells = np.ma.masked_invalid(hours.to_numpy())
-    norm = LogNorm(float(cells.min()), max(float(cells.max()), 1.0001 * float(cells.min())))
-    image = panel.pcolormesh(cells, norm=norm, cmap="viridis")
+    norm = _scale(table)
+    cells = hours.to_numpy(float)
+    image = panel.pcolormesh(np.ma.masked_invalid(cells), norm=norm, cmap="viridis")
     for place, axis in ((hours.columns, panel.xaxis), (hours.index, panel.yaxis)):
         axis.set_ticks(np.arange(len(place)) + 0.5, [f"{value:.4g}" for value in place])
-    if cells.size <= 100:
-        for (row, column), value in np.ndenumerate(cells.filled(np.nan)):
-            colour = "black" if value > np.sqrt(norm.vmin * norm.vmax) else "white"
-            text = "failed" if np.isnan(value) else f"{value:.3g}"
+    if cells.size <= _MOST_NUMBERS:
+        for (row, column), value in np.ndenumerate(cells):
+            dark = value < np.sqrt(_least(table) * _hours(table).max())
+            text = "failed" if np.isnan(value) else grouped(float(f"{value:.3g}"))
             panel.text(
-                column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=7,
-                color="black" if np.isnan(value) else colour,
+                column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=8,
+                color="white" if dark else "black",
             )  # fmt: skip
     figure.colorbar(image, label="life, h")
     panel.set_xlabel(_label(across))
     panel.set_ylabel(_label(up))
     return figure
+
+
+def _least(table: pd.DataFrame) -> float:
+    return float(_hours(table).min())
+
+
+def _scale(table: pd.DataFrame) -> LogNorm:
+    """Colours from the shortest life to the longest."""
+    return LogNorm(_least(table), max(float(_hours(table).max()), 1.0001 * _least(table)))
 
 
 def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
@@ -126,7 +140,7 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     columns = [*keys, "life"]
     figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
     panel = figure.subplots()
-    norm = LogNorm(rows["life"].min(), max(rows["life"].max(), 1.0001 * rows["life"].min()))
+    norm = _scale(table)
     heights = np.column_stack([_heights(panel, at, rows[key]) for at, key in enumerate(columns)])
     colours = mpl.colormaps["viridis"](norm(rows["life"].to_numpy()))
     for line, colour in zip(heights, colours, strict=True):

@@ -6,13 +6,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from wearsim.geometry.profile import Vector
 from wearsim.output import write_file
 from wearsim.report.answer import grouped
-from wearsim.study.percentiles import CONFIDENCE, Fit, Percentile, fits, percentile
+from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
 from wearsim.study.uncertainty import UncertaintyStudy
 
 SHARES = (0.1, 0.5, 0.9)
@@ -41,7 +40,7 @@ class Answer:
         return self.table[self.table["error"] == ""]
 
     @property
-    def reached(self) -> "np.ndarray[Any, np.dtype[np.bool_]]":
+    def reached(self) -> Flags:
         """Whether each of them is a life, not a bound."""
         return self.sound["life_hours"].notna().to_numpy()
 

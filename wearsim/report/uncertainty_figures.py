@@ -30,7 +30,7 @@ def uncertainty_figures(answer: "Answer") -> dict[str, bytes]:
         ``lives``: lives on log-normal paper with the fits; ``convergence``.
     """
     figures = {"lives": _lives(answer), "convergence": _convergence(answer)}
-    files = {}
+    files: dict[str, bytes] = {}
     for name, figure in figures.items():
         figure.suptitle(answer.study.case.title, fontsize=10)
         files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
@@ -46,7 +46,7 @@ def _lives(answer: "Answer") -> Figure:
     panel.plot(
         lives[seen], stats.norm.ppf(share[seen]), ".", color="0.5", markersize=4, label="samples"
     )
-    grid = np.geomspace(lives[0], max(lives[seen][-1], 1.001 * lives[0]), 200) if seen.any() else []
+    grid = np.geomspace(lives[0], lives[seen][-1], 200) if answer.fits else lives[:0]
     for fit, colour in zip(answer.fits, ("tab:blue", "tab:orange"), strict=False):
         law = stats.lognorm if fit.name == "lognormal" else stats.weibull_min
         at = stats.norm.ppf(law(fit.shape, scale=fit.scale).cdf(grid))

@@ -63,7 +63,7 @@ def _whole(scatter: Distribution, value: float) -> "stats.distributions.rv_froze
             return stats.lognorm(sigma, scale=median)
         case "normal":
             mean = value if scatter.mean is None else scatter.mean
-            return stats.norm(mean, scatter.standard_deviation)
+            return stats.norm(mean, float(scatter.standard_deviation or 1.0))
         case "uniform":
             return stats.uniform(low, high - low)
         case "triangular":

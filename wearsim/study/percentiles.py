@@ -4,11 +4,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 from wearsim.geometry.profile import Vector
 
 CONFIDENCE = 0.95
+
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,7 @@ class Percentile:
     known: bool
 
 
-def percentile(lives: Vector, reached: Vector, share: float) -> Percentile:
+def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
     """Return a percentile of lives with an interval that assumes no distribution.
 
     The interval lies between two of the ordered lives: of n independent ones the number below
@@ -97,7 +100,7 @@ class Fit:
     b10: float
 
 
-def fits(lives: Vector, reached: Vector) -> list[Fit]:
+def fits(lives: Vector, reached: Flags) -> list[Fit]:
     """Return a log-normal and a Weibull distribution fitted to lives.
 
     Parameters
