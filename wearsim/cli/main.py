@@ -28,6 +28,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
+from wearsim.cli.sensitivity import sensitivity
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
@@ -72,6 +73,7 @@ for _command in (
     maintain,
     remaining,
     strength,
+    sensitivity,
     stiffness_spectrum,
     uncertainty,
     wave_drive,

@@ -50,8 +50,13 @@ def uncertainty(
     from wearsim.study.uncertainty import load_uncertainty
 
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    told = {"study": "uncertainty", "case": study.case.name, "method": method, "seed": seed}
-    table = run(study.design, place, told, f"sampling {study.case.title}")
+    told = {
+        "study": "uncertainty",
+        "case": study.scattered.case.name,
+        "method": method,
+        "seed": seed,
+    }
+    table = run(study.design, place, told, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0
     from wearsim.report.uncertainty import (
@@ -77,5 +82,5 @@ def _missed(answer: "Answer", require_hours: float | None) -> int:
     p10 = answer.percentiles[0]
     if require_hours is None or p10.hours >= require_hours:
         return 0
-    warn(f"{answer.study.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")
+    warn(f"{answer.study.scattered.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")
     return NOT_MET

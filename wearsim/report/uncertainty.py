@@ -88,7 +88,7 @@ def uncertainty_text(answer: Answer) -> str:
         Lines.
     """
     study = answer.study
-    lines = [study.case.title, ""]
+    lines = [study.scattered.case.title, ""]
     for found, text in zip(answer.percentiles, _MEANING, strict=True):
         name = f"P{100 * found.share:.0f}"
         lines.append(f"{name:<12} {_hours(found):>12} h    {_interval(found)}    {text}")
@@ -99,12 +99,11 @@ def uncertainty_text(answer: Answer) -> str:
             f"{fit.log_likelihood:.1f}"
         )
     lines += ["", "what scatters:"]
-    lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scatters]
+    lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
     lines += [f"  {line}" for line in _columns(answer.convergence)]
     lines += ["", "assumptions:"]
-    texts = [*study.assumptions, _OF_INTERVALS, *study.case.assumptions]
-    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
+    lines += [f"  {number}. {text}" for number, text in enumerate(_assumptions(study), start=1)]
     lines += [f"warning: {text}" for text in warnings_of(answer)]
     return "\n".join(lines)
 
@@ -169,7 +168,7 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
         A percentile that is not known is null, and its bound stands under ``at_least``.
     """
     study = answer.study
-    content: dict[str, Any] = {"schema_version": 1, "case": study.case.name}
+    content: dict[str, Any] = {"schema_version": 1, "case": study.scattered.case.name}
     for found in answer.percentiles:
         name = f"p{100 * found.share:.0f}_hours"
         content[name] = found.hours if found.known else None
@@ -181,14 +180,18 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
     content |= {"method": study.method, "seed": study.seed}
     content["inputs"] = {
         scatter.key: scatter.distribution.model_dump(exclude_none=True)
-        for scatter in study.scatters
+        for scatter in study.scattered.scatters
     }
     content["fits"] = [
         {"name": f.name, "shape": f.shape, "scale_hours": f.scale, "b10_hours": f.b10,
          "log_likelihood": f.log_likelihood}
         for f in answer.fits
     ]  # fmt: skip
-    content["assumptions"] = [*study.assumptions, _OF_INTERVALS, *study.case.assumptions]
+    content["assumptions"] = [
+        *study.scattered.assumptions,
+        _OF_INTERVALS,
+        *study.scattered.case.assumptions,
+    ]
     content["warnings"] = warnings_of(answer)
     return content
 
@@ -217,6 +220,11 @@ def save_uncertainty(answer: Answer, folder: Path) -> None:
     }
     for name, content in (files | uncertainty_figures(answer)).items():
         write_file(folder / name, content, force=True)
+
+
+def _assumptions(study: UncertaintyStudy) -> list[str]:
+    scattered = study.scattered
+    return [*scattered.assumptions, _OF_INTERVALS, *scattered.case.assumptions]
 
 
 def _hours(found: Percentile) -> str:

@@ -32,7 +32,7 @@ def uncertainty_figures(answer: "Answer") -> dict[str, bytes]:
     figures = {"lives": _lives(answer), "convergence": _convergence(answer)}
     files: dict[str, bytes] = {}
     for name, figure in figures.items():
-        figure.suptitle(answer.study.case.title, fontsize=10)
+        figure.suptitle(answer.study.scattered.case.title, fontsize=10)
         files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
     return files
 
