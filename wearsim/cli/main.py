@@ -10,6 +10,7 @@ from types import FrameType
 import click
 
 import wearsim
+from wearsim.cli.animate import animate
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
@@ -65,6 +66,7 @@ for _command in (
     loads,
     profile,
     export,
+    animate,
     compare,
     report,
     maintain,

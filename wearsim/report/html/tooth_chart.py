@@ -5,10 +5,11 @@ import math
 import numpy as np
 import plotly.graph_objects as go
 
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
-from wearsim.report.flank_view import enlargement, outline, run_time, snapshot, touching_circle
+from wearsim.report.flank_view import outline, run_time
 from wearsim.report.html.charts import Chart, Values, curve, listed, panels
+from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import WearResult
 
 _AROUND = 0.22
@@ -28,30 +29,14 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     list of Chart
         One or two, each with its slider, whose points the script of the page fills in.
     """
-    first, last = snapshot(result, 0), snapshot(result, -1)
-    new, worn = Profile(first["x_mm"], first["y_mm"]), (last["x_mm"], last["y_mm"])
-    around = [*_body(result), _mate(result, new, int(last["depth_mm"].argmax()))]
-    if "wheel_x_mm" not in last:
-        return [_chart(result, "tooth", new, worn, last["depth_mm"], around)]
-    mate = Profile(first["wheel_x_mm"], first["wheel_y_mm"])
-    worn_mate = last["wheel_x_mm"], last["wheel_y_mm"]
-    return [
-        _chart(result, "pinion", new, worn, last["depth_mm"], around),
-        _chart(result, "wheel", mate, worn_mate, last["wheel_depth_mm"], []),
-    ]
+    flanks = worn_flanks(result)
+    around = [*_body(result), _mate(result, flanks[0])]
+    return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
 
 
-def _chart(
-    result: WearResult,
-    name: str,
-    new: Profile,
-    worn: tuple[Vector, Vector],
-    depth: Vector,
-    around: list[go.Scatter],
-) -> Chart:
-    extent = float(max(np.ptp(new.x), np.ptp(new.y)))
-    greatest, room = float(depth.max()), _AROUND * extent
-    factor = enlargement(greatest, extent)
+def _chart(result: WearResult, flank: WornFlank, around: list[go.Scatter]) -> Chart:
+    name, new, depth = flank.name, flank.new, flank.depth[-1]
+    greatest, room = float(depth.max()), _AROUND * flank.extent
     figure = panels(1)
     figure.add_traces([*around, *_flanks(depth)])
     figure.update_layout(hovermode="closest")
@@ -72,11 +57,11 @@ def _chart(
             "first": len(around),
             "x": listed(new.x),
             "y": listed(new.y),
-            "dx": listed(worn[0] - new.x),
-            "dy": listed(worn[1] - new.y),
-            "deepest": int(depth.argmax()),
-            "factor": factor,
-            "most": max(10, 3 * factor),
+            "dx": listed(flank.x[-1] - new.x),
+            "dy": listed(flank.y[-1] - new.y),
+            "deepest": flank.deepest,
+            "factor": flank.factor,
+            "most": max(10, 3 * flank.factor),
             "depth": f"{grouped(greatest, 3)} mm",
         },
     )
@@ -113,12 +98,9 @@ def _body(result: WearResult) -> list[go.Scatter]:
     return [body]
 
 
-def _mate(result: WearResult, new: Profile, deepest: int) -> go.Scatter:
+def _mate(result: WearResult, flank: WornFlank) -> go.Scatter:
     """The circle that touches the new flank where it wears most."""
-    place = float(snapshot(result, -1)["arc_length_mm"][deepest])
-    radius, name = touching_circle(result, place)
-    x = new.x[deepest] + radius * new.normal_x[deepest]
-    y = new.y[deepest] + radius * new.normal_y[deepest]
+    (x, y), radius, name = mate(result, flank)
     angle = np.linspace(0.0, math.tau, 91)
     circle = curve(
         x + radius * np.cos(angle), y + radius * np.sin(angle), name, "mate", "mm", "dash"
