@@ -81,7 +81,7 @@ def flank_panel(
     title = panel.set_title("", fontsize=10)
     lead = "" if flank.name == "tooth" else f"{flank.name}, "
 
-    def show(frame: int) -> None:
+    def _show(frame: int) -> None:
         place, deep = int(depth[frame].argmax()), float(depth[frame].max())
         back = np.column_stack([flank.x[0], flank.y[0]])[::-1]
         between.set_xy(np.vstack([np.column_stack([x[frame], y[frame]]), back]))
@@ -89,7 +89,7 @@ def flank_panel(
         deepest.set_data(x[frame, place : place + 1], y[frame, place : place + 1])
         title.set_text(f"{lead}{grouped(time[frame])} h: {deep:.3g} mm deep")
 
-    return Moving([between, worn, deepest, title], show)
+    return Moving([between, worn, deepest, title], _show)
 
 
 def _frame(panel: Axes, flank: WornFlank, x: Vector, y: Vector) -> None:
@@ -135,11 +135,11 @@ def depth_panel(
         (curves[name],) = panel.plot(time, depth, style, color="tab:red", lw=2.0, label=label)
     _against_hours(panel, result, "greatest depth, mm")
 
-    def show(frame: int) -> None:
+    def _show(frame: int) -> None:
         for name, curve in curves.items():
             curve.set_data(time[: frame + 1], depths[name][: frame + 1])
 
-    return Moving(list(curves.values()), show)
+    return Moving(list(curves.values()), _show)
 
 
 def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
@@ -165,12 +165,12 @@ def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
     (curve,) = panel.plot(hours, grown, color="tab:blue", lw=2.0)
     _against_hours(panel, result, "elongation of the chain, %")
 
-    def show(frame: int) -> None:
+    def _show(frame: int) -> None:
         rows = int(np.searchsorted(hours, time[frame]))
         now = np.interp(time[frame], hours, grown)
         curve.set_data(np.append(hours[:rows], time[frame]), np.append(grown[:rows], now))
 
-    return Moving([curve], show)
+    return Moving([curve], _show)
 
 
 def _limits(

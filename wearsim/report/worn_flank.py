@@ -109,15 +109,15 @@ def worn_flanks(result: WearResult) -> list[WornFlank]:
         rows = columns["gap_kind"] == columns["gap_kind"][int(columns["depth_mm"].argmax())]
     cycles = columns["cycles"][rows].reshape(-1, size)[:, 0]
 
-    def flank(name: str, start: str) -> WornFlank:
+    def _flank(name: str, start: str) -> WornFlank:
         x, y, depth = (
             columns[start + part][rows].reshape(-1, size) for part in ("x_mm", "y_mm", "depth_mm")
         )
         return WornFlank(name, cycles, x, y, depth)
 
     if "wheel_x_mm" in columns:
-        return [flank("pinion", ""), flank("wheel", "wheel_")]
-    return [flank("tooth", "")]
+        return [_flank("pinion", ""), _flank("wheel", "wheel_")]
+    return [_flank("tooth", "")]
 
 
 def mate(result: WearResult, flank: WornFlank) -> tuple[tuple[float, float], float, str]:
