@@ -84,6 +84,7 @@ def test_frames_are_read_back(cli, run, tmp_path, form):
     assert info["loop"] == 0
     first, last = frames[0][0], frames[-1][0]
     assert (np.abs(last - first).max(axis=2) > 60).sum() > 200
+    assert (last[0, 0] == 255).all()
     kept = out.read_bytes().decode("utf-8", "ignore")
     assert "Test drive: the flank as it wears" in kept
     assert "wearsim" in kept

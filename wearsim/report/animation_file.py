@@ -21,6 +21,9 @@ _HOLD_MS = 2000
 _COLOURS = 128
 """Of all frames together: few enough to be small, enough for smooth edges."""
 
+_NEARLY_WHITE = 247
+"""Colours of more than this in red, green and blue are means of white paper: white."""
+
 _XMP = (
     '<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF '
     'xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description rdf:about="" '
@@ -90,10 +93,12 @@ def durations(frames: int, seconds: float) -> list[int]:
 
 
 def _few_colours(frames: list[Image.Image]) -> list[Image.Image]:
-    """Frames in the colours of the last one, which shows all that any frame does."""
-    exact = Image.Dither.NONE
-    colours = frames[-1].quantize(_COLOURS, method=Image.Quantize.MEDIANCUT, dither=exact)
-    return [frame.quantize(palette=colours, dither=exact) for frame in frames]
+    """Frames in white and in colours of the last one, which shows all that any frame does."""
+    colours = frames[-1].quantize(_COLOURS, method=Image.Quantize.MEDIANCUT)
+    palette = np.reshape(colours.getpalette() or [], (-1, 3))
+    palette[palette.min(axis=1) > _NEARLY_WHITE] = 255
+    colours.putpalette(palette.ravel().tolist())
+    return [frame.quantize(palette=colours, dither=Image.Dither.NONE) for frame in frames]
 
 
 def _own(form: str, text: str) -> dict[str, Any]:

@@ -82,11 +82,12 @@ def flank_panel(
     lead = "" if flank.name == "tooth" else f"{flank.name}, "
 
     def _show(frame: int) -> None:
-        place, deep = int(depth[frame].argmax()), float(depth[frame].max())
+        deep = float(depth[frame].max())
+        place = np.flatnonzero(depth[frame] == deep)[: deep > 0.0]
         back = np.column_stack([flank.x[0], flank.y[0]])[::-1]
         between.set_xy(np.vstack([np.column_stack([x[frame], y[frame]]), back]))
         worn.set_data(x[frame], y[frame])
-        deepest.set_data(x[frame, place : place + 1], y[frame, place : place + 1])
+        deepest.set_data(x[frame, place], y[frame, place])
         title.set_text(f"{lead}{grouped(time[frame])} h: {deep:.3g} mm deep")
 
     return Moving([between, worn, deepest, title], _show)
@@ -134,6 +135,8 @@ def depth_panel(
         style = styles.get(name, "-")
         (curves[name],) = panel.plot(time, depth, style, color="tab:red", lw=2.0, label=label)
     _against_hours(panel, result, "greatest depth, mm")
+    if panel.get_legend_handles_labels()[1]:
+        panel.legend(loc="lower right", fontsize=8)
 
     def _show(frame: int) -> None:
         for name, curve in curves.items():
@@ -194,5 +197,3 @@ def _against_hours(panel: Axes, result: WearResult, label: str) -> None:
     panel.set_xlabel("running time, h")
     panel.set_ylabel(label)
     panel.grid(alpha=0.3)
-    if panel.get_legend_handles_labels()[1]:
-        panel.legend(loc="lower right", fontsize=8)
