@@ -2,6 +2,7 @@
 
 import math
 import textwrap
+from collections.abc import Container
 from pathlib import Path
 
 import matplotlib as mpl
@@ -15,28 +16,32 @@ from wearsim.report.flank_view import outline, run_time, snapshot
 from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import Life, WearResult
 
+FIGURES = ("flanks", "along_flank", "depth_over_hours")
+"""Stems of the figures of a comparison."""
+
 _LEGEND = 0.24
 """Part of the height of the same picture that is left free for the legend."""
 
 
-def comparison_figures(results: list[WearResult]) -> dict[str, Figure]:
+def comparison_figures(
+    results: list[WearResult], stems: Container[str] = FIGURES
+) -> dict[str, Figure]:
     """Return the figures of a comparison by file stem.
 
     Parameters
     ----------
     results : list of WearResult
         At least one.
+    stems : container of str
+        Which of `FIGURES` are drawn.
 
     Returns
     -------
     dict
-        ``flanks``, ``along_flank`` and ``depth_over_hours``.
+        In the order of `FIGURES`.
     """
-    return {
-        "flanks": flanks_figure(results),
-        "along_flank": along_flank_figure(results),
-        "depth_over_hours": depth_figure(results),
-    }
+    drawn = (flanks_figure, along_flank_figure, depth_figure)
+    return {stem: draw(results) for stem, draw in zip(FIGURES, drawn, strict=True) if stem in stems}
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> None:

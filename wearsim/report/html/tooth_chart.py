@@ -3,12 +3,11 @@
 import math
 
 import numpy as np
-import plotly.graph_objects as go
 
 from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
 from wearsim.report.flank_view import outline, run_time
-from wearsim.report.html.charts import Chart, Values, curve, listed, panels
+from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
 from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import WearResult
 
@@ -34,16 +33,14 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
 
 
-def _chart(result: WearResult, flank: WornFlank, around: list[go.Scatter]) -> Chart:
+def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
     name, new, depth = flank.name, flank.new, flank.depth[-1]
     greatest, room = float(depth.max()), _AROUND * flank.extent
     figure = panels(1)
-    figure.add_traces([*around, *_flanks(depth)])
-    figure.update_layout(hovermode="closest")
-    figure.update_xaxes(title_text="x, mm", range=[new.x.min() - room, new.x.max() + room])
-    figure.update_yaxes(
-        title_text="y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x"
-    )
+    figure.add([*around, *_flanks(depth)])
+    figure.layout["hovermode"] = "closest"
+    figure.set_axis("x", "x, mm", range=[new.x.min() - room, new.x.max() + room])
+    figure.set_axis("y", "y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x")
     return Chart(
         name=name,
         title=f"{'flank' if name == 'tooth' else name} before and after {run_time(result)}",
@@ -67,43 +64,39 @@ def _chart(result: WearResult, flank: WornFlank, around: list[go.Scatter]) -> Ch
     )
 
 
-def _flanks(depth: Vector) -> list[go.Scatter]:
+def _flanks(depth: Vector) -> list[Trace]:
     """What is worn off, the new flank, the worn one and its deepest point: without points yet."""
     between, new, worn = (
         curve([], [], name, role, "mm")
         for name, role in (("worn off", "between"), ("new", "new"), ("worn", "worn"))
     )
-    between.update(fill="toself", line={"width": 0}, hoverinfo="skip", hovertemplate=None)
-    worn.update(
-        customdata=listed(depth), hovertemplate="%{customdata:.4g} mm deep<extra>worn</extra>"
-    )
-    deepest = curve([], [], "deepest", "worn", "mm")
-    deepest.update(
-        mode="markers",
-        marker={"size": 9},
-        hovertemplate=f"deepest, {depth.max():.3g} mm<extra></extra>",
-    )
-    return [between, new, worn, deepest]
+    told = {"hovertemplate": "%{customdata:.4g} mm deep<extra>worn</extra>"}
+    deepest = {
+        **curve([], [], "deepest", "worn", "mm"),
+        "mode": "markers",
+        "marker": {"size": 9},
+        "hovertemplate": f"deepest, {depth.max():.3g} mm<extra></extra>",
+    }
+    return [
+        {**silent(between, 0), "fill": "toself"},
+        new,
+        {**worn, "customdata": listed(depth), **told},
+        deepest,
+    ]
 
 
-def _body(result: WearResult) -> list[go.Scatter]:
+def _body(result: WearResult) -> list[Trace]:
     """The new wheel, or the teeth beside a gap; nothing where only the flank is known."""
     x, y = outline(result)
     if not x.size:
         return []
-    body = curve(x, y, "outline", "body", "mm")
-    body.update(
-        fill="toself", hoverinfo="skip", hovertemplate=None, showlegend=False, line={"width": 1}
-    )
-    return [body]
+    body = silent(curve(x, y, "outline", "body", "mm"), 1)
+    return [{**body, "fill": "toself", "showlegend": False}]
 
 
-def _mate(result: WearResult, flank: WornFlank) -> go.Scatter:
+def _mate(result: WearResult, flank: WornFlank) -> Trace:
     """The circle that touches the new flank where it wears most."""
     (x, y), radius, name = mate(result, flank)
     angle = np.linspace(0.0, math.tau, 91)
-    circle = curve(
-        x + radius * np.cos(angle), y + radius * np.sin(angle), name, "mate", "mm", "dash"
-    )
-    circle.update(hoverinfo="skip", hovertemplate=None, line={"width": 1.2})
-    return circle
+    circle_x, circle_y = x + radius * np.cos(angle), y + radius * np.sin(angle)
+    return silent(curve(circle_x, circle_y, name, "mate", "mm", "dash"), 1.2)
