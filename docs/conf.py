@@ -19,6 +19,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
     "mathml",
+    "equations",
     "key_tables",
 ]
 exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md"]

@@ -16,7 +16,10 @@ def _inline(writer: HTML5Translator, node: nodes.math) -> None:
 def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
     formula, number = node.astext(), ""
     if tag := re.search(r"\\tag\{(.*?)\}", formula):
-        formula, number = formula.replace(tag[0], ""), f'<span class="eqno">({tag[1]})</span>'
+        formula = formula.replace(tag[0], "")
+        names = [f"eq-{name}" for name in tag[1].split(", ")]
+        anchors = "".join(f'<span id="{name}"></span>' for name in names)
+        number = f'{anchors}<a class="eqno" href="#{names[0]}">({tag[1]})</a>'
     writer.body.append(f'<div class="math">{number}{convert(formula, display="block")}</div>')
     raise nodes.SkipNode
 
