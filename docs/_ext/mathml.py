@@ -20,7 +20,8 @@ def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
         names = [f"eq-{name}" for name in tag[1].split(", ")]
         anchors = "".join(f'<span id="{name}"></span>' for name in names)
         number = f'{anchors}<a class="eqno" href="#{names[0]}">({tag[1]})</a>'
-    writer.body.append(f'<div class="math">{number}{convert(formula, display="block")}</div>')
+    shown = f'<div class="formula">{convert(formula, display="block")}</div>'
+    writer.body.append(f'<div class="math">{shown}{number}</div>')
     raise nodes.SkipNode
 
 
