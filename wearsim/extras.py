@@ -1,13 +1,17 @@
 """Libraries that not every user has: installed by ``pip install 'wearsim[EXTRA]'``."""
 
 import csv
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
+from importlib import import_module, util
 from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
+
+_DISTRIBUTIONS = {"skfem": "scikit-fem"}
+"""Names that modules are installed by, where they differ."""
 
 
 @dataclass(frozen=True)
@@ -77,5 +81,36 @@ def library(module: str, extra: str, option: str) -> Any:
     try:
         return import_module(module)
     except ImportError:
-        text = f"needs {module}, which is not installed: pip install 'wearsim[{extra}]'"
-        raise CaseError([Fault(text, file=option)]) from None
+        raise _missing(module, extra, option) from None
+
+
+def check_installed(modules: Sequence[str], extra: str, option: str) -> None:
+    """Find out whether libraries of an extra are there, without the time to load them.
+
+    Parameters
+    ----------
+    modules : sequence of str
+        Their names in Python.
+    extra : str
+        The extra of wearsim that they belong to.
+    option : str
+        What needs them, as the user wrote it.
+
+    Raises
+    ------
+    CaseError
+        One is not installed.
+
+    Examples
+    --------
+    >>> check_installed(["math", "json"], "report", "report")
+    """
+    for module in modules:
+        if util.find_spec(module) is None:
+            raise _missing(module, extra, option)
+
+
+def _missing(module: str, extra: str, option: str) -> CaseError:
+    name = _DISTRIBUTIONS.get(module, module)
+    text = f"needs {name}, which is not installed: pip install 'wearsim[{extra}]'"
+    return CaseError([Fault(text, file=option)])

@@ -125,7 +125,8 @@ def _chain_source(name: str) -> str:
     base = f"{chain.designation.rpartition('-')[0]}-1"
     for row in rows("chains"):
         if row["designation"].partition(" (")[0] in (chain.designation, base):
-            return f"{chain.series}: {row['source']}"
+            note = f"; note: {chain.flag}" if chain.flag else ""
+            return f"{chain.series}: {row['source']}{note}"
     return chain.series
 
 

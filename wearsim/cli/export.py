@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.sources import check_settings
 from wearsim.cli.standard import load_cases, overrides, standard, warn, worn
 from wearsim.errors import CaseError, Fault, OutputError
 
@@ -69,7 +70,9 @@ def export(
     kind = None if out is None else _ending(out, form, _FORMATS, "--format")
     gauge = None if template is None else _ending(template, None, _GAUGES, ".pdf")
     if kind == "step":
-        _check_step()
+        from wearsim.extras import check_installed
+
+        check_installed(("build123d",), "step", "--format step")
     case, result = _loaded(source, settings)
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
@@ -131,30 +134,19 @@ def _ending(path: Path, given: str | None, known: tuple[str, ...], hint: str) ->
     return found
 
 
-def _check_step() -> None:
-    """Raise where build123d is missing, without loading it: that takes seconds."""
-    from importlib.util import find_spec
-
-    if find_spec("build123d") is None:
-        raise OutputError(
-            "--format step: needs build123d, which is not installed: pip install 'wearsim[step]'"
-        )
-
-
 def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult | None]":
     """Return a case, and its run where the folder of one is given."""
     if not source.is_dir():
         (case,) = load_cases([source], settings, as_json=False)
         return case, None
-    if settings:
-        raise click.UsageError("--set changes cases, it cannot change the folder of a run")
+    check_settings([source], settings)
     from dataclasses import replace
 
+    from wearsim.report.flank_view import case_of
     from wearsim.result import WearResult
 
     result = WearResult.load(source)
-    (case,) = load_cases([source / "case.lock.toml"], (), as_json=False)
-    return replace(case, name=result.case, title=result.title), result
+    return replace(case_of(result), name=result.case, title=result.title), result
 
 
 def _write(path: Path, data: bytes, force: bool) -> None:

@@ -6,7 +6,6 @@ import click
 
 from wearsim.cli.sources import results_of
 from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
-from wearsim.errors import OutputError
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
@@ -42,9 +41,10 @@ def report(
     Open index.html of the folder: the page of the drive, or where there are several a page that
     compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
     """
+    from wearsim.extras import check_installed
     from wearsim.output import check_folder
 
-    _check_installed()
+    check_installed(("jinja2", "plotly"), "report", "report")
     check_folder(out, force)
     found = results_of(sources, settings, False)
     from wearsim.report.compare import differing_limits, distinct
@@ -56,11 +56,3 @@ def report(
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
     return SOME_FAILED if len(found) < len(set(sources)) else 0
-
-
-def _check_installed() -> None:
-    """Raise before anything runs where the libraries of the pages are missing."""
-    from importlib.util import find_spec
-
-    if any(find_spec(name) is None for name in ("jinja2", "plotly")):
-        raise OutputError("report: the pages need jinja2 and plotly: pip install 'wearsim[report]'")

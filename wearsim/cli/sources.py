@@ -1,5 +1,6 @@
 """Cases to run and folders of runs, as several commands take them side by side."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,8 +37,7 @@ def results_of(
     for path in sources:
         if not path.is_dir() and path.suffix != ".toml":
             raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
-    if settings and any(path.is_dir() for path in sources):
-        raise click.UsageError("--set changes cases, it cannot change the folder of a run")
+    check_settings(sources, settings)
     paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]
     cases = dict(zip(paths, load_cases(paths, settings, as_json), strict=True))
     runs = {path: WearResult.load(path) for path in dict.fromkeys(sources) if path.is_dir()}
@@ -54,3 +54,22 @@ def results_of(
     if not found:
         raise click.exceptions.Exit(max(exit_code(error) for error in failures))
     return found
+
+
+def check_settings(sources: Sequence[Path], settings: tuple[str, ...]) -> None:
+    """Raise where values are to be set in a run, which has been.
+
+    Parameters
+    ----------
+    sources : sequence of pathlib.Path
+        Cases (.toml) and folders of runs.
+    settings : tuple of str
+        Overrides.
+
+    Raises
+    ------
+    click.UsageError
+        There are overrides and a folder.
+    """
+    if settings and any(path.is_dir() for path in sources):
+        raise click.UsageError("--set changes cases, it cannot change the folder of a run")

@@ -9,8 +9,6 @@ from wearsim.report.wheel_drawing import drawing_box, wheel_drawing
 from wearsim.report.wheel_shapes import State, WheelShape, wheel_shapes
 from wearsim.result import WearResult
 
-FORMATS = ("dxf", "svg", "csv", "step")
-
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
     """Return the wheels of a case as the content of a file.
@@ -50,7 +48,7 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
     note = wheel_note(case, result, shapes, states)
     drawing = wheel_drawing(shapes, states, note)
     if form == "svg":
-        from wearsim.report.page import svg_text
+        from wearsim.report.paper import svg_text
 
         return svg_text(drawing, drawing_box(shapes, note)).encode()
     from wearsim.report.dxf import dxf_text

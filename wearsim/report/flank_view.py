@@ -164,9 +164,29 @@ def snapshot(result: WearResult, index: int) -> dict[str, Vector]:
     dict
         Arrays by the names of the columns of ``flank.csv``.
     """
+    columns = flanks(result, index)
+    if "gap_kind" not in columns:
+        return columns
+    most = int(result.flank_columns["depth_mm"].argmax())
+    at = columns["gap_kind"] == result.flank_columns["gap_kind"][most]
+    return {name: values[at] for name, values in columns.items()}
+
+
+def flanks(result: WearResult, index: int) -> dict[str, Vector]:
+    """Return the columns of all flanks at one snapshot.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+    index : int
+        0 for the new flanks, -1 for the end of the run.
+
+    Returns
+    -------
+    dict
+        Arrays by the names of the columns of ``flank.csv``.
+    """
     cycles = result.flank_columns["cycles"]
     at = cycles == np.unique(cycles)[index]
-    if "gap_kind" in result.flank_columns:
-        kinds = result.flank_columns["gap_kind"]
-        at &= kinds == kinds[int(result.flank_columns["depth_mm"].argmax())]
     return {name: values[at] for name, values in result.flank_columns.items()}

@@ -8,7 +8,8 @@ import math
 from dataclasses import dataclass
 
 from wearsim.geometry.outline import turned
-from wearsim.geometry.wheel import Chain, angle_between, arc_about_axis, line
+from wearsim.geometry.stretch import angle_between, arc_about_axis, line
+from wearsim.geometry.wheel import Chain
 from wearsim.report.wheel_shapes import WheelShape
 
 _HEAD = 0.5

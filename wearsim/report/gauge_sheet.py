@@ -9,12 +9,14 @@ import numpy as np
 import wearsim
 from wearsim.case.model import Case, GearDrive, WrapDrive
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.geometry.wheel import Chain, arc_about_axis
+from wearsim.geometry.stretch import arc_about_axis
+from wearsim.geometry.wheel import Chain
 from wearsim.report.answer import grouped
 from wearsim.report.dxf import add_polyline, new_drawing
+from wearsim.report.flank_view import flanks
 from wearsim.report.gauge import Gauge, gauge
 from wearsim.report.wheel_drawing import add_text
-from wearsim.report.wheel_shapes import last_state, wheel_shapes
+from wearsim.report.wheel_shapes import wheel_shapes
 from wearsim.result import Life, WearResult
 from wearsim.simulation.limits import tooth_criteria
 
@@ -94,7 +96,7 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
         from wearsim.report.dxf import dxf_text
 
         return dxf_text(drawing).encode()
-    from wearsim.report.page import pdf_bytes, svg_text
+    from wearsim.report.paper import pdf_bytes, svg_text
 
     if form == "svg":
         return svg_text(drawing, (0.0, 0.0, width, height)).encode()
@@ -202,7 +204,7 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
     else:
         chain = drive.chain.designation or f"of {drive.chain.pitch:g} mm pitch"
         what = f"{case.inputs['sprocket']['teeth']} teeth, chain {chain}"
-    depth = float(last_state(result)["depth_mm"].max())
+    depth = float(flanks(result, -1)["depth_mm"].max())
     coarse = (
         f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
         if depth < _COARSE
@@ -236,7 +238,7 @@ def _limit(case: Case, result: WearResult) -> str:
 
 def _sprocket_limit(case: Case, result: WearResult) -> tuple[str, float]:
     """The limit of the sprocket where the chain's comes before."""
-    last = last_state(result)
+    last = flanks(result, -1)
     columns = [last[name] for name in ("x_mm", "y_mm", "depth_mm")]
     kinds = [last["gap_kind"] == kind for kind in set(last["gap_kind"].tolist())]
     margins = [

@@ -9,8 +9,10 @@ from wearsim.geometry.involute import InvolutePair
 from wearsim.geometry.involute_function import involute_function
 from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.wheel import Space, Stretch, along_points, up_to, worn_space
-from wearsim.report.wheel_shapes import WheelShape, last_state
+from wearsim.geometry.stretch import Stretch, along_points, up_to
+from wearsim.geometry.wheel import Space, worn_space
+from wearsim.report.flank_view import flanks
+from wearsim.report.wheel_shapes import WheelShape
 from wearsim.result import WearResult
 
 _FLANKS_ONLY = (
@@ -46,7 +48,7 @@ def gear_shapes(drive: GearDrive, result: WearResult | None) -> tuple[WheelShape
         A convex-concave gear that has no root circle.
     """
     mesh, circles = drive.pair.mesh(drive.points), drive.pair.circles
-    worn = last_state(result) if result is not None else None
+    worn = flanks(result, -1) if result is not None else None
     shapes = []
     for gear, flank in enumerate((mesh.flank, mesh.mate)):
         points = np.column_stack([flank.x, flank.y])

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.wheel import Chain, Stretch
+from wearsim.geometry.stretch import Stretch
+from wearsim.geometry.wheel import Chain
 from wearsim.report.wheel_shapes import State, WheelShape
 
 if TYPE_CHECKING:

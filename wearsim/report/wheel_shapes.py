@@ -9,18 +9,10 @@ import numpy as np
 from wearsim.case.model import Case, GearDrive, PrescribedDrive, StrandDrive, WrapDrive
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.stretch import along_gap, along_points, arc_through
 from wearsim.geometry.tooth import Tooth
-from wearsim.geometry.wheel import (
-    Chain,
-    Space,
-    along_gap,
-    along_points,
-    arc_through,
-    ring,
-    to_circle,
-    worn_gap,
-    worn_space,
-)
+from wearsim.geometry.wheel import Chain, Space, ring, to_circle, worn_gap, worn_space
+from wearsim.report.flank_view import flanks
 from wearsim.result import WearResult
 
 State = Literal["new", "worn"]
@@ -125,31 +117,13 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
     return (_wrap_shape(case, drive, result),)
 
 
-def last_state(result: WearResult) -> dict[str, Vector]:
-    """Return the columns of ``flank`` at the end of a run.
-
-    Parameters
-    ----------
-    result : WearResult
-        The run.
-
-    Returns
-    -------
-    dict
-        Arrays by the names of their columns.
-    """
-    cycles = result.flank_columns["cycles"]
-    at = cycles == cycles.max()
-    return {name: values[at] for name, values in result.flank_columns.items()}
-
-
 def _strand_shape(case: Case, drive: StrandDrive, result: WearResult | None) -> WheelShape:
     tooth = drive.tooth
     new = _strand_space(tooth)
     every = math.gcd(tooth.teeth, case.engaged_every)
     worn: tuple[Space, ...] = ()
     if result is not None:
-        last = last_state(result)
+        last = flanks(result, -1)
         gone = worn_space(new, np.column_stack([last["x_mm"], last["y_mm"]]))
         worn = tuple(new if number % every else gone for number in range(tooth.teeth))
     notes = (
@@ -198,7 +172,7 @@ def _wrap_shape(case: Case, drive: WrapDrive, result: WearResult | None) -> Whee
     worn: tuple[Space, ...] = ()
     most_worn = 0
     if result is not None:
-        last = last_state(result)
+        last = flanks(result, -1)
         kinds = _worn_kinds(new, last)
         places = _kind_of_gaps(drive.gaps, case.engaged_every, len(kinds))
         worn = tuple(new if kind is None else kinds[kind] for kind in places)

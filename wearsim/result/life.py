@@ -1,5 +1,6 @@
 """A life, or what is known of one that was not reached."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -153,3 +154,9 @@ class LimitState:
     name: str
     limit: float
     value: float
+
+    @property
+    def left(self) -> float:
+        """Distance to the limit, 0 where only rounding is left."""
+        met = math.isclose(self.limit, self.value, rel_tol=1e-9)
+        return 0.0 if met else abs(self.limit - self.value)

@@ -69,8 +69,7 @@ def fatigue_parts(
     """
     drive, rate = case.drive, case.cycles_per_hour
     if isinstance(drive, GearDrive):
-        highest = stresses[0][0] / fatigue.load_factor**0.5
-        endured = gear_fatigue_lives(case, drive, fatigue, highest)
+        endured = gear_fatigue_lives(case, drive, fatigue, stresses[0][0])
     else:
         material = fatigue.materials["sprocket"]
         endured = {"sprocket": fatigue_life(material, stresses, rate, case.run.horizon_hours)}

@@ -47,7 +47,7 @@ def gear_fatigue_lives(
     fatigue : FatigueInput
         Their materials.
     peak_pressure : float
-        Highest on the new flanks as they share the load, without the load factor [MPa].
+        Highest on the new flanks as they share the load, with the load factor [MPa].
 
     Returns
     -------
@@ -55,8 +55,7 @@ def gear_fatigue_lives(
         ``pinion`` and ``wheel``, by strength.md (21) to (26) under the constant
         load.
     """
-    factor = fatigue.load_factor
-    stress = max(pole_stress(drive, factor, case.modulus), factor**0.5 * peak_pressure)
+    stress = max(pole_stress(drive, fatigue.load_factor, case.modulus), peak_pressure)
     speeds = {"pinion": case.speed_rpm, "wheel": case.speed_rpm / drive.pair.circles.gear_ratio}
     return {
         name: fatigue_life(

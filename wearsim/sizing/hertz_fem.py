@@ -23,7 +23,8 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 from scipy.sparse.linalg import splu
 
-from wearsim.errors import CaseError, ContactError, Fault
+from wearsim.errors import ContactError
+from wearsim.extras import library
 from wearsim.geometry.profile import Vector
 from wearsim.sizing.pole_contact import PoleContact
 
@@ -114,7 +115,7 @@ def hertz_fem(contact: PoleContact, elements: int) -> FemContact:
     ContactError
         The contact is too wide for small displacements.
     """
-    fem = _library()
+    fem = library("skfem", "fem", "--fem")
     start = time.perf_counter()
     narrow = _WIDEST * min(contact.flank_radii)
     if not contact.half_width <= narrow:
@@ -143,15 +144,6 @@ def hertz_fem(contact: PoleContact, elements: int) -> FemContact:
         depth,
         von_mises,
     )
-
-
-def _library() -> Any:
-    try:
-        import skfem
-    except ImportError:
-        text = "needs scikit-fem, which is not installed: pip install 'wearsim[fem]'"
-        raise CaseError([Fault(text, file="--fem")]) from None
-    return skfem
 
 
 @dataclass(frozen=True, eq=False)

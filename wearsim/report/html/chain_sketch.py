@@ -8,6 +8,7 @@ import shapely
 from wearsim.case.model import StrandDrive, WrapDrive
 from wearsim.errors import GeometryError
 from wearsim.geometry.drive_layout import DriveLayout
+from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
 from wearsim.report.html.sketch import (
@@ -21,7 +22,6 @@ from wearsim.report.html.sketch import (
     straight_arrow,
     text_size,
     turn_arrow,
-    turned,
 )
 
 _FINE = 5e-3

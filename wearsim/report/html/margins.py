@@ -8,9 +8,6 @@ from wearsim.case.model import Case, StrandDrive, WrapDrive
 from wearsim.report.answer import grouped, limit_name
 from wearsim.result import WearResult
 
-_MET = 1e-9
-"""Part of a limit below which what is left to it is rounding."""
-
 
 @dataclass(frozen=True)
 class Margin:
@@ -56,7 +53,7 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
     for state in result.limits:
         name, unit = limit_name(state.name)
         start = _when_new(state.name, case)
-        way, left = state.limit - start, abs(state.limit - state.value)
+        way = state.limit - start
         used = (state.value - start) / way if way else 1.0
         found.append(
             Margin(
@@ -64,7 +61,7 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
                 unit=unit,
                 limit=grouped(state.limit, 3),
                 value=grouped(state.value, 3),
-                left=grouped(left if left > _MET * abs(state.limit) else 0.0, 3),
+                left=grouped(state.left, 3),
                 used=float(np.clip(used, 0.0, 1.0)),
                 ended=state.name == result.stop,
             )

@@ -175,25 +175,6 @@ def _head(tip: Vector, way: Vector, length: float) -> str:
     return line([back + 0.45 * length * across, tip, back - 0.45 * length * across])
 
 
-def turned(points: Vector, angle: float) -> Vector:
-    """Return points turned anticlockwise about the origin.
-
-    Parameters
-    ----------
-    points : numpy.ndarray
-        x and y, shape (n, 2).
-    angle : float
-        Angle [rad].
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (n, 2).
-    """
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.asarray(points @ np.array([[cosine, sine], [-sine, cosine]]))
-
-
 def scaled(sketch: Sketch) -> Sketch:
     """Return a sketch with a margin, a bar of round length below it and letters that fit.
 

@@ -1,6 +1,5 @@
 """The first sheet: the answer of every result side by side, its limits, warnings, assumptions."""
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -9,7 +8,7 @@ from wearsim.report.answer import hours
 from wearsim.report.compare import comparison_table, differing_limits
 from wearsim.report.service import life_json
 from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
-from wearsim.result import Life, LimitState, WearResult
+from wearsim.result import Life, WearResult
 
 _NOT_SHOWN = ("schema_version", "title", "limits", "assumptions", "warnings")
 _LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
@@ -117,18 +116,12 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
         chosen = [found.get(name) for found in states]
         limits = [state.limit if state else None for state in chosen]
         values = [state.value if state else None for state in chosen]
-        margins = [_margin(state) if state else None for state in chosen]
+        margins = [state.left if state else None for state in chosen]
         _write_row(page, row + 1, name, _unit(name), limits, _meaning(name))
         _write_row(page, row + 2, "  has come to", _unit(name), values, _meaning("value"))
         _write_row(page, row + 3, "  margin", _unit(name), margins, "what is left to the limit")
         row += 3
     return row + 1
-
-
-def _margin(state: LimitState) -> float:
-    """Distance to a limit, 0 where only rounding is left."""
-    near = math.isclose(state.limit, state.value, rel_tol=1e-9)
-    return 0.0 if near else abs(state.limit - state.value)
 
 
 def _write_section(page: Page, row: int, title: str, last_column: int) -> None:
