@@ -16,6 +16,7 @@ import shlex
 import shutil
 import sys
 from pathlib import Path
+from typing import ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
@@ -115,7 +116,9 @@ def _folder(directive: Directive) -> _Folder:
 
 def _rest(answer: str) -> nodes.raw:
     """The whole of an answer, folded."""
-    whole = f"<details><summary>the whole answer</summary><pre>{html.escape(answer)}</pre></details>"
+    whole = (
+        f"<details><summary>the whole answer</summary><pre>{html.escape(answer)}</pre></details>"
+    )
     return nodes.raw("", whole, format="html")
 
 
@@ -123,7 +126,7 @@ class Run(Directive):
     """Commands (``sh``) or Python, shown, run, and what they print: all or the first ``:shows:`` lines."""
 
     required_arguments = 1
-    option_spec = {"shows": directives.nonnegative_int}
+    option_spec: ClassVar = {"shows": directives.nonnegative_int}
     has_content = True
 
     def run(self) -> list[nodes.Node]:
@@ -141,7 +144,7 @@ class Run(Directive):
 
 
 class Picture(Directive):
-    """A picture that a block before it has made; its content is what it shows, for those who cannot see it."""
+    """A picture that a block before it has made; its content is said where it cannot be seen."""
 
     required_arguments = 1
     has_content = True

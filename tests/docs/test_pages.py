@@ -34,9 +34,12 @@ def run_line(line: str, monkeypatch: pytest.MonkeyPatch) -> str:
     """Both streams of a command, run in this process; its exit code must be as printed."""
     monkeypatch.setattr(sys, "argv", ["wearsim", *shlex.split(line, comments=True)[1:]])
     printed = io.StringIO()
-    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-        with pytest.raises(SystemExit) as ended:
-            wearsim.cli.main()
+    with (
+        contextlib.redirect_stdout(printed),
+        contextlib.redirect_stderr(printed),
+        pytest.raises(SystemExit) as ended,
+    ):
+        wearsim.cli.main()
     expected = int((re.findall(r"# exit code (\d)", line) or "0")[0])
     assert (ended.value.code or 0) == expected, f"{line}: {printed.getvalue()}"
     return printed.getvalue()
