@@ -41,7 +41,7 @@ def _link(equation: Equation, text: str) -> addnodes.pending_xref:
 
 
 class EquationNumbers(SphinxTransform):
-    """Numbers of a page's own equations: those in table cells become anchors, all others links."""
+    """Numbers of a page's own equations and citations of others become links, in table cells anchors."""
 
     default_priority = 800
 
@@ -51,7 +51,7 @@ class EquationNumbers(SphinxTransform):
         own = {e.number for e in equations(Path(self.app.srcdir)) if e.page == page}
         labels = self.env.domains.standard_domain.anonlabels
         labels |= {label(Equation(page, number)): (page, anchor(number)) for number in own}
-        for text in list(self.document.findall(nodes.Text)) if own else ():
+        for text in list(self.document.findall(nodes.Text)):
             if not any(isinstance(above, _OPAQUE) for above in _above(text)):
                 _replace(text, page, own)
 
@@ -63,19 +63,25 @@ def _above(node: nodes.Node) -> list[nodes.Node]:
 def _replace(text: nodes.Text, page: str, own: set[str]) -> None:
     """Put links and anchors in the place of the numbers in a piece of text."""
     whole, parent = text.astext(), text.parent
+    elsewhere = {
+        number.start(): Equation(citation[1], number[1])
+        for citation in CITATION.finditer(whole)
+        for number in _NUMBER.finditer(whole, citation.start(), citation.end())
+    }
     at, new = 0, []
     place = parent.index(text)
     is_cell = isinstance(parent.parent, nodes.entry) and isinstance(
         parent[max(place - 1, 0)], nodes.math
     )
     for match in _NUMBER.finditer(whole):
-        if match[1] not in own:
+        if match[1] not in own and match.start() not in elsewhere:
             continue
         new.append(nodes.Text(whole[at : match.start()]))
         if is_cell and match.end() == len(whole):
             new.append(nodes.inline(text=match[0], ids=[anchor(match[1])]))
         else:
-            new.append(_link(Equation(page, match[1]), match[0]))
+            equation = elsewhere.get(match.start(), Equation(page, match[1]))
+            new.append(_link(equation, match[0]))
         at = match.end()
     if new:
         parent[place : place + 1] = [*new, nodes.Text(whole[at:])]

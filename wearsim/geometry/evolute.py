@@ -1,8 +1,8 @@
 """The evolute flank: conjugate to the rollers of a straight strand.
 
 The source's equations (1) to (9) are lost. This is a reconstruction from
-Euler-Savary (Bobillier's construction), chosen because it leads to the printed
-equation physics.md (10).
+Euler-Savary (Bobillier's construction), chosen because it leads to the direction of
+wear that the source prints.
 """
 
 from dataclasses import dataclass
