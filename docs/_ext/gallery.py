@@ -17,6 +17,7 @@ import shutil
 import sys
 from pathlib import Path
 from typing import ClassVar
+from unittest.mock import patch
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
@@ -67,9 +68,16 @@ class _Folder:
 
 
 def _python(text: str) -> str:
+    """What Python prints; its pictures are the same in every build."""
+    import matplotlib as mpl  # takes a moment, and only the gallery draws
+
     printed = io.StringIO()
+    same = (
+        mpl.rc_context({"svg.hashsalt": "wearsim"}),
+        patch.dict(os.environ, SOURCE_DATE_EPOCH="0"),
+    )
     try:
-        with contextlib.redirect_stdout(printed):
+        with contextlib.redirect_stdout(printed), same[0], same[1]:
             exec(compile(text, "example", "exec"), {})  # noqa: S102
     except Exception as error:
         raise ExtensionError(f"an example fails:\n{text}", error) from error
