@@ -19,6 +19,8 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_click",
     "mathml",
+    "equations",
+    "gallery",
     "key_tables",
 ]
 exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md"]
@@ -26,7 +28,7 @@ html_theme = "furo"
 html_title = f"wearsim {release}"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
-html_css_files = ["math.css"]
+html_css_files = ["math.css", "gallery.css"]
 html_copy_source = False
 html_show_sphinx = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]

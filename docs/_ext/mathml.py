@@ -16,8 +16,12 @@ def _inline(writer: HTML5Translator, node: nodes.math) -> None:
 def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
     formula, number = node.astext(), ""
     if tag := re.search(r"\\tag\{(.*?)\}", formula):
-        formula, number = formula.replace(tag[0], ""), f'<span class="eqno">({tag[1]})</span>'
-    writer.body.append(f'<div class="math">{number}{convert(formula, display="block")}</div>')
+        formula = formula.replace(tag[0], "")
+        names = [f"eq-{name}" for name in tag[1].split(", ")]
+        anchors = "".join(f'<span id="{name}"></span>' for name in names)
+        number = f'{anchors}<a class="eqno" href="#{names[0]}">({tag[1]})</a>'
+    shown = f'<div class="formula">{convert(formula, display="block")}</div>'
+    writer.body.append(f'<div class="math">{shown}{number}</div>')
     raise nodes.SkipNode
 
 

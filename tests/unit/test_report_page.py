@@ -1,10 +1,12 @@
 """What the pages of a report are made of."""
 
+import json
 import math
 import re
 from pathlib import Path
 
 import numpy as np
+import plotly.graph_objects as go
 import pytest
 import shapely
 
@@ -12,11 +14,13 @@ import wearsim
 from wearsim.geometry.drive_layout import DriveLayout, layout_with_links
 from wearsim.report.answer import answer, ending
 from wearsim.report.flank_view import case_of
-from wearsim.report.html import writer
+from wearsim.report.html import page, writer
 from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
 from wearsim.report.html.gear_sketch import gear_sketch
+from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
-from wearsim.report.html.run_charts import along_chart
+from wearsim.report.html.run_charts import along_chart, history_chart
+from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.html.writer import page_names, save_report
 from wearsim.result import WearResult
 
@@ -152,15 +156,43 @@ def test_pages_are_the_same_for_the_same_run_and_small(strand, tmp_path, single_
     assert len(texts[0]) < (6_000_000 if single_file else 300_000)
 
 
-def test_legends_name_every_drive_once(strand):
-    gears = wearsim.simulate(wearsim.load_case(GEARS))
-    traces = along_chart([strand, gears, strand], ["first", "gears", "third"]).figure.data
-    assert [trace.name for trace in traces if trace.showlegend] == ["first", "gears", "third"]
-    roles = {trace.name: trace.meta["role"] for trace in traces}
+@pytest.fixture(scope="module")
+def gears():
+    return wearsim.simulate(wearsim.load_case(GEARS))
+
+
+@pytest.fixture(scope="module")
+def wrap():
+    return wearsim.simulate(wearsim.load_case(WRAP, ["sprocket.nodes=301", "run.horizon_hours=1"]))
+
+
+def test_legends_name_every_drive_once(strand, gears):
+    def shown(*arguments):
+        traces = along_chart(*arguments).figure.traces
+        return [trace["name"] for trace in traces if trace["showlegend"]]
+
+    traces = along_chart([strand, gears], ["first", "gears"]).figure.traces
+    roles = {trace["name"]: trace["meta"]["role"] for trace in traces}
     assert roles["first"] == "series-1" and roles["gears"] == roles["gears, wheel"] == "series-2"
-    alone = along_chart([gears], ["gears"]).figure.data
-    assert [trace.name for trace in alone if trace.showlegend] == ["pinion", "wheel"]
-    assert not any(trace.showlegend for trace in along_chart([strand], ["x"]).figure.data)
+    assert shown([strand, gears, strand], ["first", "gears", "third"]) == [
+        "first",
+        "gears",
+        "third",
+    ]
+    assert shown([gears], ["gears"]) == ["pinion", "wheel"]
+    assert shown([strand], ["x"]) == []
+
+
+def test_plotly_knows_all_that_charts_say(strand, wrap, gears):
+    """Its objects refuse keys and values that its script would leave out without a word."""
+    several = ([strand, wrap, gears], ["first", "second", "third"])
+    made = [along_chart(*several), history_chart(*several), lives_chart(*several)]
+    for result in several[0]:
+        made += [*tooth_charts(result), *page._charts(result, case_of(result))]
+    for chart in made:
+        content = chart.content
+        figure = go.Figure(data=content["data"], layout=content["layout"])
+        assert json.loads(figure.to_json())["data"] == content["data"]
 
 
 def test_names_of_pages_are_safe_and_different():

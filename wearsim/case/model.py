@@ -479,7 +479,10 @@ class Case:
 
     @property
     def cycles_per_hour(self) -> float:
-        """Loadings of a gap that carries rollers in an hour: 60 n over turns per cycle."""
+        """Loadings of a gap that carries rollers in an hour: 60 n over turns per cycle.
+
+        Equation physics.md (T1).
+        """
         return 60.0 * self.speed_rpm / self.turns_per_cycle
 
     def with_horizon(self, hours: float) -> "Case":

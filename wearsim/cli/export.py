@@ -1,13 +1,13 @@
 """``wearsim export``: the wheel for CAD, and a gauge that tells when it is worn out."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cli.single_file import check_place, format_of, write_content
 from wearsim.cli.sources import check_settings
-from wearsim.cli.standard import load_cases, overrides, standard, warn, worn
+from wearsim.cli.standard import load_cases, overrides, standard, worn
 from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
@@ -67,8 +67,8 @@ def export(
         raise click.UsageError("give --out FILE, --template FILE or both")
     places = [path for path in (out, template) if path is not None and str(path) != "-"]
     _check_places(places, source, force)
-    kind = None if out is None else _ending(out, form, _FORMATS, "--format")
-    gauge = None if template is None else _ending(template, None, _GAUGES, ".pdf")
+    kind = None if out is None else format_of(out, form, _FORMATS, "--format")
+    gauge = None if template is None else format_of(template, None, _GAUGES, ".pdf")
     if kind == "step":
         from wearsim.extras import check_installed
 
@@ -89,7 +89,7 @@ def export(
 
         written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
     for path, data in written:
-        _write(path, data, force)
+        write_content(path, data, force)
 
 
 def _check_shapes(case: "Case", kind: str | None) -> None:
@@ -115,23 +115,10 @@ def _worn_out(case: "Case", result: "WearResult") -> "WearResult":
 
 
 def _check_places(places: list[Path], source: Path, force: bool) -> None:
-    from wearsim.output import check_free
-
     for place in places:
-        check_free(place, force)
-        if place.resolve() == source.resolve():
-            raise OutputError(f"{place}: must not be the case itself: choose another place")
+        check_place(place, source, force)
     if len({place.resolve() for place in places}) < len(places):
         raise OutputError(f"{places[0]}: must not be both --out and --template: choose two places")
-
-
-def _ending(path: Path, given: str | None, known: tuple[str, ...], hint: str) -> str:
-    """Format of a file by its ending."""
-    found = given or path.suffix.removeprefix(".").lower().replace("stp", "step")
-    if found not in known:
-        endings = ", ".join(f".{name}" for name in known)
-        raise OutputError(f"{path}: must end in one of {endings}: choose another name, or {hint}")
-    return found
 
 
 def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult | None]":
@@ -147,13 +134,3 @@ def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult 
 
     result = WearResult.load(source)
     return replace(case_of(result), name=result.case, title=result.title), result
-
-
-def _write(path: Path, data: bytes, force: bool) -> None:
-    if str(path) == "-":
-        sys.stdout.buffer.write(data)
-        return
-    from wearsim.output import write_file
-
-    write_file(path, data, force)
-    warn(f"written to {path}")

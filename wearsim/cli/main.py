@@ -1,6 +1,7 @@
 """The command ``wearsim`` and what its exit codes mean."""
 
 import errno
+import gc
 import os
 import signal
 import sys
@@ -10,6 +11,7 @@ from types import FrameType
 import click
 
 import wearsim
+from wearsim.cli.animate import animate
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
@@ -68,6 +70,7 @@ for _command in (
     loads,
     profile,
     export,
+    animate,
     compare,
     report,
     maintain,
@@ -104,6 +107,8 @@ class _Interrupt:
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    # Importing makes some hundred thousand objects that stay: not to be looked through again and again.
+    gc.set_threshold(50_000)
     interrupt = _Interrupt()
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, interrupt)

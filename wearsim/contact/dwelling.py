@@ -97,6 +97,8 @@ class Dwelling(ABC):
 
         Every roller gives off its share of area evenly round its circumference.
 
+        Equation physics.md (W13).
+
         Parameters
         ----------
         wear : ChainWear

@@ -13,6 +13,8 @@ def contact_modulus(
 
     Some packages call twice this value the effective modulus; wearsim has no second definition.
 
+    Equation physics.md (C1).
+
     Parameters
     ----------
     youngs_modulus : tuple of float
@@ -42,6 +44,8 @@ def peak_pressure(
 ) -> NDArray[np.float64]:
     """Return the Hertz pressure in the middle of a line contact, sqrt(q E*/(pi rho)).
 
+    Equation physics.md (C2).
+
     Parameters
     ----------
     load_per_width : array_like
@@ -68,6 +72,8 @@ def half_width(
     load_per_width: ArrayLike, relative_curvature: ArrayLike, modulus: float
 ) -> NDArray[np.float64]:
     """Return half the width of a line contact, a = sqrt(4 q rho/(pi E*)).
+
+    Equation physics.md (C3).
 
     Parameters
     ----------

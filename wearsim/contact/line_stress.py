@@ -36,6 +36,8 @@ def axis_stresses(depth: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.flo
 
     With s = sqrt(1 + z^2): sigma_x/p0 = -((1 + 2 z^2)/s - 2 z), sigma_z/p0 = -1/s.
 
+    Equation hertz-check.md (3).
+
     Parameters
     ----------
     depth : array_like
@@ -79,6 +81,8 @@ def axis_von_mises(depth: ArrayLike, poissons_ratio: float) -> NDArray[np.float6
 
     The third stress is nu (sigma_x + sigma_z), so that
     sigma_v^2 = (1 - nu + nu^2)(sigma_x^2 + sigma_z^2) - (1 + 2 nu - 2 nu^2) sigma_x sigma_z.
+
+    Equation hertz-check.md (4).
 
     Parameters
     ----------

@@ -31,6 +31,8 @@ class LineLoad:
     def at(self, pressure_angle: ArrayLike) -> Vector:
         """Return the load at a pressure angle.
 
+        Equation synthesise.md (5).
+
         Parameters
         ----------
         pressure_angle : array_like
@@ -161,6 +163,8 @@ class LoadedPair:
 
         rho = q E*/(pi sigma_H^2).
 
+        Equation synthesise.md (5).
+
         Parameters
         ----------
         pole_distance, pressure_angle : array_like
@@ -194,6 +198,8 @@ class LoadedPair:
 
         sigma_H = sqrt(q E*/(pi rho)); with Z_E^2 = E*/pi the form of gear standards.
 
+        Equation synthesise.md (5).
+
         Parameters
         ----------
         contacts : Contacts
@@ -210,7 +216,10 @@ class LoadedPair:
 
     @property
     def least_pole_stress(self) -> float:
-        """Least contact stress that profiles can have in the pole, where rho = sin(alpha)/A."""
+        """Least contact stress that profiles can have in the pole, where rho = sin(alpha)/A.
+
+        Equation synthesise.md (12).
+        """
         angle = self.load.best_pole_angle
         curvature = 1.0 / self.circles.pole_radius(angle)
         return float(peak_pressure(self.load.at(angle), curvature, self.modulus))
@@ -220,6 +229,8 @@ class LoadedPair:
 
         sin(alpha) cos(alpha)^n is proportional to 1/sigma_H^2 there. Of the two angles under a
         constant torque this is the one below 45 deg, through which one line goes.
+
+        Equation synthesise.md (12).
 
         Returns
         -------

@@ -58,6 +58,8 @@ class Zone:
     def reduced_radius(self, alpha: ArrayLike) -> Vector:
         """Return the reduced radius of curvature, 1 / (1/rho_1 + 1/rho_2).
 
+        Equation convex-concave.md (5).
+
         Parameters
         ----------
         alpha : array_like

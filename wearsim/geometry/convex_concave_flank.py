@@ -64,6 +64,8 @@ class Flank:
     def path_coordinate(self, alpha: ArrayLike) -> Vector:
         """Return the distance from the pole along the normal, l = +-2 r_k sin(alpha - alpha_C).
 
+        Equation convex-concave.md (1).
+
         Parameters
         ----------
         alpha : array_like
@@ -82,6 +84,8 @@ class Flank:
 
         +-2 r_k ((alpha - alpha_C) cos alpha_C + sin alpha_C ln(cos alpha_C / cos alpha)), the
         integral of dl / cos alpha; it does not depend on the gear.
+
+        Equation convex-concave.md (2).
 
         Parameters
         ----------
@@ -124,6 +128,8 @@ class Flank:
         """Return the change of the pressure angle over the turn of the gear.
 
         +-r cos alpha / (2 r_k cos(alpha - alpha_C)).
+
+        Equation convex-concave.md (4).
 
         Parameters
         ----------
@@ -174,6 +180,8 @@ class Flank:
         """Return points of the flank, eq. (1) with the sign of y put right.
 
         x = -l cos(alpha + phi_r) + r sin phi_r, y = l sin(alpha + phi_r) + r cos phi_r.
+
+        Equation convex-concave.md (3).
 
         Parameters
         ----------
@@ -228,6 +236,8 @@ class Flank:
 
         (1 + alpha') / (l (1 + alpha') + r sin alpha) with alpha' of ``turn``, by Euler and Savary.
         It jumps in the pole.
+
+        Equation convex-concave.md (4).
 
         Parameters
         ----------

@@ -1,8 +1,8 @@
 """The evolute flank: conjugate to the rollers of a straight strand.
 
 The source's equations (1) to (9) are lost. This is a reconstruction from
-Euler-Savary (Bobillier's construction), chosen because it leads to the printed
-equation (10).
+Euler-Savary (Bobillier's construction), chosen because it leads to the direction of
+wear that the source prints.
 """
 
 from dataclasses import dataclass
@@ -51,6 +51,8 @@ class Strand:
     def pole_distance(self, x: ArrayLike) -> Vector:
         """Return the distance l = sqrt(x^2 + h^2) of the roller centre from the pole.
 
+        Equation physics.md (S1).
+
         Parameters
         ----------
         x : array_like
@@ -66,6 +68,8 @@ class Strand:
     def pressure_angle(self, x: ArrayLike) -> Vector:
         """Return the pressure angle alpha = atan2(h, x).
 
+        Equation physics.md (S1).
+
         Parameters
         ----------
         x : array_like
@@ -80,6 +84,8 @@ class Strand:
 
     def flank_radius(self, x: ArrayLike) -> Vector:
         """Return the radius of curvature of the conjugate flank, r + l^3 / (R h + l^2).
+
+        Equation physics.md (S4).
 
         Parameters
         ----------
@@ -113,6 +119,8 @@ class Strand:
     def conjugate_points(self, x: ArrayLike) -> Vector:
         """Return the points of the conjugate flank in the sprocket's frame, in closed form.
 
+        Equation physics.md (S2).
+
         Parameters
         ----------
         x : array_like
@@ -133,6 +141,8 @@ class Strand:
 
     def evolute_points(self, x: ArrayLike) -> Vector:
         """Return the flank's centres of curvature in the sprocket's frame.
+
+        Equation physics.md (S5).
 
         Parameters
         ----------
@@ -189,6 +199,8 @@ def evolute_flank(
     theta = alpha - psi of the normal and the point follow from ds = rho_t |d(theta)/dx| dx
     by Gauss quadrature of order 12; the closed form gives only the first point and
     direction, and is the check of the rest.
+
+    Equations physics.md (S7), with (S3) and (S4).
 
     Parameters
     ----------

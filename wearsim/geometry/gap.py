@@ -25,6 +25,8 @@ SeatCentre = Literal["pitch_circle", "root_diameter"]
 def pitch_diameter(pitch: float, teeth: int) -> float:
     """Return the diameter of the circle through the roller centres, d = p / sin(180/z).
 
+    Equation physics.md (W1).
+
     Parameters
     ----------
     pitch : float
@@ -250,6 +252,8 @@ class Gap:
 
     def pressure_angle(self, theta: ArrayLike) -> Vector:
         """Return the pressure angle phi = 90 deg - theta - 180 deg/z.
+
+        Equation physics.md (W2).
 
         Parameters
         ----------

@@ -137,6 +137,8 @@ def evolute_gap(tooth: Tooth, pitch: float, nodes: int) -> Profile:
     roller in it can take lies on the radius p / (2 sin(p / (2 R))), R the radius of the
     centrode; that is p / (2 sin(pi / z)) where every gap carries a roller.
 
+    Equation physics.md (W1), for where it is seated.
+
     Parameters
     ----------
     tooth : Tooth

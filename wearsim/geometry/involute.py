@@ -127,6 +127,8 @@ class InvolutePair:
     def reduced_radius(self, place: Vector) -> Vector:
         """Return the reduced radius of curvature, xi (T1T2 - xi) / T1T2.
 
+        Equation gears.md (1).
+
         Parameters
         ----------
         place : numpy.ndarray

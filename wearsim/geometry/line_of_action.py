@@ -27,13 +27,19 @@ class LineOfAction:
 
     @property
     def pinion_profile(self) -> Vector:
-        """Points of the pinion's profile about its axis, as it stands at phi1 = 0 [mm]."""
+        """Points of the pinion's profile about its axis, as it stands at phi1 = 0 [mm].
+
+        Equation synthesise.md (11).
+        """
         axis = [0.0, -self.contacts.circles.pinion_radius]
         return _turned(self.contacts.points - axis, self.roll_angle)
 
     @property
     def wheel_profile(self) -> Vector:
-        """Points of the wheel's profile about its axis, as it stands at phi1 = 0 [mm]."""
+        """Points of the wheel's profile about its axis, as it stands at phi1 = 0 [mm].
+
+        Equation synthesise.md (11).
+        """
         axis = [0.0, self.contacts.circles.wheel_radius]
         angle = -self.roll_angle / self.contacts.circles.gear_ratio
         return _turned(self.contacts.points - axis, angle)

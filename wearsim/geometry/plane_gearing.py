@@ -90,6 +90,8 @@ class PitchCircles:
 
         d(alpha)/d(phi1) = r1 (B - sin(alpha)/l + eps A R/(2 l)) with R^2 = l^2 + 4 s rho.
 
+        Equations synthesise.md (9) times (1).
+
         Parameters
         ----------
         pole_distance : array_like
@@ -117,6 +119,8 @@ class PitchCircles:
 
         The limit of ``turn`` for the family 1 with rho = s in the pole:
         d(alpha)/d(phi1) = r1 cos(alpha) (2 B + A rho_l)/(3 cos(alpha) - A rho_alpha).
+
+        Equations synthesise.md (13) times (1).
 
         Parameters
         ----------
@@ -180,6 +184,8 @@ class Contacts:
         pinion is (1 + 1/u)(eps R + l)/2 and that of the wheel (1 + 1/u)(eps R - l)/2: from one
         family to the other the two wheels change places.
 
+        Equation synthesise.md (10).
+
         Parameters
         ----------
         circles : PitchCircles
@@ -206,6 +212,8 @@ class Contacts:
         """Return contacts that move at a given angle to the common normal.
 
         d(alpha)/d(phi1) = r1 cos(alpha) tan(mu)/l.
+
+        Equation synthesise.md (2).
 
         Parameters
         ----------
@@ -234,38 +242,59 @@ class Contacts:
 
     @property
     def direction(self) -> Vector:
-        """Angle mu of the line of action to the common normal [rad], tan(mu) = l d(alpha)/dl."""
+        """Angle mu of the line of action to the common normal [rad], tan(mu) = l d(alpha)/dl.
+
+        Equation synthesise.md (2).
+        """
         advance = self.circles.pinion_radius * np.cos(self.pressure_angle)
         return np.arctan(self.pole_distance * self.turn / advance)
 
     @property
     def slope(self) -> Vector:
-        """Slope d(alpha)/dl of the line of action [rad/mm]; dl/d(phi1) = r1 cos(alpha)."""
+        """Slope d(alpha)/dl of the line of action [rad/mm]; dl/d(phi1) = r1 cos(alpha).
+
+        Equation synthesise.md (1).
+        """
         return self.turn / (self.circles.pinion_radius * np.cos(self.pressure_angle))
 
     @property
     def pinion_rolling(self) -> Vector:
-        """Way of the contact along the pinion's profile, v_t1/w1 = r1 sin(alpha) + l (1 + a')."""
+        """Way of the contact along the pinion's profile, v_t1/w1 = r1 sin(alpha) + l (1 + a').
+
+        Equation synthesise.md (6).
+        """
         return self._foot + self.pole_distance * (1.0 + self.turn)
 
     @property
     def wheel_rolling(self) -> Vector:
-        """Way along the wheel's profile, v_t2/w1 = r1 sin(alpha) + l (a' - 1/u) [mm per rad]."""
+        """Way along the wheel's profile, v_t2/w1 = r1 sin(alpha) + l (a' - 1/u) [mm per rad].
+
+        Equation synthesise.md (6).
+        """
         return self._foot + self.pole_distance * (self.turn - 1.0 / self.circles.gear_ratio)
 
     @property
     def sliding(self) -> Vector:
-        """Way of sliding v_s/w1 = (v_t1 - v_t2)/w1 = (1 + 1/u) l [mm per rad of the pinion]."""
+        """Way of sliding v_s/w1 = (v_t1 - v_t2)/w1 = (1 + 1/u) l [mm per rad of the pinion].
+
+        Equation synthesise.md (7).
+        """
         return (1.0 + 1.0 / self.circles.gear_ratio) * self.pole_distance
 
     @property
     def pinion_specific_sliding(self) -> Vector:
-        """Sliding over rolling of the pinion, theta1 = v_s/v_t1."""
+        """Sliding over rolling of the pinion, theta1 = v_s/v_t1.
+
+        Equation synthesise.md (7).
+        """
         return self.sliding / self.pinion_rolling
 
     @property
     def wheel_specific_sliding(self) -> Vector:
-        """Sliding over rolling of the wheel, theta2 = -v_s/v_t2."""
+        """Sliding over rolling of the wheel, theta2 = -v_s/v_t2.
+
+        Equation synthesise.md (7).
+        """
         return -self.sliding / self.wheel_rolling
 
     @property
@@ -274,17 +303,25 @@ class Contacts:
 
         Euler-Savary: rho1 = l + p with p = r1 sin(alpha)/(1 + a'), so that 1/rho1 is what the
         normal turns in the pinion over the way of the contact along it; 0 is a straight profile.
+
+        Equations synthesise.md (3) and (4).
         """
         return (1.0 + self.turn) / self.pinion_rolling
 
     @property
     def wheel_curvature(self) -> Vector:
-        """Curvature 1/rho2 of the wheel's profile [1/mm], rho2 = r2 sin(alpha)/(1 - u a') - l."""
+        """Curvature 1/rho2 of the wheel's profile [1/mm], rho2 = r2 sin(alpha)/(1 - u a') - l.
+
+        Equations synthesise.md (3) and (4).
+        """
         return (1.0 / self.circles.gear_ratio - self.turn) / self.wheel_rolling
 
     @property
     def relative_curvature(self) -> Vector:
-        """Sum 1/rho of both curvatures [1/mm]; at or below 0 the profiles interfere."""
+        """Sum 1/rho of both curvatures [1/mm]; at or below 0 the profiles interfere.
+
+        Equation synthesise.md (4).
+        """
         return self.pinion_curvature + self.wheel_curvature
 
     @property

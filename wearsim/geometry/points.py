@@ -21,6 +21,8 @@ def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile
     (its error is sqrt(6) noise / spacing^2). A quintic spline over the chord length
     with as few knots as leave residuals of the noise's size replaces the points.
 
+    Equation physics.md (F1).
+
     Parameters
     ----------
     x, y : numpy.ndarray

@@ -14,6 +14,8 @@ def centrifugal_tension(mass_per_length: float, chain_speed: float) -> float:
 
     It loads the links everywhere and the teeth nowhere.
 
+    Equation physics.md (W4).
+
     Parameters
     ----------
     mass_per_length : float
@@ -41,6 +43,8 @@ def catenary_tension(
 
     The parabola in place of the catenary: below the tension at the ends of a level span by
     0.1, 0.4 and 0.8 % at a sag of 0.01, 0.02 and 0.03.
+
+    Equation physics.md (W5).
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ def run_cycles(
     updates: int,
     done: Vector,
 ) -> int:
-    """Wear the flank update by update, equations (10) to (12), in place.
+    """Wear the flank update by update, physics.md (10) to (12), in place.
 
     Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
     worn points and moves each along its normal. It stops before an update that the

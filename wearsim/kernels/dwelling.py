@@ -64,6 +64,8 @@ def recede(
     """Write depth and points from the area worn off per length of the unworn outline.
 
     Along the normals of an outline of curvature kappa the area is d - kappa d^2/2.
+
+    Equation physics.md (W12).
     """
     for j in range(first, last):
         left = max(1.0 - 2.0 * unworn[UNWORN_CURVATURE, j] * area[j], 0.0)
@@ -121,6 +123,8 @@ def wear_event(
 
     The roller is pressed on the cells near the place it touches and, where these might not be
     all, on all that it can reach.
+
+    Equations physics.md (W10) and (W12).
     """
     body, n, touched = int(events[EVENT_BODY, event]), x.shape[1], int(events[EVENT_TOUCHED, event])
     width, factor, constants, result = work[0], work[1], work[2][0:8], work[2][8:15]

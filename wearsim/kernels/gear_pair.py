@@ -67,6 +67,8 @@ def turned(
     springs presses, the turn is (torque + sum w g) / sum w^2; of all sets the right one gives the
     least, as every other leaves out a spring that presses or takes one to pull. A gap is infinite
     where there is no spring.
+
+    Equation gears.md (6).
     """
     a, b, c = lever * gap, next_lever * next_gap, last_lever * last_gap
     p, q, r = lever * lever, next_lever * next_lever, last_lever * last_lever
@@ -101,6 +103,8 @@ def gear_pair_contact(
     of teeth in contact are equal springs turned by one torque, each closing its worn gap first,
     and beyond the ends of the path that of the tip's corner (``NEXT_GAP`` and ``LAST_GAP``, of the
     pairs one pitch ahead and behind; infinite where there is none).
+
+    Equations gears.md (3), (5) and (6).
     """
     n = depth.size
     torque, stiffness, pitch = constants[TORQUE], constants[STIFFNESS], constants[PITCH]

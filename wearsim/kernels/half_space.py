@@ -28,6 +28,8 @@ def influence_coefficients(modulus: float, coefficients: Vector) -> None:
     a = -2/(pi E*) integral over the cell of ln(s/n) ds [mm2/N]. The reference length of n cells
     (a constant in the displacement, which the approach absorbs) makes every coefficient
     positive and the matrix of any part of the line positive definite.
+
+    Equation physics.md (W11).
     """
     n = (coefficients.size + 1) // 2
     for k in range(coefficients.size):
@@ -87,6 +89,8 @@ def displacement(
     A force acts along the radius through its cell and a cell recedes along its own, so the
     coefficient of the straight line is multiplied by the cosine between the two.
     ``wear``: depth worn off by a force of 1 N/mm on the cell.
+
+    Equation physics.md (W11).
     """
     n, middle = force.size, (coefficients.size - 1) // 2
     for i in range(n):
@@ -363,6 +367,8 @@ def line_contact(
     two numbers of the solver, first cell and the cell after the last that can press, iterations.
     Returns CONVERGED, NOT_CONVERGED (the pressure carries the load all the same),
     OUT_OF_REACH where the roller touches no cell or INVALID; pressure zero in both.
+
+    Equation physics.md (W10), of m = 1.
     """
     n, load = x.size, constants[5]
     gap, cosine, sine, wear = work[0][0:n], work[1][0:n], work[2][0:n], work[3][0:n]
@@ -422,6 +428,8 @@ def power_contact(
     pressure, so no slope, and with D = F p^(m-1) of the step before would not wear. A start that
     carries nothing like the load is replaced by the elastic pressure. ``result`` counts the
     iterations of all turns.
+
+    Equation physics.md (W10).
     """
     n, load = x.size, constants[5]
     compliance, recess = work[12][0:n], work[13][0:n]

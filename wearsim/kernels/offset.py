@@ -107,7 +107,7 @@ def run_offset_cycles(
     updates: int,
     done: Vector,
 ) -> int:
-    """Wear the flank update by update, equations (10) to (12), in place.
+    """Wear the flank update by update, physics.md (10) to (12), in place.
 
     As ``run_cycles`` under ``prescribed_contact``, but that neither frame nor points are
     formed in between, and that the spacing of the stability limit is that of the arc.

@@ -35,6 +35,8 @@ def prescribed_contact(
 
     ``constants``: one over the roller radius. ``columns``: arc length, load, slip,
     speed, flank curvature, normal_x, normal_y.
+
+    Equation physics.md (A1).
     """
     flank_curvature = columns[4]
     n = depth.size

@@ -93,6 +93,8 @@ def wear_rows(start: Vector, slope: Vector, diffusion: float, ends: int, rows: V
     the end points follow from the worn points; an end row whose third entry the row beside it
     cannot eliminate is left to the explicit part of the method. ``rows``: as ``factorise``
     takes them, and the spacing.
+
+    Equation physics.md (A4).
     """
     x, y, rate, relative = start[0], start[1], start[3], start[6]
     before, centre, after, spacing = rows[0], rows[1], rows[2], rows[3]

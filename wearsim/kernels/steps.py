@@ -202,7 +202,7 @@ def wear_in_steps(
     times: Vector,
     path: Vector,
 ) -> int:
-    """Wear the flank, equations (10) to (12), step by step in place until something ends it.
+    """Wear the flank, physics.md (10) to (12), step by step in place until something ends it.
 
     A step is repeated shorter until its error at every point is at most the tolerance, a part
     of the depth allowed; one in which the flank would conform or gain material is too long. Every

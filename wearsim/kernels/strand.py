@@ -37,6 +37,8 @@ def strand_contact(
 
     ``constants``: line height, roller radius, pull per face width, end and start of the
     load along the strand, 1/overlap, slip fraction, angular speed.
+
+    Equations physics.md (S8) to (S11).
     """
     height, radius, pull, x_min, x_max = (
         constants[0],

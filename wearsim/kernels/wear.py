@@ -32,6 +32,8 @@ def wear_depth(
 
     ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
     depth = factor pressure^a load^b slip speed^n, zero where the load is zero.
+
+    Equations physics.md (C2) and (L1) or (L3).
     """
     n, factor, exponent = load.size, law[0], law[1]
     for j in range(n):
@@ -77,6 +79,8 @@ def update_status(
     the load is not a pressing one, BROKEN where a depth is not a number or infinite,
     VANISHED where nothing is worn off, UNSTABLE where a point recedes by more than
     spacing^2 relative / (2 diffusion) at once.
+
+    Equation physics.md (A3).
     """
     conforming, broken, worn, unstable = 0, 0, 0, 0
     for j in range(load.size):

@@ -88,6 +88,8 @@ def balance(
 
     A link pulls only where it is longer than its pitch. Rollers aloft are left out: the
     links on both sides of them act as one. Friction acts as a dead force on each roller.
+
+    Equation physics.md (W3).
     """
     stiffness = constants[STIFFNESS]
     angle = (rollers - 1) * constants[PITCH_ANGLE]
@@ -416,6 +418,8 @@ def solve_wrap(
     pull off the tooth hangs between its neighbours; its force is zero. ``work`` takes the
     centres and, for rollers in contact, the normals. Friction, a fraction of the force,
     acts on each roller along the path, towards the last node where it is positive.
+
+    Equation physics.md (W3).
     """
     friction = constants[FRICTION]
     for i in range(rollers):

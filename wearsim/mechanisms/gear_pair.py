@@ -30,6 +30,8 @@ class GearPairMechanism:
     of the pinion's: the wheel meets u times less often. Every tooth meets the average of its
     mates, as with hunting teeth or teeth all alike.
 
+    Equation gears.md (4).
+
     Attributes
     ----------
     pair : ToothPair
@@ -69,13 +71,19 @@ class GearPairMechanism:
 
     @property
     def mate_depth(self) -> Vector:
-        """Depth of the wheel over that of the pinion at every point."""
+        """Depth of the wheel over that of the pinion at every point.
+
+        Equation gears.md (4).
+        """
         own, other = self.mesh.rolling
         return np.asarray(self.mate_coefficient * own / (other * self.pair.circles.gear_ratio))
 
     @property
     def slip_ratio(self) -> Vector:
-        """|v_s|/v_t1 of the pinion, |1 - v_t2/v_t1|."""
+        """|v_s|/v_t1 of the pinion, |1 - v_t2/v_t1|.
+
+        Equation gears.md (2).
+        """
         own, other = self.mesh.rolling
         return np.asarray(np.abs(1.0 - other / own))
 

@@ -17,6 +17,8 @@ def elongation_per_loop(
     so Archard's law gives d(eps)/d(loop) = k (p_tight + p_slack) pi d2 (1/z1 + 1/z2)/p,
     equation (4.1) of the reference with its slack part.
 
+    Equation physics.md (E1).
+
     Parameters
     ----------
     specific_wear_rate : float

@@ -19,6 +19,8 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     The ramps are as long as the overlap x_max - x_min - p, so that the shares of
     successive rollers sum to 1. It is a convention, kept as the flank wears.
 
+    Equation physics.md (S11).
+
     Parameters
     ----------
     x : numpy.ndarray
@@ -115,6 +117,8 @@ class StrandMechanism:
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
         """Return the range of sprocket turn over which the flank can touch, in pitches.
+
+        Equation physics.md (S8), for where the roller is.
 
         Parameters
         ----------

@@ -66,6 +66,8 @@ class WrapChain:
     def pitches(self, elongation: float) -> tuple[float, float]:
         """Return the pitches of an inner and of an outer link.
 
+        Equation physics.md (W7).
+
         Parameters
         ----------
         elongation : float
@@ -107,6 +109,8 @@ class Pull:
 class WrapLoads:
     """Equilibrium of the rollers of a wrap in one phase, tooth 1 at the tight end.
 
+    Equation physics.md (W2), of the pressure angle.
+
     Attributes
     ----------
     tension : numpy.ndarray
@@ -146,7 +150,7 @@ class WrapMechanism:
     """Rollers in the gaps of a sprocket under the tensions of two strands.
 
     Elastic links between rollers that sit on the roller path of their gap; of all places
-    the rollers take those of least potential energy (physics.md 4). Teeth are rigid.
+    the rollers take those of least potential energy, physics.md (W3). Teeth are rigid.
 
     Attributes
     ----------
@@ -173,7 +177,10 @@ class WrapMechanism:
 
     @property
     def pitch_radius(self) -> float:
-        """Radius of the circle through the roller centres of a new chain [mm]."""
+        """Radius of the circle through the roller centres of a new chain [mm].
+
+        Equation physics.md (W1).
+        """
         return 0.5 * self.chain.pitch / math.sin(0.5 * self.pitch_angle)
 
     @property
@@ -182,6 +189,8 @@ class WrapMechanism:
 
         A roller that would slip on its bush first rolls on the flank (Naji & Marshek 1983,
         with the two radii).
+
+        Equation physics.md (W8).
         """
         pull, chain = self.pull, self.chain
         on_bush = pull.friction_roller_bush * chain.bush_radius / chain.roller_radius

@@ -235,6 +235,8 @@ class WrapContact(Dwelling):
     def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
         """Return what worn gaps meet in one revolution.
 
+        Equation physics.md (W9), of the slip where the chain articulates.
+
         Parameters
         ----------
         x, y : numpy.ndarray

@@ -3,6 +3,7 @@
 import io
 import math
 import textwrap
+from collections.abc import Container
 from pathlib import Path
 
 import matplotlib as mpl
@@ -12,32 +13,36 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
-from wearsim.geometry.profile import Profile
-from wearsim.report.flank_view import enlargement, outline, run_time, snapshot, touching_circle
+from wearsim.report.flank_view import outline, run_time, snapshot
+from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import Life, WearResult
+
+FIGURES = ("flanks", "along_flank", "depth_over_hours")
+"""Stems of the figures of a comparison."""
 
 _LEGEND = 0.24
 """Part of the height of the same picture that is left free for the legend."""
 
 
-def comparison_figures(results: list[WearResult]) -> dict[str, Figure]:
+def comparison_figures(
+    results: list[WearResult], stems: Container[str] = FIGURES
+) -> dict[str, Figure]:
     """Return the figures of a comparison by file stem.
 
     Parameters
     ----------
     results : list of WearResult
         At least one.
+    stems : container of str
+        Which of `FIGURES` are drawn.
 
     Returns
     -------
     dict
-        ``flanks``, ``along_flank`` and ``depth_over_hours``.
+        In the order of `FIGURES`.
     """
-    return {
-        "flanks": flanks_figure(results),
-        "along_flank": along_flank_figure(results),
-        "depth_over_hours": depth_figure(results),
-    }
+    drawn = (flanks_figure, along_flank_figure, depth_figure)
+    return {stem: draw(results) for stem, draw in zip(FIGURES, drawn, strict=True) if stem in stems}
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> None:
@@ -104,19 +109,15 @@ def flanks_figure(results: list[WearResult]) -> Figure:
 
 
 def _draw_flank(panel: Axes, result: WearResult) -> None:
-    first, last = snapshot(result, 0), snapshot(result, -1)
-    new = Profile(first["x_mm"], first["y_mm"])
-    extent = max(np.ptp(new.x), np.ptp(new.y))
-    enlarged = enlargement(result.max_depth, extent)
-    x = new.x + enlarged * (last["x_mm"] - new.x)
-    y = new.y + enlarged * (last["y_mm"] - new.y)
-    deepest = int(last["depth_mm"].argmax())
+    flank = worn_flanks(result)[0]
+    new, extent, deepest = flank.new, flank.extent, flank.deepest
+    x, y = flank.enlarged(flank.x[-1], flank.y[-1])
     panel.fill(*outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
-    radius, centre_x, centre_y = _draw_mate(panel, result, new, deepest)
+    radius, centre_x, centre_y = _draw_mate(panel, result, flank)
     between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
     panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
-    panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {enlarged}")
+    panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {flank.factor}")
     label = f"deepest, {result.max_depth:.3g} mm"
     panel.plot(x[deepest], y[deepest], "o", color="tab:red", markersize=5, label=label)
     reach = 1.6 * extent
@@ -136,18 +137,17 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
-def _draw_mate(
-    panel: Axes, result: WearResult, new: Profile, deepest: int
-) -> tuple[float, float, float]:
+def _draw_mate(panel: Axes, result: WearResult, flank: WornFlank) -> tuple[float, float, float]:
     """Draw the circle that touches the new flank where it wears most; return its radius and centre."""
-    radius, mate = touching_circle(result, float(snapshot(result, -1)["arc_length_mm"][deepest]))
-    x, y = new.x[deepest], new.y[deepest]
-    normal_x, normal_y = new.normal_x[deepest], new.normal_y[deepest]
-    centre = x + radius * normal_x, y + radius * normal_y
+    centre, radius, name = mate(result, flank)
+    new, deepest = flank.new, flank.deepest
     panel.add_patch(Circle(centre, abs(radius), fill=False, color="grey", linestyle="--"))
-    way = math.copysign(min(abs(radius), max(np.ptp(new.x), np.ptp(new.y))), radius)
-    place = x + way * normal_x, y + way * normal_y
-    panel.text(*place, mate, color="grey", ha="center", va="center", clip_on=True)
+    way = math.copysign(min(abs(radius), flank.extent), radius)
+    place = (
+        new.x[deepest] + way * new.normal_x[deepest],
+        new.y[deepest] + way * new.normal_y[deepest],
+    )
+    panel.text(*place, name, color="grey", ha="center", va="center", clip_on=True)
     return abs(radius), *centre
 
 

@@ -12,14 +12,14 @@ from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
-from wearsim.geometry.roller_path import roller_path
 from wearsim.mechanisms.joint import elongation_per_loop
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap import WrapMechanism
 from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
+from wearsim.simulation.wrap_mechanism import wrap_mechanism
 from wearsim.sizing.rating import rating_warnings
 from wearsim.wear.accuracy import GridStudy, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
@@ -155,44 +155,6 @@ def _on_grid(
 ) -> Trajectory:
     run, _ = advance_dwelling(grid, law, criteria, horizon, life_tolerance)
     return replace(run, cycles=law.running_in.running_cycles(run.cycles))
-
-
-def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
-    """Return the mechanism of a chain around a sprocket.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-
-    Returns
-    -------
-    WrapMechanism
-        Rollers on the unworn gap, under the largest of the rated tensions.
-    """
-    radius = 0.5 * drive.chain.roller_diameter
-    return WrapMechanism(
-        outline=drive.outline,
-        path=roller_path(drive.outline, radius, (drive.outline.x.size + 1) // 2),
-        pitch_angle=drive.pitch_angle,
-        wrap_angle=drive.wrap_angle,
-        chain=WrapChain(
-            pitch=drive.chain.pitch,
-            roller_radius=radius,
-            bush_radius=drive.bush_radius,
-            link_stiffness=drive.link_stiffness,
-            alternating=drive.joint.alternating,
-        ),
-        pull=Pull(
-            tight=drive.heaviest.tension,
-            slack=drive.slack,
-            driver=drive.driver,
-            friction_roller_tooth=drive.friction_roller_tooth,
-            friction_roller_bush=drive.friction_roller_bush,
-        ),
-    )
 
 
 def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:

@@ -21,7 +21,7 @@ from wearsim.sizing.strength import (
 def stress_equivalence(stresses: Sequence[tuple[float, float]]) -> float:
     """Return the cycles of the highest stress that fatigue as much, over all cycles.
 
-    mu_H = sum (sigma_i/sigma)^6 N_i/N, formula (22) in the place of torques, with whose root the
+    mu_H = sum (sigma_i/sigma)^6 N_i/N, strength.md (22) in the place of torques, with whose root the
     stress of a Hertz contact goes. Stresses below the endurance limit count as well.
 
     Parameters
@@ -67,7 +67,7 @@ def fatigue_life(
     Returns
     -------
     EnduredHours
-        By formulas (21) to (26); 0 h where the highest stress is allowed at no time.
+        By strength.md (21) to (26); 0 h where the highest stress is allowed at no time.
 
     Examples
     --------

@@ -30,6 +30,8 @@ def contact_ratio(pinion_teeth: int, wheel_teeth: int, pressure_angle: float) ->
     eps = (sqrt(z1^2/4 sin^2 a + z1 + 1) + sqrt(z2^2/4 sin^2 a + z2 + 1) - (z1 + z2)/2 sin a) /
     (pi cos a): the length of the path of contact between the tip circles over the base pitch.
 
+    Equation stiffness-spectrum.md (1).
+
     Parameters
     ----------
     pinion_teeth, wheel_teeth : int
@@ -76,7 +78,10 @@ class Wheel:
 
     @property
     def tooth_angles(self) -> Floats:
-        """Angle at which each tooth is in mid contact: 2 pi i/z + beta sin(2 pi kappa i/z + psi)."""
+        """Angle at which each tooth is in mid contact: 2 pi i/z + beta sin(2 pi kappa i/z + psi).
+
+        Equation stiffness-spectrum.md (2).
+        """
         place = _FULL * np.arange(self.teeth) / self.teeth
         error = np.sin(self.error_order * place + self.error_phase)
         return np.asarray(place + self.error_angle * error)
@@ -183,6 +188,8 @@ class StepFunction:
 
         S_h = (1/2 pi) integral f(x) e^(-jhx) dx = sum of (jump at e) e^(-jhe) / (2 pi j h); the
         real line at h > 0 is 2 |S_h| cos(h x + arg S_h), so 2 |S_h| is its one-sided amplitude.
+
+        Equation stiffness-spectrum.md (3).
 
         Parameters
         ----------

@@ -29,6 +29,8 @@ def direct_coefficients(wheel: Wheel, contact_ratio: float, harmonics: ArrayLike
 
     C(n) = A_n sum over i of e^(-jn theta_i), A_n = (eps/z) sin(x)/x with x = n pi eps/z.
 
+    Equation stiffness-spectrum.md (5), its A_n.
+
     Parameters
     ----------
     wheel : Wheel
@@ -62,6 +64,8 @@ def bessel_coefficients(
     C(n) = z A_n sum of J_k(n beta) e^(-jk psi) over all k with n + k kappa a multiple l z of the
     teeth: lines at n = l z -+ k kappa, of which the leading one is z A_n J_k(n beta), with
     (-1)^k on one side. Printed are J_k(k beta) and J_0(beta), which is one to two orders less.
+
+    Equation stiffness-spectrum.md (5).
 
     Parameters
     ----------

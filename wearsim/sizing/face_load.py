@@ -26,6 +26,8 @@ def gap_kinds(
     g = F_fix y/b + s F_var y/b + C (2 y/b)^2, where s is -1 and 1 in turn for a gap that varies
     with the load, and sin(phi) over a turn for one that varies with a wheel.
 
+    Equation face-load.md (3).
+
     Parameters
     ----------
     position : numpy.ndarray
@@ -66,6 +68,8 @@ def wear_rates(
 
     A flank loses k q s in a mesh, by Archard over the passage of the contact; a tooth of the
     wheel is in mesh u times less often than one of the pinion.
+
+    Equation face-load.md (4).
 
     Parameters
     ----------

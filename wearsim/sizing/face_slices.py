@@ -79,6 +79,8 @@ def slice_loads(mesh: WideMesh, gap: Vector) -> Vector:
     over the m slices of least gap, delta_m = (F/c + sum b_i g_i) / sum b_i; delta is the least of
     them all.
 
+    Equation face-load.md (1).
+
     Parameters
     ----------
     mesh : WideMesh
@@ -184,6 +186,8 @@ def linear_face_load_factor(mesh: WideMesh, misalignment: float) -> float:
     With x = c F_beta / q_m: K = 1 + x/2 up to x = 2, where one edge just carries nothing, then
     K = (2 x)^(1/2); so ISO 6336-1, method C.
 
+    Equation face-load.md (2).
+
     Parameters
     ----------
     mesh : WideMesh
@@ -208,6 +212,8 @@ def linear_face_load_factor(mesh: WideMesh, misalignment: float) -> float:
 
 def equivalent_misalignment(mesh: WideMesh, factor: float) -> float:
     """Linear gap that has a face load factor, the closed form solved for it.
+
+    Equation face-load.md (2), solved for F_beta.
 
     Parameters
     ----------

@@ -51,6 +51,8 @@ class WearRates:
 
         1/(c a 60 n).
 
+        Equation face-load.md (5), its time constants.
+
         Parameters
         ----------
         stiffness : float
@@ -68,6 +70,8 @@ class WearRates:
 
 def opening_rate(loads: Vector, share: Vector, rates: WearRates) -> Vector:
     """Rate at which wear opens the gap in each kind of mesh.
+
+    Equation face-load.md (4).
 
     Parameters
     ----------

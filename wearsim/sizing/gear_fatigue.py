@@ -10,6 +10,8 @@ from wearsim.sizing.strength import EnduredHours, cycles_per_hour
 def pole_stress(drive: GearDrive, load_factor: float, modulus: float) -> float:
     """Return the contact stress at the pole, where one pair of teeth carries the whole load.
 
+    Equation gears.md (7).
+
     Parameters
     ----------
     drive : GearDrive
@@ -50,7 +52,7 @@ def gear_fatigue_lives(
     Returns
     -------
     dict of str to EnduredHours
-        ``pinion`` and ``wheel``, by formulas (21) to (26) of source document 001 under the constant
+        ``pinion`` and ``wheel``, by strength.md (21) to (26) under the constant
         load.
     """
     stress = max(pole_stress(drive, fatigue.load_factor, case.modulus), peak_pressure)

@@ -133,7 +133,7 @@ class Treatment:
         return slope * hardness + offset
 
     def greatest_contact(self, hardness: float, yield_strength: float) -> float:
-        """Return the greatest contact stress allowed in an overload, formulas (9).
+        """Return the greatest contact stress allowed in an overload, strength.md (9).
 
         2.8 sigma_T of homogeneous teeth, 44 HRC of those hardened along the contour or
         carburised, 35 HRC of nitrided ones and at most 2000 MPa.

@@ -94,6 +94,8 @@ class FemContact:
 def hertz_fem(contact: PoleContact, elements: int) -> FemContact:
     """Solve a contact at the pole on a mesh.
 
+    Equation hertz-check.md (5).
+
     Parameters
     ----------
     contact : PoleContact

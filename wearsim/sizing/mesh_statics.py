@@ -1,6 +1,6 @@
 """Deflection and stiffness of a mesh under load, from the number of contacts that share it.
 
-Golubkov et al. (2016; source document 003), equations (1) and (2): every contact has the energy
+Golubkov et al. (2016; source document 003), equations 1 and 2: every contact has the energy
 B delta^p / p and all have the same deflection.
 """
 
@@ -48,6 +48,8 @@ def hertz_constant(
 
     B = 2 E / (3 (1 - nu^2)) sqrt(R1 R2 / (R1 + R2)); the source gives no exponent with it.
 
+    Equation stiffness-spectrum.md (6).
+
     Parameters
     ----------
     radius, mate_radius : float
@@ -72,9 +74,11 @@ def hertz_constant(
 
 
 def deflection(contacts: Floats, force: float, constant: float, exponent: float) -> Floats:
-    """Deflection when all contacts share the load alike, equation (2) of the source solved.
+    """Deflection when all contacts share the load alike, equation 2 of the source solved.
 
     delta = (F / (B N))^(1/(p - 1)).
+
+    Equation stiffness-spectrum.md (6).
 
     Parameters
     ----------
@@ -96,9 +100,11 @@ def deflection(contacts: Floats, force: float, constant: float, exponent: float)
 
 
 def mesh_stiffness(contacts: Floats, force: float, constant: float, exponent: float) -> Floats:
-    """Stiffness about the static deflection, with delta^(p-2) (equation (1) prints p - 1).
+    """Stiffness about the static deflection, with delta^(p-2) (the source's equation 1 prints p - 1).
 
     C = (p - 1) N B delta^(p-2).
+
+    Equation stiffness-spectrum.md (6).
 
     Parameters
     ----------

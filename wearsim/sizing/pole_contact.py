@@ -63,13 +63,19 @@ class PoleContact:
 
     @property
     def normal_force(self) -> float:
-        """Return F_n = 2 K T1/(d_w1 cos(alpha_w)) [N]."""
+        """Return F_n = 2 K T1/(d_w1 cos(alpha_w)) [N].
+
+        Equation hertz-check.md (1).
+        """
         tangential = 2.0 * self.load_factor * self.torque / self.pitch_diameter
         return tangential / math.cos(self.pressure_angle)
 
     @property
     def load_per_width(self) -> float:
-        """Return q = F_n/b, equation 4 of the source [N/mm]."""
+        """Return q = F_n/b, equation 4 of the source [N/mm].
+
+        Equation hertz-check.md (1).
+        """
         return self.normal_force / self.face_width
 
     @property
@@ -80,18 +86,27 @@ class PoleContact:
 
     @property
     def reduced_radius(self) -> float:
-        """Return rho with 1/rho = 2 (u + 1)/(u d_w1 sin(alpha_w)), equation 3 of the source [mm]."""
+        """Return rho with 1/rho = 2 (u + 1)/(u d_w1 sin(alpha_w)), equation 3 of the source [mm].
+
+        Equation hertz-check.md (1).
+        """
         return 1.0 / sum(1.0 / radius for radius in self.flank_radii)
 
     @property
     def reduced_modulus(self) -> float:
-        """Return E = 2 E1 E2/(E1 + E2), equation 2 of the source [MPa]."""
+        """Return E = 2 E1 E2/(E1 + E2), equation 2 of the source [MPa].
+
+        Equation hertz-check.md (1).
+        """
         first, second = self.youngs_modulus
         return 2.0 * first * second / (first + second)
 
     @property
     def printed_stress(self) -> float:
-        """Return 0.418 sqrt(q E/rho), equation 1 of the source [MPa]."""
+        """Return 0.418 sqrt(q E/rho), equation 1 of the source [MPa].
+
+        Equation hertz-check.md (1).
+        """
         return PRINTED_COEFFICIENT * math.sqrt(
             self.load_per_width * self.reduced_modulus / self.reduced_radius
         )
@@ -103,19 +118,28 @@ class PoleContact:
 
     @property
     def contact_modulus(self) -> float:
-        """Return E* with 1/E* = (1 - nu^2)(1/E1 + 1/E2) [MPa]."""
+        """Return E* with 1/E* = (1 - nu^2)(1/E1 + 1/E2) [MPa].
+
+        Equation hertz-check.md (2).
+        """
         return contact_modulus(self.youngs_modulus, (self.poissons_ratio, self.poissons_ratio))
 
     @property
     def peak_pressure(self) -> float:
-        """Return Hertz' pressure in the middle of the contact [MPa]."""
+        """Return Hertz' pressure in the middle of the contact [MPa].
+
+        Equation hertz-check.md (2).
+        """
         return float(
             peak_pressure(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus)
         )
 
     @property
     def half_width(self) -> float:
-        """Return half the width of the contact, a [mm]."""
+        """Return half the width of the contact, a [mm].
+
+        Equation hertz-check.md (2).
+        """
         return float(
             half_width(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus)
         )

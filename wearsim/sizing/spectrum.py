@@ -44,7 +44,7 @@ class Spectrum:
     def equivalence(self, exponent: float) -> float:
         """Return the cycles of the largest torque that fatigue as much, over all cycles.
 
-        mu = sum (T_i/T)^k N_i/N, formula (22).
+        mu = sum (T_i/T)^k N_i/N, strength.md (22).
 
         Parameters
         ----------

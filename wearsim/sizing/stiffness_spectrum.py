@@ -230,6 +230,8 @@ def combinations(
     wheel without error gives none. Ways to one frequency by more sidebands than needed are left
     out, such as 3 f2 = 2 f1 of 20 and 30 teeth for 2 f1.
 
+    Equation stiffness-spectrum.md (4).
+
     Parameters
     ----------
     pair : GearPair

@@ -18,6 +18,8 @@ _LARGEST_BASE = 12e7
 def service_hours(years: float, year_share: float = 1.0, day_share: float = 1.0) -> float:
     """Return the hours that a gear runs in its years, L_h = 365*24 years K_year K_day.
 
+    Equation strength.md (21).
+
     Parameters
     ----------
     years : float
@@ -39,7 +41,7 @@ def service_hours(years: float, year_share: float = 1.0, day_share: float = 1.0)
 
 
 def cycles_per_hour(speed: float, meshings: int = 1) -> float:
-    """Return the load cycles of a tooth in an hour, 60 n n_z, formula (21).
+    """Return the load cycles of a tooth in an hour, 60 n n_z, strength.md (21).
 
     Parameters
     ----------
@@ -92,7 +94,7 @@ class FatigueCurve:
     ----------
     limit : float
         Stress endured for the base number of cycles [MPa]: endurance limit times the factors of
-        the surface over the safety, formulas (26) and (27) without the life factor.
+        the surface over the safety, strength.md (26) and (27) without the life factor.
     base_cycles : float
         N_G.
     exponent : float
@@ -118,7 +120,7 @@ class FatigueCurve:
         return self.base_cycles * float(self.least_factor**-self.tail_exponent)
 
     def raw_factor(self, cycles: float) -> float:
-        """Return the life factor without its limits, formula (25), (N_G/N_E)^(1/m).
+        """Return the life factor without its limits, strength.md (25), (N_G/N_E)^(1/m).
 
         Parameters
         ----------
@@ -157,7 +159,7 @@ class FatigueCurve:
         return float(max(tail, self.least_factor))
 
     def allowable(self, cycles: float) -> float:
-        """Return the allowable stress [sigma]_H or [sigma]_F, formulas (26) and (27).
+        """Return the allowable stress [sigma]_H or [sigma]_F, strength.md (26) and (27).
 
         Parameters
         ----------
@@ -173,6 +175,8 @@ class FatigueCurve:
 
     def endured_cycles(self, stress: float) -> float:
         """Return the equivalent cycles after which a stress is just allowed, N_G K^-m.
+
+        Equation strength.md (105).
 
         Parameters
         ----------
@@ -245,11 +249,13 @@ class Endurance:
 
     @property
     def equivalent_cycles(self) -> float:
-        """N_HE or N_FE at the hours asked for, formulas (23) and (24)."""
+        """N_HE or N_FE at the hours asked for, strength.md (23) and (24)."""
         return self.equivalent_cycles_at(self.hours)
 
     def equivalent_cycles_at(self, hours: float) -> float:
         """Return mu N of other hours.
+
+        Equations strength.md (23) and (24).
 
         Parameters
         ----------
@@ -297,6 +303,8 @@ class Endurance:
         """Return the hours for which a stress is allowed.
 
         L = N_G (limit/stress)^m / (60 mu n n_z), within the limits of the life factor.
+
+        Equation strength.md (105).
 
         Parameters
         ----------

@@ -33,12 +33,17 @@ class LoadFactor:
 
     @property
     def total(self) -> float:
-        """K_H = K_A K_Hb K_Ha K_Hv, or K_F."""
+        """K_H = K_A K_Hb K_Ha K_Hv, or K_F.
+
+        Equations strength.md (103) or (104).
+        """
         return self.application * self.face * self.transverse * self.dynamic
 
 
 def run_in(initial: float, share: float) -> float:
     """Return a factor of uneven load after running-in, 1 + (K0 - 1) K_w.
+
+    Equation strength.md (103).
 
     Parameters
     ----------
@@ -63,6 +68,8 @@ def run_in(initial: float, share: float) -> float:
 def initial_transverse_factor(grade: int) -> float:
     """Return the unevenness between pairs of new spur teeth, K0_Ha = 1 + 0.06 (n_st - 5).
 
+    Equation strength.md (103).
+
     Parameters
     ----------
     grade : int
@@ -78,6 +85,8 @@ def initial_transverse_factor(grade: int) -> float:
 
 def bending_face_factor(initial: float) -> float:
     """Return the unevenness along the face in bending, K_Fb = 0.18 + 0.82 K0_Hb.
+
+    Equation strength.md (104).
 
     Parameters
     ----------
@@ -99,6 +108,8 @@ def bending_face_factor(initial: float) -> float:
 
 def form_factor(teeth: float) -> float:
     """Return Y_FS of teeth without profile shift, 3.47 + 13.2/z.
+
+    Equation strength.md (102).
 
     Parameters
     ----------
@@ -166,6 +177,8 @@ class SpurMesh:
         q = F_t K_H/b, the tangential force; teeth press with the normal one, F_t/cos alpha, which
         also is what the factors Z_E Z_H sqrt(F_t K_H (u + 1)/(b d1 u)) of the standards hold.
 
+        Equation strength.md (101).
+
         Parameters
         ----------
         factor : float
@@ -190,6 +203,8 @@ class SpurMesh:
 
     def bending_stress(self, factor: float, form: float) -> float:
         """Return the bending stress in the root, sigma_F = F_t K_F Y_FS/(b m).
+
+        Equation strength.md (102).
 
         Parameters
         ----------

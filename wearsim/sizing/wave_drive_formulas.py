@@ -23,6 +23,8 @@ def pressure_diameter(v: Values) -> float:
 
     d = (4 T K_n / (K_z psi [p]))^(1/3) with T in N mm.
 
+    Equation wave-drive.md (1).
+
     Parameters
     ----------
     v : mapping
@@ -52,6 +54,8 @@ def crushing_diameter(v: Values) -> float:
 
     d = (10 T / (psi [sigma]))^(1/3) with T in N mm.
 
+    Equation wave-drive.md (2).
+
     Parameters
     ----------
     v : mapping
@@ -72,6 +76,8 @@ def torsion_diameter(v: Values) -> float:
 
     d = C (T psi_h / [tau])^(1/3) with T in N m. Printed with a square root (``root`` 2), which
     gives 373 to 511 mm where 142 mm is printed.
+
+    Equation wave-drive.md (3).
 
     Parameters
     ----------
@@ -118,6 +124,8 @@ def tooth_wear_diameter(v: Values) -> float:
 
     d = (1e4 T K / (psi [sigma]))^(1/3) with T in N m.
 
+    Equation wave-drive.md (4).
+
     Parameters
     ----------
     v : mapping
@@ -135,6 +143,8 @@ def flank_pressure_diameter(v: Values) -> float:
     """Diameter by the pressure on the flanks against wear, method of [4].
 
     d = 28.4 (T / (psi [p]))^(1/3) with T in N m.
+
+    Equation wave-drive.md (5).
 
     Parameters
     ----------
@@ -158,6 +168,8 @@ def rim_bending_diameter(v: Values) -> float:
     generator leaves for the torque, X = sigma_-1/(K_s n_s) - 3 E Y_z psi_s / u. Printed with
     28.4, the factor of [4], in place of 10 (``prefix``); the diameter printed with it then takes an
     endurance limit near 1000 MPa.
+
+    Equation wave-drive.md (6).
 
     Parameters
     ----------
@@ -195,6 +207,8 @@ def rim_endurance_diameter(v: Values) -> float:
     """Diameter by endurance of the rim with the speed of the generator, method of [6].
 
     d0 = 105 (T [s] K_s / (0.16 u^0.5 sigma_-1))^(1/3), T in N m, d = d0 / (1 - 2.3e-10 n_h^2 d0).
+
+    Equation wave-drive.md (7).
 
     Parameters
     ----------
@@ -239,6 +253,8 @@ def generator_bearing_diameter(v: Values) -> float:
 
     d0 = (T G (L_h n_h)^(1/3))^0.357 with G = B K_T / (A K_L), T in N m; the tables of A and B
     are not in the source.
+
+    Equation wave-drive.md (8).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The production run: equation (10) as d(state)/dN = f(state), in long steps.
+"""The production run: physics.md (10) as d(state)/dN = f(state), in long steps.
 
 The state is the cycle loop's: the way of every point along its current normal, and the
 depth summed on that way. It obeys a parabolic equation, so explicit jumps over many

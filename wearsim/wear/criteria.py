@@ -45,7 +45,7 @@ class Criterion:
 
 
 def depth_criterion(critical_depth: float) -> Criterion:
-    """Return the source's criterion, equation (12): the deepest point reaches a depth.
+    """Return the source's criterion, physics.md (12): the deepest point reaches a depth.
 
     Parameters
     ----------

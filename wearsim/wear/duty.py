@@ -37,6 +37,8 @@ def equivalent_factor(law: Law, kind: Kind, parts: Iterable[DutyPart]) -> float:
     (sigma ~ sqrt(load), swept width ~ sqrt(load)), whatever the worn shape. The mean
     over the cycles is then exact.
 
+    Equation physics.md (R4).
+
     Parameters
     ----------
     law : Law

@@ -17,6 +17,8 @@ from wearsim.wear.running_in import CONSTANT, RunningIn
 def mean_pressure_factor(exponent: float) -> float:
     """Return c_m, the mean of (sigma/sigma_H)^m over the width of a Hertz line contact.
 
+    Equation physics.md (L2).
+
     Parameters
     ----------
     exponent : float
@@ -42,6 +44,8 @@ def mean_pressure_factor(exponent: float) -> float:
 @dataclass(frozen=True)
 class Law:
     """Depth per unit of sliding = coefficient * sigma_H^m * v_s^n, with sigma in MPa, v in mm/s.
+
+    Equations physics.md (L1) and (L3).
 
     Attributes
     ----------
@@ -69,6 +73,8 @@ class Law:
 
     def numbers(self, kind: Kind) -> Vector:
         """Return the law as the kernel takes it.
+
+        Equations physics.md (L1), for m = 1 (L5), and (L3).
 
         Parameters
         ----------
@@ -106,6 +112,8 @@ class Law:
     def diffusion(self, kind: Kind, slip_curvature_exponent: float) -> float:
         """Return e = d(ln depth)/d(ln relative curvature), which decides stability.
 
+        Equation physics.md (A2).
+
         Parameters
         ----------
         kind : Kind
@@ -125,6 +133,8 @@ class Law:
 def archard(specific_wear_rate: float) -> Law:
     """Return Archard's linear law.
 
+    Equation physics.md (L4).
+
     Parameters
     ----------
     specific_wear_rate : float
@@ -141,6 +151,8 @@ def archard(specific_wear_rate: float) -> Law:
 
 def power(coefficient: float, pressure_exponent: float) -> Law:
     """Return the power law I = K sigma^m.
+
+    Equation physics.md (L4).
 
     Parameters
     ----------
@@ -165,6 +177,8 @@ def drozdov(
     speed_exponent: float,
 ) -> Law:
     """Return the Kragelsky/Drozdov form I = K (sigma_H/H)^m (v/v0)^n.
+
+    Equation physics.md (L4).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The reference run: equations (10) to (12) cycle by cycle."""
+"""The reference run: physics.md (10) to (12) cycle by cycle."""
 
 import contextlib
 import signal

@@ -23,6 +23,8 @@ class RunningIn:
 
         tau(N) = N + (f - 1) N_r (1 - exp(-N/N_r)).
 
+    Equation physics.md (R1).
+
     Attributes
     ----------
     factor : float
@@ -48,6 +50,8 @@ class RunningIn:
         With n = N/N_r it is (n + (f - 1) (1 - exp(-n))) / (n (1 + (f - 1) exp(-n))), here on a
         grid of n, to about 1e-4.
 
+        Equation physics.md (R3).
+
         Examples
         --------
         >>> RunningIn(1.0, 100.0).amplification
@@ -63,6 +67,8 @@ class RunningIn:
 
     def constant_cycles(self, cycles: float) -> float:
         """Return the cycles of constant coefficient that wear as much.
+
+        Equation physics.md (R2).
 
         Parameters
         ----------
@@ -80,6 +86,8 @@ class RunningIn:
 
     def running_cycles(self, constant: Vector) -> Vector:
         """Return the cycles after which a drive that runs in has worn as much.
+
+        Equation physics.md (R2), solved for N.
 
         Parameters
         ----------

@@ -1,16 +1,71 @@
 """Charts as plotly reads them, without colours: the page gives them."""
 
 import html
-import json
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import ArrayLike
-from plotly.subplots import make_subplots
 
 _DIGITS = 5
+_SPACING = 0.06
+"""Between panels, as a fraction of the height of all."""
+
+Trace = dict[str, Any]
+"""A line, or bars, as plotly reads it."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What plotly draws, without its Python objects, which take longer than all else on a page.
+
+    Attributes
+    ----------
+    traces : list of dict
+        Lines and bars.
+    layout : dict
+        Axes and what is around them.
+    """
+
+    traces: list[Trace]
+    layout: dict[str, Any]
+
+    def add(self, traces: Iterable[Trace], panel: int | None = None) -> None:
+        """Add lines or bars.
+
+        Parameters
+        ----------
+        traces : iterable of dict
+            What is added.
+        panel : int, optional
+            Its number from the top, where there are several.
+        """
+        place = {} if panel is None else {"xaxis": _axis("x", panel), "yaxis": _axis("y", panel)}
+        self.traces.extend({**trace, **place} for trace in traces)
+
+    def set_axis(self, letter: str, title: str = "", panel: int = 1, **settings: Any) -> None:
+        """Name an axis, or change how it is drawn.
+
+        Parameters
+        ----------
+        letter : str
+            ``x`` or ``y``.
+        title : str
+            Its name with the unit, where it gets one.
+        panel : int
+            Number of its panel from the top.
+        **settings : object
+            As plotly names them.
+        """
+        axis = self.layout[_axis(f"{letter}axis", panel)]
+        axis.update(settings)
+        if title:
+            axis["title"]["text"] = title
+
+
+def _axis(name: str, panel: int) -> str:
+    return f"{name}{panel}" if panel > 1 else name
 
 
 @dataclass(frozen=True)
@@ -39,7 +94,7 @@ class Chart:
         Of its element on the page.
     title, alt : str
         What it is, and what there is to see.
-    figure : plotly.graph_objects.Figure
+    figure : Drawing
         The chart; the colour of a trace follows from ``meta["role"]``.
     values : Values
         Some of its values.
@@ -54,7 +109,7 @@ class Chart:
     name: str
     title: str
     alt: str
-    figure: go.Figure
+    figure: Drawing
     values: Values
     tall: int = 1
     still: str = ""
@@ -62,13 +117,13 @@ class Chart:
 
     @property
     def content(self) -> dict[str, Any]:
-        """What the script of the page draws."""
-        drawn = json.loads(self.figure.to_json())
-        return {"data": drawn["data"], "layout": drawn["layout"], "slider": self.slider}
+        """What the script of the page draws; traces and layout may be changed one by one."""
+        traces = [dict(trace) for trace in self.figure.traces]
+        return {"data": traces, "layout": dict(self.figure.layout), "slider": self.slider}
 
 
-def panels(count: int) -> go.Figure:
-    """Return an empty figure with panels above each other that share their x axis.
+def panels(count: int) -> Drawing:
+    """Return an empty drawing with panels above each other that share their x axis.
 
     Parameters
     ----------
@@ -77,25 +132,36 @@ def panels(count: int) -> go.Figure:
 
     Returns
     -------
-    plotly.graph_objects.Figure
+    Drawing
         Without colours: the page gives them.
     """
-    figure = make_subplots(rows=count, cols=1, shared_xaxes=True, vertical_spacing=0.06)
-    figure.update_layout(
-        template="none",
-        margin={"l": 8, "r": 12, "t": 8, "b": 8},
-        legend={"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
-        hovermode="x unified" if count == 1 else "x",
-        autosize=True,
-    )
-    figure.update_xaxes(automargin=True, title_standoff=8)
-    figure.update_yaxes(automargin=True, title_standoff=8)
-    return figure
+    layout: dict[str, Any] = {
+        "template": {"data": {"scatter": [{"type": "scatter"}]}},
+        "margin": {"l": 8, "r": 12, "t": 8, "b": 8},
+        "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
+        "hovermode": "x unified" if count == 1 else "x",
+        "autosize": True,
+    }
+    height = (1.0 - _SPACING * (count - 1)) / count
+    for panel in range(1, count + 1):
+        below = count - panel
+        bottom = sum([height] * below) + below * _SPACING
+        for letter, other, ends in (("x", "y", [0.0, 1.0]), ("y", "x", [bottom, bottom + height])):
+            layout[_axis(f"{letter}axis", panel)] = {
+                "anchor": _axis(other, panel),
+                "domain": ends,
+                "automargin": True,
+                "title": {"standoff": 8},
+            }
+        if below:
+            shared = {"matches": _axis("x", count), "showticklabels": False}
+            layout[_axis("xaxis", panel)].update(shared)
+    return Drawing([], layout)
 
 
 def curve(
     x: ArrayLike, y: ArrayLike, name: str, role: str, unit: str, dash: str = "solid", at: str = "mm"
-) -> go.Scatter:
+) -> Trace:
     """Return a line of a chart.
 
     Parameters
@@ -115,19 +181,39 @@ def curve(
 
     Returns
     -------
-    plotly.graph_objects.Scatter
+    dict
         The trace.
     """
     plain = html.escape(name, quote=False)
-    return go.Scatter(
-        x=listed(x),
-        y=listed(y),
-        mode="lines",
-        name=plain,
-        line={"dash": dash, "width": 2},
-        meta={"role": role},
-        hovertemplate=f"%{{y:.4g}} {unit} at %{{x:.5g}} {at}<extra>{plain}</extra>",
-    )
+    return {
+        "type": "scatter",
+        "x": listed(x),
+        "y": listed(y),
+        "mode": "lines",
+        "name": plain,
+        "line": {"dash": dash, "width": 2},
+        "meta": {"role": role},
+        "hovertemplate": f"%{{y:.4g}} {unit} at %{{x:.5g}} {at}<extra>{plain}</extra>",
+    }
+
+
+def silent(trace: Trace, width: float) -> Trace:
+    """Return a line that tells nothing where the pointer is over it.
+
+    Parameters
+    ----------
+    trace : dict
+        The line.
+    width : float
+        How thick it is drawn.
+
+    Returns
+    -------
+    dict
+        The trace.
+    """
+    told = {name: value for name, value in trace.items() if name != "hovertemplate"}
+    return {**told, "hoverinfo": "skip", "line": {**trace["line"], "width": width}}
 
 
 def series(number: int) -> str:

@@ -4,8 +4,6 @@ import html
 import math
 from collections.abc import Sequence
 
-import plotly.graph_objects as go
-
 from wearsim.report.answer import grouped, hours, limit_text
 from wearsim.report.html.charts import Chart, Values, panels, rounded, series
 from wearsim.result import Life, WearResult
@@ -32,30 +30,29 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
             one.hours_run for one in (result.life, result.life_low, result.life_high)
         )
         reached = isinstance(result.life, Life)
-        figure.add_trace(
-            go.Scatter(
-                x=[rounded(life)],
-                y=[html.escape(label, quote=False)],
-                mode="markers",
-                name=html.escape(label, quote=False),
-                showlegend=False,
-                marker={"size": 12, "symbol": "circle" if reached else "triangle-right"},
-                error_x={
-                    "array": [rounded(max(high - life, 0.0))],
-                    "arrayminus": [rounded(max(life - low, 0.0))],
-                },
-                meta={"role": series(number)},
-                hovertemplate=f"{hours(result.life)}, {limit_text(result.stop, result.stop_value)}<br>"
-                f"band {hours(result.life_low)} to {hours(result.life_high)}<extra></extra>",
-            )
-        )
-    figure.update_layout(hovermode="closest")
+        mark = {
+            "type": "scatter",
+            "x": [rounded(life)],
+            "y": [html.escape(label, quote=False)],
+            "mode": "markers",
+            "name": html.escape(label, quote=False),
+            "showlegend": False,
+            "marker": {"size": 12, "symbol": "circle" if reached else "triangle-right"},
+            "error_x": {
+                "array": [rounded(max(high - life, 0.0))],
+                "arrayminus": [rounded(max(life - low, 0.0))],
+            },
+            "meta": {"role": series(number)},
+            "hovertemplate": f"{hours(result.life)}, {limit_text(result.stop, result.stop_value)}<br>"
+            f"band {hours(result.life_low)} to {hours(result.life_high)}<extra></extra>",
+        }
+        figure.add([mark])
+    figure.layout["hovermode"] = "closest"
     ends = [one.hours_run for result in results for one in (result.life_low, result.life_high)]
     ticks = _log_ticks(min(ends), max(ends))
-    figure.update_xaxes(
-        type="log", title_text="life, h", tickvals=ticks, ticktext=[grouped(tick) for tick in ticks]
-    )
-    figure.update_yaxes(autorange="reversed", type="category")
+    named = [grouped(tick) for tick in ticks]
+    figure.set_axis("x", "life, h", type="log", tickvals=ticks, ticktext=named)
+    figure.set_axis("y", autorange="reversed", type="category")
     return Chart(
         name="lives",
         title="lives and their bands",

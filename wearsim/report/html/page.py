@@ -142,8 +142,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
     case = case_of(result)
     tooth = tooth_charts(result)
     charts = [] if brief else _charts(result, case)
-    figures = comparison_figures([result])
-    used = {chart.still for chart in (*tooth, *charts)}
+    figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
     taken, defaults = told_apart(result.assumptions)
     return DrivePage(
         name=name,
@@ -160,7 +159,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         tooth=tooth,
         charts=charts,
         sketch=None if brief else _sketch(case),
-        pictures={stem: picture(figure) for stem, figure in figures.items() if stem in used},
+        pictures={stem: picture(figure) for stem, figure in figures.items()},
         inputs=[] if brief else input_table(result),
         sources=[] if brief else catalogue_sources(result),
         assumptions=taken,
@@ -216,8 +215,7 @@ def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> Comp
         along_chart(several, names),
         history_chart(several, names),
     ]
-    still = {chart.still for chart in charts}
-    figures = comparison_figures(several)
+    figures = comparison_figures(several, {chart.still for chart in charts})
     return ComparisonPage(
         names=list(names),
         titles=[result.title for result in several],
@@ -226,6 +224,6 @@ def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> Comp
         limits=differing_limits(several),
         warnings=[(result.title, text) for result in several for text in result.warnings],
         charts=charts,
-        pictures={stem: picture(figure) for stem, figure in figures.items() if stem in still},
+        pictures={stem: picture(figure) for stem, figure in figures.items()},
         citation=apa(),
     )

@@ -6,11 +6,19 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import plotly.graph_objects as go
 
 from wearsim.report.answer import grouped, hours
 from wearsim.report.flank_view import snapshot
-from wearsim.report.html.charts import Chart, Values, curve, listed, panels, rounded, series
+from wearsim.report.html.charts import (
+    Chart,
+    Trace,
+    Values,
+    curve,
+    listed,
+    panels,
+    rounded,
+    series,
+)
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
@@ -48,11 +56,11 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         role = "worn" if alone else series(number)
         for row, (name, what, unit) in enumerate(shown, start=1):
             traces = _along(result, name, unit, "" if alone else label, what, role)
-            figure.add_traces(traces, row, 1)
+            figure.add(traces, row)
     for row, (_, what, unit) in enumerate(shown, start=1):
-        figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
+        figure.set_axis("y", f"{what}, {unit}", row, rangemode="tozero")
     start = " or ".join(dict.fromkeys(_start(result) for result in results))
-    figure.update_xaxes(title_text="arc length, mm", row=len(shown), col=1)
+    figure.set_axis("x", "arc length, mm", len(shown))
     more = "; solid at the end of the run, dashed when new" if len(shown) > 1 else ""
     return Chart(
         name="along",
@@ -67,23 +75,23 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
 
 def _along(
     result: WearResult, column: str, unit: str, label: str, what: str, role: str
-) -> list[go.Scatter]:
+) -> list[Trace]:
     """One quantity at the end, and when new or of the wheel; the depth has the legend."""
     first, last = snapshot(result, 0), snapshot(result, -1)
     if column not in last:
         return []
     place, gears = last["arc_length_mm"], "wheel_depth_mm" in last
     end = curve(place, last[column], label or ("pinion" if gears else what), role, unit)
-    end.update(legendgroup=label, showlegend=column == "depth_mm" and bool(label or gears))
+    end |= {"legendgroup": label, "showlegend": column == "depth_mm" and bool(label or gears)}
     if column != "depth_mm":
         new = curve(place, first[column], f"{label or what}, new", role, unit, "dash")
-        new.update(legendgroup=label, showlegend=False, opacity=0.7)
+        new |= {"legendgroup": label, "showlegend": False, "opacity": 0.7}
         return [end, new]
     if not gears:
         return [end]
     name = f"{label}, wheel" if label else "wheel"
     wheel = curve(place, last["wheel_depth_mm"], name, role, unit, "dot")
-    wheel.update(legendgroup=label or "wheel", showlegend=not label)
+    wheel |= {"legendgroup": label or "wheel", "showlegend": not label}
     return [end, wheel]
 
 
@@ -133,18 +141,19 @@ def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart
                 continue
             time = columns["time_hours"]
             trace = curve(time, columns[name], what if alone else label, role, unit, at="h")
-            trace.update(legendgroup=label, showlegend=row == 1 and not alone)
-            figure.add_trace(trace, row, 1)
+            trace |= {"legendgroup": label, "showlegend": row == 1 and not alone}
+            figure.add([trace], row)
             if limit in limits:
                 ends, level = [0.0, time[-1]], [limits[limit]] * 2
                 bound = curve(ends, level, "limit", "limit" if alone else role, unit, "dash", "h")
-                bound.update(legendgroup=label, showlegend=False)
-                figure.add_trace(bound, row, 1)
-        figure.add_trace(_life_mark(result, label, role), 1, 1)
+                bound |= {"legendgroup": label, "showlegend": False}
+                figure.add([bound], row)
+        figure.add([_life_mark(result, label, role)], 1)
     for row, (_, what, unit, _) in enumerate(shown, start=1):
-        figure.update_yaxes(title_text=f"{what}, {unit}", rangemode="tozero", row=row, col=1)
-    figure.update_xaxes(rangemode="tozero")
-    figure.update_xaxes(title_text="running time, h", row=len(shown), col=1)
+        figure.set_axis("y", f"{what}, {unit}", row, rangemode="tozero")
+        figure.set_axis(
+            "x", "running time, h" if row == len(shown) else "", row, rangemode="tozero"
+        )
     what = " and ".join(name for _, name, _, _ in shown)
     return Chart(
         name="history",
@@ -158,22 +167,23 @@ def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart
     )
 
 
-def _life_mark(result: WearResult, label: str, role: str) -> go.Scatter:
+def _life_mark(result: WearResult, label: str, role: str) -> Trace:
     """Mark of the life on the curve of depth, or of the run's end where it was not reached."""
     columns, end = result.history_columns, result.life.hours_run
     depth = float(np.interp(end, columns["time_hours"], columns["max_depth_mm"]))
     reached = isinstance(result.life, Life)
-    return go.Scatter(
-        x=[rounded(end)],
-        y=[rounded(depth)],
-        mode="markers",
-        marker={"symbol": "circle" if reached else "triangle-right", "size": 10},
-        name="life" if reached else "run ends",
-        legendgroup=label,
-        showlegend=False,
-        meta={"role": role},
-        hovertemplate=f"{hours(result.life)}<br>%{{y:.4g}} mm<extra>%{{fullData.name}}</extra>",
-    )
+    return {
+        "type": "scatter",
+        "x": [rounded(end)],
+        "y": [rounded(depth)],
+        "mode": "markers",
+        "marker": {"symbol": "circle" if reached else "triangle-right", "size": 10},
+        "name": "life" if reached else "run ends",
+        "legendgroup": label,
+        "showlegend": False,
+        "meta": {"role": role},
+        "hovertemplate": f"{hours(result.life)}<br>%{{y:.4g}} mm<extra>%{{fullData.name}}</extra>",
+    }
 
 
 def _history_values(result: WearResult) -> Values:
@@ -208,18 +218,18 @@ def loads_chart(new: ToothLoads, grown: ToothLoads) -> Chart:
     ):
         teeth = np.arange(1, found.loads.force.size + 1)
         rows.append(found.loads.force)
-        figure.add_trace(
-            go.Bar(
-                x=teeth.tolist(),
-                y=listed(found.loads.force),
-                name=label,
-                meta={"role": role},
-                hovertemplate=f"tooth %{{x}}: %{{y:.4g}} N<extra>{label}</extra>",
-            )
-        )
-    figure.update_layout(barmode="group", bargap=0.25)
-    figure.update_xaxes(title_text="tooth, from the tight end", dtick=max(1, len(rows[0]) // 12))
-    figure.update_yaxes(title_text="normal force, N")
+        bars = {
+            "type": "bar",
+            "x": teeth.tolist(),
+            "y": listed(found.loads.force),
+            "name": label,
+            "meta": {"role": role},
+            "hovertemplate": f"tooth %{{x}}: %{{y:.4g}} N<extra>{label}</extra>",
+        }
+        figure.add([bars])
+    figure.layout.update(barmode="group", bargap=0.25)
+    figure.set_axis("x", "tooth, from the tight end", dtick=max(1, len(rows[0]) // 12))
+    figure.set_axis("y", "normal force, N")
     cells = tuple(
         (
             str(tooth + 1),

@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-import plotly.graph_objects as go
 
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
-from wearsim.report.flank_view import enlargement, outline, run_time, snapshot, touching_circle
-from wearsim.report.html.charts import Chart, Values, curve, listed, panels
+from wearsim.report.flank_view import outline, run_time
+from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
+from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import WearResult
 
 _AROUND = 0.22
@@ -28,37 +28,19 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     list of Chart
         One or two, each with its slider, whose points the script of the page fills in.
     """
-    first, last = snapshot(result, 0), snapshot(result, -1)
-    new, worn = Profile(first["x_mm"], first["y_mm"]), (last["x_mm"], last["y_mm"])
-    around = [*_body(result), _mate(result, new, int(last["depth_mm"].argmax()))]
-    if "wheel_x_mm" not in last:
-        return [_chart(result, "tooth", new, worn, last["depth_mm"], around)]
-    mate = Profile(first["wheel_x_mm"], first["wheel_y_mm"])
-    worn_mate = last["wheel_x_mm"], last["wheel_y_mm"]
-    return [
-        _chart(result, "pinion", new, worn, last["depth_mm"], around),
-        _chart(result, "wheel", mate, worn_mate, last["wheel_depth_mm"], []),
-    ]
+    flanks = worn_flanks(result)
+    around = [*_body(result), _mate(result, flanks[0])]
+    return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
 
 
-def _chart(
-    result: WearResult,
-    name: str,
-    new: Profile,
-    worn: tuple[Vector, Vector],
-    depth: Vector,
-    around: list[go.Scatter],
-) -> Chart:
-    extent = float(max(np.ptp(new.x), np.ptp(new.y)))
-    greatest, room = float(depth.max()), _AROUND * extent
-    factor = enlargement(greatest, extent)
+def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
+    name, new, depth = flank.name, flank.new, flank.depth[-1]
+    greatest, room = float(depth.max()), _AROUND * flank.extent
     figure = panels(1)
-    figure.add_traces([*around, *_flanks(depth)])
-    figure.update_layout(hovermode="closest")
-    figure.update_xaxes(title_text="x, mm", range=[new.x.min() - room, new.x.max() + room])
-    figure.update_yaxes(
-        title_text="y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x"
-    )
+    figure.add([*around, *_flanks(depth)])
+    figure.layout["hovermode"] = "closest"
+    figure.set_axis("x", "x, mm", range=[new.x.min() - room, new.x.max() + room])
+    figure.set_axis("y", "y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x")
     return Chart(
         name=name,
         title=f"{'flank' if name == 'tooth' else name} before and after {run_time(result)}",
@@ -72,56 +54,49 @@ def _chart(
             "first": len(around),
             "x": listed(new.x),
             "y": listed(new.y),
-            "dx": listed(worn[0] - new.x),
-            "dy": listed(worn[1] - new.y),
-            "deepest": int(depth.argmax()),
-            "factor": factor,
-            "most": max(10, 3 * factor),
+            "dx": listed(flank.x[-1] - new.x),
+            "dy": listed(flank.y[-1] - new.y),
+            "deepest": flank.deepest,
+            "factor": flank.factor,
+            "most": max(10, 3 * flank.factor),
             "depth": f"{grouped(greatest, 3)} mm",
         },
     )
 
 
-def _flanks(depth: Vector) -> list[go.Scatter]:
+def _flanks(depth: Vector) -> list[Trace]:
     """What is worn off, the new flank, the worn one and its deepest point: without points yet."""
     between, new, worn = (
         curve([], [], name, role, "mm")
         for name, role in (("worn off", "between"), ("new", "new"), ("worn", "worn"))
     )
-    between.update(fill="toself", line={"width": 0}, hoverinfo="skip", hovertemplate=None)
-    worn.update(
-        customdata=listed(depth), hovertemplate="%{customdata:.4g} mm deep<extra>worn</extra>"
-    )
-    deepest = curve([], [], "deepest", "worn", "mm")
-    deepest.update(
-        mode="markers",
-        marker={"size": 9},
-        hovertemplate=f"deepest, {depth.max():.3g} mm<extra></extra>",
-    )
-    return [between, new, worn, deepest]
+    told = {"hovertemplate": "%{customdata:.4g} mm deep<extra>worn</extra>"}
+    deepest = {
+        **curve([], [], "deepest", "worn", "mm"),
+        "mode": "markers",
+        "marker": {"size": 9},
+        "hovertemplate": f"deepest, {depth.max():.3g} mm<extra></extra>",
+    }
+    return [
+        {**silent(between, 0), "fill": "toself"},
+        new,
+        {**worn, "customdata": listed(depth), **told},
+        deepest,
+    ]
 
 
-def _body(result: WearResult) -> list[go.Scatter]:
+def _body(result: WearResult) -> list[Trace]:
     """The new wheel, or the teeth beside a gap; nothing where only the flank is known."""
     x, y = outline(result)
     if not x.size:
         return []
-    body = curve(x, y, "outline", "body", "mm")
-    body.update(
-        fill="toself", hoverinfo="skip", hovertemplate=None, showlegend=False, line={"width": 1}
-    )
-    return [body]
+    body = silent(curve(x, y, "outline", "body", "mm"), 1)
+    return [{**body, "fill": "toself", "showlegend": False}]
 
 
-def _mate(result: WearResult, new: Profile, deepest: int) -> go.Scatter:
+def _mate(result: WearResult, flank: WornFlank) -> Trace:
     """The circle that touches the new flank where it wears most."""
-    place = float(snapshot(result, -1)["arc_length_mm"][deepest])
-    radius, name = touching_circle(result, place)
-    x = new.x[deepest] + radius * new.normal_x[deepest]
-    y = new.y[deepest] + radius * new.normal_y[deepest]
+    (x, y), radius, name = mate(result, flank)
     angle = np.linspace(0.0, math.tau, 91)
-    circle = curve(
-        x + radius * np.cos(angle), y + radius * np.sin(angle), name, "mate", "mm", "dash"
-    )
-    circle.update(hoverinfo="skip", hovertemplate=None, line={"width": 1.2})
-    return circle
+    circle_x, circle_y = x + radius * np.cos(angle), y + radius * np.sin(angle)
+    return silent(curve(circle_x, circle_y, name, "mate", "mm", "dash"), 1.2)

@@ -1,0 +1,143 @@
+"""Flanks of a run from new to worn, as pictures show them: their points at any time."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.report.flank_view import enlargement, snapshot, touching_circle
+from wearsim.result import WearResult
+
+
+@dataclass(frozen=True, eq=False)
+class WornFlank:
+    """A flank that wears; ``S`` snapshots of ``N`` points.
+
+    Attributes
+    ----------
+    name : str
+        ``tooth``, or of gears ``pinion`` and ``wheel``.
+    cycles : numpy.ndarray, shape (S,)
+        Loading cycles of the snapshots, from 0.
+    x, y, depth : numpy.ndarray, shape (S, N)
+        Points and the depth worn off there [mm].
+    """
+
+    name: str
+    cycles: Vector
+    x: Vector
+    y: Vector
+    depth: Vector
+
+    @cached_property
+    def new(self) -> Profile:
+        """The flank before it wears."""
+        return Profile(self.x[0], self.y[0])
+
+    @property
+    def extent(self) -> float:
+        """Larger side of the box around the new flank [mm]."""
+        return float(max(np.ptp(self.x[0]), np.ptp(self.y[0])))
+
+    @property
+    def deepest(self) -> int:
+        """Point that is worn most at the end of the run."""
+        return int(self.depth[-1].argmax())
+
+    @property
+    def factor(self) -> int:
+        """Round factor that a picture enlarges the depth by."""
+        return enlargement(float(self.depth[-1].max()), self.extent)
+
+    def at(self, cycles: Vector) -> tuple[Vector, Vector, Vector]:
+        """Return the flank at some times, linear in them between two snapshots.
+
+        Parameters
+        ----------
+        cycles : numpy.ndarray, shape (T,)
+            From 0 to that of the last snapshot.
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            x, y and depth [mm], each of shape (T, N); of a snapshot its own numbers.
+        """
+        after = np.clip(np.searchsorted(self.cycles, cycles), 1, self.cycles.size - 1)
+        first, last = self.cycles[after - 1], self.cycles[after]
+        part = ((cycles - first) / (last - first))[:, None]
+        x, y, depth = (
+            (1.0 - part) * values[after - 1] + part * values[after]
+            for values in (self.x, self.y, self.depth)
+        )
+        return x, y, depth
+
+    def enlarged(self, x: Vector, y: Vector) -> tuple[Vector, Vector]:
+        """Return points with their distance from the new flank enlarged.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray, shape (..., N)
+            The worn flank [mm].
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            x and y [mm].
+        """
+        new_x, new_y = self.x[0], self.y[0]
+        return new_x + self.factor * (x - new_x), new_y + self.factor * (y - new_y)
+
+
+def worn_flanks(result: WearResult) -> list[WornFlank]:
+    """Return the flank of a run, of gears those of both wheels.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result; of a wrap the kind of gap that wears most is taken.
+
+    Returns
+    -------
+    list of WornFlank
+        One or two.
+    """
+    columns = result.flank_columns
+    size = snapshot(result, 0)["depth_mm"].size
+    rows: slice | Vector = slice(None)
+    if "gap_kind" in columns:
+        rows = columns["gap_kind"] == columns["gap_kind"][int(columns["depth_mm"].argmax())]
+    cycles = columns["cycles"][rows].reshape(-1, size)[:, 0]
+
+    def _flank(name: str, start: str) -> WornFlank:
+        x, y, depth = (
+            columns[start + part][rows].reshape(-1, size) for part in ("x_mm", "y_mm", "depth_mm")
+        )
+        return WornFlank(name, cycles, x, y, depth)
+
+    if "wheel_x_mm" in columns:
+        return [_flank("pinion", ""), _flank("wheel", "wheel_")]
+    return [_flank("tooth", "")]
+
+
+def mate(result: WearResult, flank: WornFlank) -> tuple[tuple[float, float], float, str]:
+    """Return the circle that touches the new flank where it wears most.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+    flank : WornFlank
+        Its first one.
+
+    Returns
+    -------
+    tuple
+        Centre [mm], radius [mm], below 0 if hollow, and what it is: ``roller`` or ``wheel``.
+    """
+    new, deepest = flank.new, flank.deepest
+    place = float(snapshot(result, -1)["arc_length_mm"][deepest])
+    radius, name = touching_circle(result, place)
+    x = new.x[deepest] + radius * new.normal_x[deepest]
+    y = new.y[deepest] + radius * new.normal_y[deepest]
+    return (float(x), float(y)), radius, name
