@@ -33,9 +33,11 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     _check_installed()
     opened = _Opened(case, settings)
     opened()
-    from wearsim.ui.server import loopback_socket, serve
+    from wearsim.ui.listener import loopback_socket
 
     listener = loopback_socket(port)
+    from wearsim.ui.server import serve  # takes a second
+
     address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
     click.echo(address)
     warn("Ctrl-C stops it")
@@ -79,8 +81,12 @@ def _with_setting(text: str, setting: str) -> str:
 
 def _cases_to_warm() -> tuple[str, ...]:
     from wearsim.cli.init import new_case
+    from wearsim.ui.source import with_value
 
-    return new_case("16B-1", 20, "strand"), new_case("08B-1", 19, "wrap")
+    wrap = new_case("08B-1", 19, "wrap")
+    for key, least in (("mechanism.phases", "1"), ("sprocket.nodes", "51")):
+        wrap = with_value(wrap, key, least)
+    return new_case("16B-1", 20, "strand"), wrap
 
 
 def _check_installed() -> None:

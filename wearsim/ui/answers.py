@@ -143,9 +143,7 @@ def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> Wear
         return None
 
 
-def life(
-    case: Case, is_stale: Callable[[], bool], progress: Callable[[float], None]
-) -> WearResult:
+def life(case: Case, is_stale: Callable[[], bool], progress: Callable[[float], None]) -> WearResult:
     """Wear a case, as ``wearsim life`` does.
 
     Parameters

@@ -2,6 +2,7 @@
 
 from functools import cache
 from importlib import resources
+from typing import Any
 
 from jinja2 import Environment, PackageLoader
 from nicegui import ui
@@ -102,7 +103,8 @@ class SketchView:
         self._place.set_visibility(sketch is not None)
         if sketch is not None:
             # The template escapes every text.
-            self._drawing.content = str(_parts().get_template("parts.html.j2").module.sketch(sketch))  # type: ignore[attr-defined]
+            parts: Any = _parts().get_template("parts.html.j2").module
+            self._drawing.content = str(parts.sketch(sketch))
 
 
 def style(palettes: tuple[Palette, Palette]) -> str:

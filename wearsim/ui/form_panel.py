@@ -154,7 +154,9 @@ class FormPanel:
         head, _, number = name.partition(".")
         if number.isdigit():
             ui.button(
-                "Remove this table", icon="delete", on_click=lambda: self._on_remove(head, int(number))
+                "Remove this table",
+                icon="delete",
+                on_click=lambda: self._on_remove(head, int(number)),
             ).props("flat")
 
     def _input(self, field: Field) -> Any:
@@ -173,6 +175,7 @@ class FormPanel:
         element.classes("ws-field").props(_LOOK)
         element.props["hint"] = field.meaning
         element.props["data-key"] = field.key
+        element.props["aria-label"] = " ".join(filter(None, (field.key, field.unit)))
         element.props.set_optional("placeholder", field.default or None)
         element.on_value_change(lambda event: self._edited(field, event.value))
         return element

@@ -51,7 +51,9 @@ def figure(chart: Chart, palette: Palette, factor: float = 1.0) -> dict[str, Any
     content = chart.content
     traces, slider = content["data"], chart.slider
     if slider:
-        for trace, places in zip(traces[slider["first"] :], _enlarged(slider, factor), strict=False):
+        for trace, places in zip(
+            traces[slider["first"] :], _enlarged(slider, factor), strict=False
+        ):
             trace["x"], trace["y"] = places
     return {
         "data": [_painted(trace, palette) for trace in traces],

@@ -12,48 +12,14 @@ from nicegui import app, ui
 
 from wearsim.case.document import CaseText
 from wearsim.case.load import load_case
-from wearsim.errors import OutputError, WearsimError
+from wearsim.errors import WearsimError
 from wearsim.simulation import simulate
 from wearsim.ui.file import CaseFile
 from wearsim.ui.guard import Guard
 from wearsim.ui.page import CasePage
 
-ADDRESS = "127.0.0.1"
-"""Only programs of this machine reach it."""
-
 _RECONNECT = 3600.0
 """Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""
-
-
-def loopback_socket(port: int) -> socket.socket:
-    """Return a socket that browsers of this machine can connect to.
-
-    Parameters
-    ----------
-    port : int
-        0 for any free one.
-
-    Returns
-    -------
-    socket.socket
-        Bound and listening.
-
-    Raises
-    ------
-    OutputError
-        The port is taken or not allowed.
-    """
-    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    try:
-        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        found.bind((ADDRESS, port))
-        found.listen()
-    except OSError as error:
-        found.close()
-        raise OutputError(
-            f"--port {port}: must be free: {error.strerror or error}: choose another, or leave it out"
-        ) from None
-    return found
 
 
 def serve(

@@ -30,7 +30,7 @@ def tables_of(text: str) -> dict[str, Any] | None:
 
 
 def shown_values(text: str) -> dict[str, str]:
-    """Return what stands at each key, as the form shows it.
+    r"""Return what stands at each key, as the form shows it.
 
     Parameters
     ----------
@@ -44,14 +44,14 @@ def shown_values(text: str) -> dict[str, str]:
 
     Examples
     --------
-    >>> shown_values('title = "A"  # of the drive\\n[load]\\npower_kW = 3.0\\n[[duty]]\\nspeed_rpm = 1')
+    >>> shown_values('title = "A"  # of the drive\n[load]\npower_kW = 3.0\n[[duty]]\nspeed_rpm = 1')
     {'title': 'A', 'load.power_kW': '3.0', 'duty.1.speed_rpm': '1'}
     """
     return dict(_leaves(tomlkit.parse(text), ""))
 
 
 def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
-    """Return an input file with another value at a key.
+    r"""Return an input file with another value at a key.
 
     Parameters
     ----------
@@ -72,10 +72,10 @@ def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
 
     Examples
     --------
-    >>> print(with_value("[load]\\npower_kW = 3  # shaft\\n", "load.power_kW", "4 kW"), end="")
+    >>> print(with_value("[load]\npower_kW = 3  # shaft\n", "load.power_kW", "4 kW"), end="")
     [load]
     power_kW = "4 kW"  # shaft
-    >>> with_value("[load]\\npower_kW = 3\\n", "load.power_kW", "")
+    >>> with_value("[load]\npower_kW = 3\n", "load.power_kW", "")
     ''
     """
     document = tomlkit.parse(text)
@@ -91,7 +91,7 @@ def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
 
 
 def with_table(text: str, name: str) -> str:
-    """Return an input file with one more table in a list of tables.
+    r"""Return an input file with one more table in a list of tables.
 
     Parameters
     ----------
@@ -107,8 +107,8 @@ def with_table(text: str, name: str) -> str:
 
     Examples
     --------
-    >>> with_table("title = 'A'\\n", "duty")
-    "title = 'A'\\n\\n[[duty]]\\n"
+    >>> with_table("title = 'A'\n", "duty")
+    "title = 'A'\n\n[[duty]]\n"
     """
     document: Any = tomlkit.parse(text)
     if name in document:
