@@ -44,11 +44,13 @@ critical_depth_mm = 0.02
 """
 WRAP = """\
 format_version = 1
+title = "A wrap"
 [chain]
 designation = "08B-1"
 [sprocket]
 teeth = 19
 profile = "iso606"
+nodes = 301
 [drive]
 mate_teeth = 57
 links = 120
@@ -218,11 +220,11 @@ def test_source_that_is_no_toml_keeps_the_answer_as_an_old_one(watched, serve):
     page.get_by_role("tab", name="TOML").click()
     page.locator(".cm-content").click()
     page.keyboard.press("Control+End")
-    page.keyboard.type("[broken")
+    page.keyboard.type("broken")
     page.wait_for_selector('.ws-state[data-state="old"]')
     assert "not valid TOML" in page.locator(".ws-fault").inner_text()
     assert shown_hours(page) == good
-    for _ in "[broken":
+    for _ in "broken":
         page.keyboard.press("Backspace")
     settled(page)
     page.keyboard.type("[run]\nhorizon_hours = 10")
@@ -300,6 +302,12 @@ def test_save_as_stays_in_the_folder_and_asks_before_it_replaces(watched, serve,
     assert not (tmp_path.parent / "elsewhere.toml").exists()
 
 
+def undated(content):
+    """A file without what differs from one export to the next: dates, marks and orders of a DXF."""
+    marks = rb"\{[-0-9A-F]{36}\}|@ [-0-9T:.+]+|\b24\d{5}\.\d+"
+    return sorted(re.sub(marks, b"", content).splitlines())  # classes come in any order
+
+
 @pytest.mark.parametrize(("form", "state"), [("dxf", "both"), ("svg", "new"), ("csv", "worn")])
 def test_exported_wheel_is_that_of_the_command(watched, serve, tmp_path, form, state):
     server = serve()
@@ -309,11 +317,11 @@ def test_exported_wheel_is_that_of_the_command(watched, serve, tmp_path, form, s
         page.locator(".q-dialog").get_by_label(label).click()
         page.get_by_role("option", name=value, exact=True).click()
     with page.expect_download() as download:
-        page.get_by_role("button", name="Download").click()
+        page.get_by_role("button", name="Download", exact=True).click()
     assert download.value.suggested_filename == f"drive.{form}"
     out = tmp_path / f"out.{form}"
     subprocess.run([*COMMAND, "export", server.path, "--out", out, "--state", state], check=True)
-    assert download.value.path().read_bytes() == out.read_bytes()
+    assert undated(download.value.path().read_bytes()) == undated(out.read_bytes())
 
 
 def test_a_hostile_title_stays_text(watched, serve):
@@ -385,13 +393,11 @@ def test_a_table_of_the_duty_is_added_filled_and_removed(watched, serve):
     server = serve(text)
     page = opened(watched, server)
     page.get_by_text("[[duty]]", exact=True).click()
+    page.wait_for_timeout(400)  # opens slowly
     page.get_by_role("button", name="Add a table [[duty]]").click()
     page.wait_for_selector('.ws-state[data-state="old"]')
     for key, value in (("speed_rpm", "50"), ("power_kW", "4"), ("share_of_time", "1")):
-        box = field(page, f"duty.2.{key}")
-        if not box.is_visible():
-            page.get_by_text("[duty.2]").click()
-        box.fill(value)
+        field(page, f"duty.2.{key}").fill(value)
     field(page, "duty.1.share_of_time").fill("0.5")
     field(page, "duty.2.share_of_time").fill("0.5")
     settled(page)
@@ -449,9 +455,11 @@ def test_fifty_edits_and_absurd_values(watched, serve):
     expected = life(server.path, "load.power_kW=5.9")
     eventually(lambda: shown_hours(page), lambda found: found == expected)
     settled(page)
-    field(page, "load.power_kW").press_sequentially("1234567", delay=1)
+    field(page, "load.power_kW").fill("")
+    field(page, "load.power_kW").press_sequentially("6.1234567", delay=1)
+    expected = life(server.path, "load.power_kW=6.1234567")
+    eventually(lambda: shown_hours(page), lambda found: found == expected)
     settled(page)
-    assert shown_hours(page) == life(server.path, "load.power_kW=5.91234567")
     assert watched.said == []
 
 
@@ -483,7 +491,10 @@ def test_a_reloaded_page_begins_with_the_file(watched, serve):
     assert shown_hours(page) == life(server.path, "load.power_kW=5")
     assert server.path.read_text() == STRAND
     server.path.write_text(STRAND.replace("Test drive", "Renamed"))
+    # Text that is not saved is not left without a question.
+    page.on("dialog", lambda dialog: dialog.accept())
     opened(page, server)
+    assert len(watched.said) == 1 and watched.said[0].startswith("dialog")
     assert field(page, "title").input_value() == "Renamed"
     server.path.unlink()
     page.goto(server.url)
@@ -571,24 +582,43 @@ def test_nothing_is_left_behind(watched, serve, tmp_path):
     assert list(tmp_path.iterdir()) == [server.path]
 
 
-def test_seconds_from_an_edit_to_its_answer(watched, serve, record_property):
+WATCH = """() => {
+    const bar = document.querySelector(".ws-state");
+    document.addEventListener("input", () => {
+        window.typed = performance.now();
+        window.after = {};
+    }, true);
+    new MutationObserver(() => {
+        const state = bar.dataset.state;
+        if (window.after && !(state in window.after)) {
+            window.after[state] = performance.now() - window.typed;
+        }
+    }).observe(bar, { attributes: true });
+}"""
+
+
+@pytest.mark.parametrize(
+    ("text", "edits", "first"),
+    [
+        (STRAND.replace("nodes = 51\n", ""), 9, "drawing"),
+        (WRAP.replace("nodes = 301\n", ""), 3, "estimate"),
+    ],
+    ids=["strand", "wrap"],
+)  # fmt: skip
+def test_seconds_from_an_edit_to_its_answer(watched, serve, text, edits, first):
     """Printed, and bounded loosely: machines differ."""
-    for name, text, keys in (("strand", STRAND.replace("nodes = 51\n", ""), 8), ("wrap", WRAP, 3)):
-        server = serve(text, name=f"{name}.toml")
-        page = opened(watched, server)
-        page.wait_for_timeout(2000)
-        first, last = [], []
-        for number in range(keys):
-            start = time.monotonic()
-            field(page, "load.power_kW").fill(f"{2.5 + 0.01 * number:.2f}")
-            page.wait_for_selector('.ws-state[data-state="computing"]')
-            page.wait_for_function(
-                "['current', 'estimate'].includes(document.querySelector('.ws-state').dataset.state)"
-            )
-            first.append(time.monotonic() - start)
-            page.wait_for_selector('.ws-state[data-state="current"]', timeout=60_000)
-            last.append(time.monotonic() - start)
-        middle = [sorted(found)[len(found) // 2] for found in (first, last)]
-        print(f"\n{name}: first answer after {middle[0]:.2f} s, life after {middle[1]:.2f} s")
-        record_property(name, middle)
-        assert middle[0] < 6.0
+    page = opened(watched, serve(text))
+    page.wait_for_timeout(3000)
+    page.evaluate(WATCH)
+    found = []
+    for number in range(edits):
+        field(page, "load.power_kW").fill(f"{2.5 + 0.01 * number:.2f}")
+        page.wait_for_function("window.after && window.after.current", timeout=60_000)
+        found.append(page.evaluate("window.after"))
+    for state in ("computing", first, "drawing", "current"):
+        times = sorted(after[state] for after in found)
+        print(
+            f"\n{state}: {times[len(times) // 2]:.0f} ms ({times[0]:.0f} to {times[-1]:.0f})",
+            end="",
+        )
+    assert min(after[first] for after in found) < 3000.0

@@ -1,6 +1,7 @@
 """The form: a field for every key that the schema allows."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -37,8 +38,8 @@ class FormPanel:
         self._values: Mapping[str, str] = {}
         self._fields: dict[str, Field] = {}
         self._inputs: dict[str, Any] = {}
-        self._tables: dict[str, Any] = {}
-        self._more: dict[str, Any] = {}
+        self._groups: dict[str, list[Any]] = {}
+        self._taken_inputs: Mapping[str, Any] = {}
         self._shape: object = None
         self._body = ui.column().classes("ws-form")
         self._broken = ui.label("The source is no TOML yet: the form waits until it is.")
@@ -79,6 +80,7 @@ class FormPanel:
         inputs : mapping
             All tables of the case with every default taken.
         """
+        self._taken_inputs = inputs
         for key, element in self._inputs.items():
             taken = _taken(inputs, key) or self._fields[key].default
             if element.props.get("placeholder", "") != taken:
@@ -95,37 +97,57 @@ class FormPanel:
         texts: dict[str, str] = {}
         for fault in faults:
             key = fault.key
-            while key and key not in self._inputs:
+            while key and key not in self._fields:
                 key = key.rpartition(".")[0]
             if key:
                 texts.setdefault(key, str(fault))
+        for key in texts:
+            self._open(key)
         for key, element in self._inputs.items():
-            text = texts.get(key)
-            if element.error != text:
-                element.error = text
-            if text:
-                self._open(key)
+            if element.error != texts.get(key):
+                element.error = texts.get(key)
 
     def _open(self, key: str) -> None:
-        for closed in (self._tables.get(self._fields[key].table), self._more.get(key)):
-            if closed is not None and not closed.value:
-                closed.open()
+        """Open what a field is in: its table first, then the group of keys that are not in use."""
+        groups = [group for group in self._groups.get(key, ()) if not group.value]
+        for group in groups:
+            group.open()
+        if groups and key not in self._inputs:
+            self._open(key)
 
     def _build(self, data: Mapping[str, Any], tables: Mapping[str, Sequence[Field]]) -> None:
-        self._inputs, self._tables, self._more, self._fields = {}, {}, {}, {}
+        self._inputs, self._groups = {}, {}
+        self._fields = {field.key: field for fields in tables.values() for field in fields}
         self._body.clear()
         with self._body:
             for name, fields in tables.items():
                 if not name:
                     self._add_fields(fields)
                     continue
-                given = any(field.key in self._values for field in fields)
+                one_of_list = name.rpartition(".")[2].isdigit()
+                given = one_of_list or any(field.key in self._values for field in fields)
                 shown = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
                 table = ui.expansion(shown, caption=table_meaning(data, name), value=given)
-                self._tables[name] = table.classes("ws-table")
-                with table:
-                    self._add_table(name, fields)
-                    self._add_buttons(name)
+                self._fill_when_open(
+                    table.classes("ws-table"), fields, partial(self._add_table, name)
+                )
+
+    def _fill_when_open(
+        self, group: Any, fields: Sequence[Field], fill: Callable[[Sequence[Field]], None]
+    ) -> None:
+        """Make the fields of a group when they are first seen: most never are, and all cost time."""
+        for field in fields:
+            self._groups.setdefault(field.key, []).append(group)
+        filled: list[bool] = []
+
+        def _fill() -> None:
+            if group.value and not filled:
+                filled.append(True)
+                with group:
+                    fill(fields)
+
+        group.on_value_change(_fill)
+        _fill()
 
     def _add_table(self, name: str, fields: Sequence[Field]) -> None:
         """Show what a table holds or must hold; the rest on demand, where there is both."""
@@ -133,18 +155,16 @@ class FormPanel:
         more = [field for field in fields if field not in first]
         if not first or not more:
             self._add_fields(fields)
-            return
-        self._add_fields(first)
-        names = ", ".join(field.name for field in more)
-        rest = ui.expansion(f"{len(more)} more", caption=names).classes("ws-more")
-        with rest:
-            self._add_fields(more)
-        self._more |= {field.key: rest for field in more}
+        else:
+            self._add_fields(first)
+            names = ", ".join(field.name for field in more)
+            rest = ui.expansion(f"{len(more)} more", caption=names).classes("ws-more")
+            self._fill_when_open(rest, more, self._add_fields)
+        self._add_buttons(name)
 
     def _add_fields(self, fields: Sequence[Field]) -> None:
         with ui.element("div").classes("ws-fields"):
             for field in fields:
-                self._fields[field.key] = field
                 self._inputs[field.key] = self._input(field)
 
     def _add_buttons(self, name: str) -> None:
@@ -176,7 +196,8 @@ class FormPanel:
         element.props["hint"] = field.meaning
         element.props["data-key"] = field.key
         element.props["aria-label"] = " ".join(filter(None, (field.key, field.unit)))
-        element.props.set_optional("placeholder", field.default or None)
+        taken = _taken(self._taken_inputs, field.key) or field.default
+        element.props.set_optional("placeholder", taken or None)
         element.on_value_change(lambda event: self._edited(field, event.value))
         return element
 

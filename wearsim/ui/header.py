@@ -67,7 +67,7 @@ class Header:
         Parameters
         ----------
         state : str
-            ``current``, ``computing``, ``estimate`` or ``old``.
+            ``computing``, ``estimate``, ``drawing``, ``current`` or ``old``.
         text : str
             The same in words.
         """

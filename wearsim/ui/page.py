@@ -162,24 +162,36 @@ class CasePage:
 
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
-        is_stale = self._staleness(version)
+        is_stale, told = self._staleness(version), self._progress(version)
         case = await self._step(version, lambda: load_case(source))
+        if is_slow(case):
+            await self._show_first(version, source, case)
+        result = await self._step(version, lambda: life(case, is_stale, told))
+        self._result = (version, case, result)
+        self._show_sound(case)
+        self._header.show_life(hours(result.life))
+        self._header.show_state("drawing", "of the present input, drawing")
+        self._answer.show_life(result)
+        if not is_slow(case):
+            self._answer.show_loads(None)
+        self._answer.show_pictures(await self._step(version, lambda: pictures(case, result)))
+        self._header.show_state("current", "of the present input")
+
+    async def _show_first(self, version: int, source: CaseText, case: Case) -> None:
+        """Show what is known before a life that takes long: loads, and about how long it is."""
+        is_stale = self._staleness(version)
+        loads = await self._step(version, lambda: tooth_load_chart(case))
+        self._show_sound(case)
+        self._answer.show_loads(loads)
+        rough = await self._step(version, lambda: estimate(source, case, is_stale))
+        if rough is not None:
+            self._header.show_life(f"about {hours(rough.life)}")
+            self._header.show_state("estimate", "first estimate, computing")
+
+    def _show_sound(self, case: Case) -> None:
         self._form.show_faults(())
         self._answer.show_faults(())
         self._form.show_taken(case.inputs)
-        self._answer.show_loads(await self._step(version, lambda: tooth_load_chart(case)))
-        if is_slow(case):
-            rough = await self._step(version, lambda: estimate(source, case, is_stale))
-            if rough is not None:
-                self._header.show_life(f"about {hours(rough.life)}")
-                self._header.show_state("estimate", "first estimate, computing")
-        told = self._progress(version)
-        result = await self._step(version, lambda: life(case, is_stale, told))
-        self._result = (version, case, result)
-        self._header.show_life(hours(result.life))
-        self._header.show_state("current", "of the present input")
-        self._answer.show_life(result)
-        self._answer.show_pictures(await self._step(version, lambda: pictures(case, result)))
 
     async def _step(self, version: int, work: Callable[[], Found]) -> Found:
         found = await in_thread(work)
