@@ -2,6 +2,7 @@
 
 import http.client
 import json
+import os
 import re
 import signal
 import socket
@@ -84,10 +85,12 @@ critical_depth_mm = 0.02
 class Server:
     """``wearsim ui`` in a process of its own."""
 
-    def __init__(self, folder, *arguments):
+    def __init__(self, folder, *arguments, browser=None):
+        quiet = [] if browser else ["--no-browser"]
         self.process = subprocess.Popen(
-            [*COMMAND, "ui", "--no-browser", *map(str, arguments)],
-            cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            [*COMMAND, "ui", *quiet, *map(str, arguments)],
+            cwd=folder, env={**os.environ, "BROWSER": str(browser)}, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
         self.url = self.process.stdout.readline().strip()
         assert self.url, self.process.stderr.read()
@@ -112,11 +115,12 @@ def serve(tmp_path):
         pytest.skip("nicegui is not installed: pip install 'wearsim[ui]'")
     servers = []
 
-    def start(text=STRAND, *arguments, name="drive.toml"):
+    def start(text=STRAND, *arguments, name="drive.toml", browser=None):
         path = tmp_path / name
         if text is not None:
             path.write_text(text)
-        servers.append(Server(tmp_path, *([path] if text is not None else []), *arguments))
+        case = [path] if text is not None else []
+        servers.append(Server(tmp_path, *case, *arguments, browser=browser))
         servers[-1].path = path
         return servers[-1]
 
@@ -574,6 +578,18 @@ def test_only_the_loopback_address_listens(serve):
             continue
         with pytest.raises(OSError), socket.create_connection((address, server.port), timeout=2):
             pass
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a shell")
+def test_the_browser_is_opened(serve, tmp_path):
+    """One that keeps its caller waiting does not keep the page waiting."""
+    browser, told = tmp_path / "browser", tmp_path / "told"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {told}\nsleep 2\n')
+    browser.chmod(0o700)
+    server = serve(STRAND, browser=browser)
+    eventually(told.exists, bool)
+    eventually(told.read_text, lambda found: found == f"{server.url}\n")
+    assert asked(server) == 200
 
 
 def test_nothing_is_left_behind(watched, serve, tmp_path):

@@ -42,9 +42,11 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     click.echo(address)
     warn("Ctrl-C stops it")
     if not no_browser:
+        import threading
         import webbrowser
 
-        webbrowser.open(address)
+        # A browser in the terminal keeps its caller waiting.
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
     serve(opened, listener, _cases_to_warm())
 
 

@@ -1,5 +1,6 @@
 """The place that browsers connect to."""
 
+import os
 import socket
 
 from wearsim.errors import OutputError
@@ -34,7 +35,8 @@ def loopback_socket(port: int) -> socket.socket:
     """
     found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
-        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        if os.name == "posix":  # elsewhere it would share a port that is in use
+            found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         found.bind((ADDRESS, port))
         found.listen()
     except OSError as error:

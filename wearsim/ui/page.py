@@ -66,7 +66,7 @@ class CasePage:
         ui.add_css(style(palettes()))
         ui.dark_mode(None)
         self._build()
-        ui.on("scheme", lambda event: self._answer.paint(palettes()[bool(event.args)]))
+        ui.on("scheme", lambda event: self._paint(bool(event.args)))
         self._client.on_connect(self._arrived)
         self._client.on_disconnect(self._left)
         self._show_input("")
@@ -88,6 +88,10 @@ class CasePage:
                         ).classes("ws-source")  # fmt: skip
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
                 self._answer = AnswerPanel(palettes()[0])
+
+    def _paint(self, dark: bool) -> None:
+        self._source.set_theme("basicDark" if dark else "basicLight")
+        self._answer.paint(palettes()[dark])
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
