@@ -61,6 +61,7 @@ class FormPanel:
         self._body.set_visibility(data is not None)
         if data is None:
             return
+        added = values.keys() - self._values.keys()
         self._values = values
         tables = form_fields(data)
         shape = (schema_of(data), tuple(tables))
@@ -68,6 +69,8 @@ class FormPanel:
             self._shape = shape
             self._build(data, tables)
             return
+        for key in added & self._groups.keys():
+            self._open(key)
         for key, element in self._inputs.items():
             if key != typing and (element.value or "") != values.get(key, ""):
                 self._fill(element, self._fields[key], values.get(key, ""))
