@@ -34,6 +34,7 @@ from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
 from wearsim.cli.synthesise import synthesise
+from wearsim.cli.ui import ui
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -44,6 +45,7 @@ How long will this sprocket live?
   wearsim life drive.toml            the life in hours
   wearsim compare drive.toml other.toml --out reports/first
   wearsim report drive.toml --out reports/page      pages for a browser
+  wearsim ui drive.toml              a local page: edit it, see the life change
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
 
@@ -70,6 +72,7 @@ for _command in (
     animate,
     compare,
     report,
+    ui,
     maintain,
     remaining,
     strength,
