@@ -30,7 +30,9 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     Only this machine reaches it, and nothing is fetched from elsewhere. --set changes what the page
     begins with, not the file. Ctrl-C stops it. The page needs wearsim[ui].
     """
-    _check_installed()
+    from wearsim.extras import check_installed
+
+    check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
     opened = _Opened(case, settings)
     opened()
     from wearsim.ui.listener import loopback_socket
@@ -89,13 +91,3 @@ def _cases_to_warm() -> tuple[str, ...]:
     for key, least in (("mechanism.phases", "1"), ("sprocket.nodes", "51")):
         wrap = with_value(wrap, key, least)
     return new_case("16B-1", 20, "strand"), wrap
-
-
-def _check_installed() -> None:
-    """Raise before anything is read where the libraries of the page are missing."""
-    from importlib.util import find_spec
-
-    if any(find_spec(name) is None for name in ("nicegui", "plotly", "jinja2")):
-        raise OutputError(
-            "ui: the page needs nicegui, plotly and jinja2: pip install 'wearsim[ui]'"
-        )
