@@ -11,7 +11,25 @@ from typing import Any
 from wearsim.case.messages import Faults
 from wearsim.errors import CaseError, Fault
 
-Source = str | Path | Mapping[str, Any]
+
+@dataclass(frozen=True)
+class CaseText:
+    """What an input file is to hold, before it is written.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Place of the file, there or not: it names the case, and paths in it are relative to its
+        folder.
+    text : str
+        All of it.
+    """
+
+    path: Path
+    text: str
+
+
+Source = str | Path | CaseText | Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -37,13 +55,13 @@ class Document:
 
 
 def read_document(source: Source, overrides: Sequence[str]) -> Document:
-    """Read a TOML file, or take a mapping with the same tables.
+    """Read a TOML file, or take its text or a mapping with the same tables.
 
     Parameters
     ----------
-    source : path or mapping
-        A TOML file, or its tables as dictionaries (paths in it are then relative to the
-        working directory).
+    source : path, CaseText or mapping
+        A TOML file, its text, or its tables as dictionaries (paths in it are then relative to
+        the working directory).
     overrides : sequence of str
         ``table.key=VALUE``; VALUE is TOML, else a string.
 
@@ -61,26 +79,30 @@ def read_document(source: Source, overrides: Sequence[str]) -> Document:
         file, name, text, folder = "case", "case", "", Path()
         data = copy.deepcopy(dict(source))
     else:
-        path = Path(source)
+        path = source.path if isinstance(source, CaseText) else Path(source)
         file, name, folder = str(path), path.stem, path.parent
-        text, data = _read(path)
+        text = source.text if isinstance(source, CaseText) else _read(path)
+        data = _parsed(path, text)
     faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
     for item in overrides:
         _override(data, item)
     return Document(name, folder, data, faults)
 
 
-def _read(path: Path) -> tuple[str, dict[str, Any]]:
+def _read(path: Path) -> str:
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise CaseError(
             [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
         ) from None
     except UnicodeDecodeError:
         raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
+
+
+def _parsed(path: Path, text: str) -> dict[str, Any]:
     try:
-        return text, tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place.group(1)) if place else text.count("\n") + 1

@@ -23,13 +23,13 @@ _STAND_INS: dict[str, Any] = {
 
 
 def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
-    """Return the case of an input file or of a mapping with the same tables.
+    """Return the case of an input file, of its text or of a mapping with the same tables.
 
     Parameters
     ----------
-    source : path or mapping
-        A TOML file, or its tables as dictionaries (paths in it are then relative to the
-        working directory).
+    source : path, CaseText or mapping
+        A TOML file, its text, or its tables as dictionaries (paths in it are then relative to
+        the working directory).
     overrides : sequence of str
         ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
 

@@ -38,19 +38,39 @@ def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
 
     if str(out) != "-":
         check_free(out, force)
+    text = new_case(chain, teeth, kind)
+    if str(out) == "-":
+        click.echo(text, nl=False)
+    else:
+        write_file(out, text, force)
+
+
+def new_case(chain: str, teeth: int, kind: str) -> str:
+    """Return the text of a working case.
+
+    Parameters
+    ----------
+    chain : str
+        Designation.
+    teeth : int
+        Of the sprocket.
+    kind : str
+        ``strand`` or ``wrap``.
+
+    Returns
+    -------
+    str
+        TOML with every key explained.
+    """
     case = _seed(chain, teeth, kind)
     # A chain speed of 1 m/s and a tenth of what the chain's strength allows.
     pitch, tensile = _size(case)
     speed = float(f"{60_000.0 / (pitch * teeth):.2g}")
     power = float(f"{tensile / 10.0 * pitch * teeth * speed / 6e7:.2g}")
     template = Path(__file__).with_name("templates") / f"{kind}.toml"
-    text = template.read_text(encoding="utf-8").format(
+    return template.read_text(encoding="utf-8").format(
         teeth=teeth, power=power, speed=speed, **_values(case)
     )
-    if str(out) == "-":
-        click.echo(text, nl=False)
-    else:
-        write_file(out, text, force)
 
 
 def _seed(chain: str, teeth: int, kind: str) -> "Case":

@@ -36,6 +36,7 @@ from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
 from wearsim.cli.sweep import sweep
 from wearsim.cli.synthesise import synthesise
+from wearsim.cli.ui import ui
 from wearsim.cli.uncertainty import uncertainty
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
@@ -47,8 +48,10 @@ How long will this sprocket live?
   wearsim life drive.toml            the life in hours
   wearsim compare drive.toml other.toml --out reports/first
   wearsim report drive.toml --out reports/page      pages for a browser
+  wearsim ui drive.toml              a local page: edit it, see the life change
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
+  wearsim uncertainty drive.toml     what 9 of 10, half, 1 of 10 drives exceed
 
 \b
 Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
@@ -73,16 +76,17 @@ for _command in (
     animate,
     compare,
     report,
+    ui,
     maintain,
     remaining,
-    strength,
-    sensitivity,
-    stiffness_spectrum,
+    sweep,
     uncertainty,
+    sensitivity,
+    strength,
+    stiffness_spectrum,
     wave_drive,
     face_load,
     convex_concave,
-    sweep,
     synthesise,
     hertz_check,
     init,

@@ -1,0 +1,72 @@
+"""``wearsim ui``: what is refused before a page is served; tests/browser has the rest."""
+
+import importlib.util
+import socket
+
+import pytest
+
+from wearsim.ui import listener
+
+FOUND = importlib.util.find_spec("click")
+
+
+@pytest.fixture
+def installed(monkeypatch):
+    """Pretend that the extra is installed, and fail where it would be loaded."""
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: FOUND)
+    monkeypatch.setattr(listener, "loopback_socket", lambda port: pytest.fail("served"))
+
+
+@pytest.mark.parametrize("missing", ["nicegui", "plotly", "jinja2"])
+def test_missing_extra(cli, monkeypatch, drive, missing):
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: None if name == missing else FOUND
+    )
+    done = cli("ui", drive())
+    assert (done.code, done.out) == (2, "")
+    assert "pip install 'wearsim[ui]'" in done.err and missing in done.err
+
+
+def test_file_that_is_not_there(cli, installed, tmp_path):
+    done = cli("ui", tmp_path / "none.toml")
+    assert done.code == 2
+    assert "none.toml: must be a readable file" in done.err
+
+
+@pytest.mark.parametrize("setting", ["power", "=3", "load..x=3"])
+def test_setting_of_no_key(cli, installed, drive, setting):
+    done = cli("ui", drive(), "--set", setting)
+    assert done.code == 2
+    assert f"--set {setting}: must have the form table.key=VALUE" in done.err
+
+
+def test_setting_of_what_is_no_toml(cli, installed, tmp_path):
+    (tmp_path / "a.toml").write_text("[")
+    done = cli("ui", tmp_path / "a.toml", "--set", "load.power_kW=3")
+    assert done.code == 2 and "must be TOML" in done.err
+
+
+def test_port_that_is_taken(cli, monkeypatch, drive):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: FOUND)
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        done = cli("ui", drive(), "--port", port)
+    assert (done.code, done.out) == (2, "")
+    assert f"--port {port}: must be free" in done.err
+
+
+@pytest.mark.parametrize("port", ["-1", "65536", "x"])
+def test_port_that_is_none(cli, port):
+    assert cli("ui", "--port", port).code == 2
+
+
+def test_there_is_no_other_address(cli):
+    assert "--host" not in cli("ui", "--help").out
+    assert cli("ui", "--host", "192.0.2.1").code == 2
+
+
+def test_help_names_the_extra(cli):
+    done = cli("ui", "--help")
+    assert done.code == 0 and "wearsim[ui]" in done.out

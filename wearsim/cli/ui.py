@@ -1,0 +1,93 @@
+"""``wearsim ui``: a local page to try designs."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.cli.complete import CasePath
+from wearsim.cli.standard import overrides, standard, warn
+from wearsim.errors import OutputError
+
+if TYPE_CHECKING:
+    from wearsim.ui.file import CaseFile
+
+_NEW = Path("drive.toml")
+
+
+@click.command(short_help="A local page to try designs: edit a case, see tooth and life change.")
+@click.argument("case", required=False, type=CasePath(path_type=Path), metavar="[CASE]")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), default=0, metavar="N",
+    help="Port on 127.0.0.1; without it any free one.",
+)  # fmt: skip
+@click.option("--no-browser", is_flag=True, help="Open no browser, only print the address.")
+@overrides
+@standard
+def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]) -> None:
+    """Serve a page on which CASE (.toml), or a new case, is edited while its life follows.
+
+    Only this machine reaches it, and nothing is fetched from elsewhere. --set changes what the page
+    begins with, not the file. Ctrl-C stops it. The page needs wearsim[ui].
+    """
+    from wearsim.extras import check_installed
+
+    check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
+    opened = _Opened(case, settings)
+    opened()
+    from wearsim.ui.listener import loopback_socket
+
+    listener = loopback_socket(port)
+    from wearsim.ui.server import serve  # takes a second
+
+    address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+    click.echo(address)
+    warn("Ctrl-C stops it")
+    if not no_browser:
+        import threading
+        import webbrowser
+
+        # A browser in the terminal keeps its caller waiting.
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    serve(opened, listener, _cases_to_warm())
+
+
+class _Opened:
+    """What a new page begins with: what is in the file by then, or a new case."""
+
+    def __init__(self, path: Path | None, settings: tuple[str, ...]) -> None:
+        self._path, self._settings = path, settings
+
+    def __call__(self) -> "tuple[CaseFile, str]":
+        from wearsim.cli.init import new_case
+        from wearsim.ui.file import new_file, read_file
+
+        if self._path is None:
+            file, text = new_file(_NEW), new_case("16B-1", 20, "strand")
+        else:
+            file = read_file(self._path)
+            text = file.text
+        for setting in self._settings:
+            text = _with_setting(text, setting)
+        return file, text
+
+
+def _with_setting(text: str, setting: str) -> str:
+    from wearsim.ui.source import tables_of, with_value
+
+    key, equals, typed = setting.partition("=")
+    if not equals or not all(key.strip().split(".")):
+        raise OutputError(f"--set {setting}: must have the form table.key=VALUE")
+    if tables_of(text) is None:
+        raise OutputError(f"--set {setting}: the case must be TOML for that: mend it first")
+    return with_value(text, key.strip(), typed)
+
+
+def _cases_to_warm() -> tuple[str, ...]:
+    from wearsim.cli.init import new_case
+    from wearsim.ui.source import with_value
+
+    wrap = new_case("08B-1", 19, "wrap")
+    for key, least in (("mechanism.phases", "1"), ("sprocket.nodes", "51")):
+        wrap = with_value(wrap, key, least)
+    return new_case("16B-1", 20, "strand"), wrap
