@@ -2,8 +2,11 @@
 
 import csv
 import json
+from pathlib import Path
 
 import pytest
+
+STUDIES = sorted((Path(__file__).parents[2] / "cases" / "studies").glob("*.toml"))
 
 STUDY = """\
 format_version = 1
@@ -166,3 +169,16 @@ def test_interrupt_says_how_to_go_on(cli, sweep, monkeypatch):
     done = cli("sweep", sweep(GRID))
     assert done.code == 130
     assert "interrupted: nothing is kept without --out" in done.err
+
+
+def test_ends_and_spacing_of_a_range(cli, sweep):
+    text = '[grid]\n"load.power_kW" = {from = 2.0, to = 8.0, count = 3, spacing = "linear"}\n'
+    _, found = lives(cli, sweep(text))
+    assert [inputs["load.power_kW"] for inputs, _ in found] == [2.0, 5.0, 8.0]
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+def test_shipped_studies(cli, path):
+    done = cli("sweep", path, "--dry-run")
+    assert done.code == 0
+    assert done.out.startswith("cases        ")
