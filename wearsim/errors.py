@@ -23,6 +23,10 @@ class ConvergenceError(WearsimError, RuntimeError):
     """A calculation that would report a wrong life if it went on."""
 
 
+class StudyError(WearsimError, RuntimeError):
+    """A study that cannot go on: no workers, or workers of another engine."""
+
+
 class OutputError(WearsimError, OSError):
     """A place that results cannot be written to or read from."""
 

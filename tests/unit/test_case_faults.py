@@ -95,7 +95,7 @@ def test_all_faults_of_all_tables_in_the_order_of_their_lines(faults):
         ("speed_rpm = 100", "speed_rp = 100"),
         ("hardened, oiled", "hardened, oild"),
     )
-    text += '[stop]\nmin_tip_land_mm = "x"\n[run]\nmethod = "advanced"\n[uncertain]\na = 1\n'
+    text += '[stop]\nmin_tip_land_mm = "x"\n[run]\nmethod = "advanced"\n[unheard]\na = 1\n'
     assert [line.partition(": ")[0::2] for line in faults(text)] == [
         ("drive.toml:5", "sprocket.pitch_mm: unknown key; did you mean 'chain.pitch_mm'?"),
         ("drive.toml:6", "sprocket.profil: unknown key; did you mean 'profile'?"),
@@ -116,7 +116,7 @@ def test_all_faults_of_all_tables_in_the_order_of_their_lines(faults):
             "run.method: must be 'advance' or 'per_cycle' (got 'advanced'); "
             "did you mean 'advance'?",
         ),
-        ("drive.toml:18", "uncertain: unknown table"),
+        ("drive.toml:18", "unheard: unknown table"),
         ("drive.toml", "format_version: this key is required and missing"),
     ]
 

@@ -25,6 +25,7 @@ WITHOUT_EFFECT = {
     "service.tonnes_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.start_date": "only how hours are shown (tests/cli/test_cli_maintain.py)",
+    "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
     "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
 }
 

@@ -87,6 +87,7 @@ def edit(path, old, new):
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_edited_helper_changes_the_answer_and_cold_starts_share_the_cache(package, tmp_path):
     """Twice the depth per cycle is half the life; numba inlines a small helper into its caller."""
     kernels, cache = package / "wearsim" / "kernels", str(tmp_path / "cache")

@@ -15,7 +15,12 @@ import wearsim
 from wearsim.case.schema.gear import GearTables
 from wearsim.simulation.many import CaseLife
 
-WITHOUT_EFFECT = {"format_version": "1 only", "title": "only shown", "mechanism.kind": "one value"}
+WITHOUT_EFFECT = {
+    "format_version": "1 only",
+    "title": "only shown",
+    "mechanism.kind": "one value",
+    "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+}
 
 GEARS: dict[str, Any] = {
     "format_version": 1,

@@ -15,6 +15,7 @@ from wearsim.case.load import load_case
 from wearsim.case.messages import Faults
 from wearsim.case.schema import CaseTables
 from wearsim.case.schema.calculations import CALCULATIONS, OTHER_FILES
+from wearsim.case.schema.uncertainty import Distribution
 from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import rows
 from wearsim.cli.main import wearsim_command
@@ -22,10 +23,14 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
+from wearsim.report.sensitivity import Answer, sensitivity_table
 from wearsim.report.wheel_points import wheel_points
 from wearsim.report.wheel_shapes import wheel_shapes
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.simulation.loads import tooth_loads
+from wearsim.study.runner.shard import COLUMNS
+from wearsim.study.scatter import Scatter
+from wearsim.study.sensitivity import Effect
 
 CASE = {
     "format_version": 1,
@@ -71,7 +76,7 @@ def input_keys(model):
         for table in tables:
             yield from input_keys(table)
         if not tables:
-            yield name
+            yield field.alias or name
 
 
 def all_input_keys():
@@ -132,6 +137,15 @@ def wrapped():
     yield from result.summary()["limits"][0]
 
 
+def study_columns():
+    """Columns of the tables of studies."""
+    scatter = Scatter("load.tension_N", Distribution(distribution="lognormal", sigma_ln=1), 1.0, "")
+    effect = Effect(scatter, *[1.0] * 9)
+    answer = Answer(None, 1.0, [effect], {scatter.key: 1.0}, ())
+    yield from (*COLUMNS, *sensitivity_table(answer))
+    yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """Every column and key that goes out."""
@@ -152,6 +166,7 @@ def written(tmp_path_factory):
         *("cost_per_1000_h", "classes", "same_link_kind"),
         *HERTZ_CHECK_FEM,
         *catalogue_columns(),
+        *study_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
         *(
             name

@@ -1,6 +1,7 @@
 """The working flank of a sprocket, completed: an evolute one, or one through points."""
 
 import math
+from functools import lru_cache
 
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
@@ -63,22 +64,40 @@ def evolute_tooth(
         if offset is None:
             return None
     strand = Strand(centrode, radius, offset)
-    limits = evolute_limits(strand, end, start, chain.pitch)
+    limits, tooth, thin = _feasible(
+        strand, (end, start), nodes, table.teeth, _relief(table, chain), chain.pitch
+    )
     for name, message in limits:
         help_out = offset >= centrode and name == "evolute_offset"
         advice = _remedy(table, chain, (end, start)) if help_out else ""
         case.faults.add(f"sprocket.{name}_mm", f"{message}{advice}")
-    if limits:
-        return None
-    flank = evolute_flank(strand, end, start, nodes).profile
-    tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
-    try:
-        thin = tooth_limits(tooth, chain.pitch)
-    except GeometryError as error:
-        thin = [str(error)]
     for message in thin:
         case.faults.add("sprocket.teeth", f"{message}{_remedy(table, chain, (end, start))}")
-    return None if thin else (tooth, end, start)
+    return None if tooth is None or thin else (tooth, end, start)
+
+
+@lru_cache(maxsize=32)
+def _feasible(
+    strand: Strand,
+    contact: tuple[float, float],
+    nodes: int,
+    teeth: int,
+    relief: float,
+    pitch: float,
+) -> tuple[list[tuple[str, str]], Tooth | None, list[str]]:
+    """Limits of the flank that fail, the tooth around it, and limits of the tooth that fail.
+
+    Cases of a study share their tooth, which takes longer to check than all the rest of a case.
+    """
+    limits = evolute_limits(strand, *contact, pitch)
+    if limits:
+        return limits, None, []
+    flank = evolute_flank(strand, *contact, nodes).profile
+    tooth = Tooth(strand, flank, teeth, relief)
+    try:
+        return [], tooth, tooth_limits(tooth, pitch)
+    except GeometryError as error:
+        return [], tooth, [str(error)]
 
 
 def _default_offset(

@@ -3,7 +3,7 @@
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import CaseTables
 
-_ON_WRAP = ("iso606", "ansi_b29", "gost591", "dxf")
+WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
 """Tooth forms for a chain that wraps the sprocket."""
 
 _BELONGS_TO = {
@@ -42,9 +42,9 @@ def mechanism_kind(case: Resolution) -> str:
     profile = tables.sprocket.profile if tables.sprocket else ""
     kind = tables.mechanism.kind
     if kind is None:
-        kind = "wrap" if profile in _ON_WRAP else "strand"
+        kind = "wrap" if profile in WRAP_PROFILES else "strand"
         case.take("mechanism.kind", kind, "default for this profile")
-    if kind == "strand" and profile in _ON_WRAP:
+    if kind == "strand" and profile in WRAP_PROFILES:
         case.faults.add(
             "sprocket.profile",
             f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "

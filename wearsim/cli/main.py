@@ -30,11 +30,14 @@ from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
+from wearsim.cli.sensitivity import sensitivity
 from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
 from wearsim.cli.stiffness_spectrum import stiffness_spectrum
 from wearsim.cli.strength import strength
+from wearsim.cli.sweep import sweep
 from wearsim.cli.synthesise import synthesise
 from wearsim.cli.ui import ui
+from wearsim.cli.uncertainty import uncertainty
 from wearsim.cli.wave_drive import wave_drive
 from wearsim.errors import WearsimError
 
@@ -48,6 +51,7 @@ How long will this sprocket live?
   wearsim ui drive.toml              a local page: edit it, see the life change
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
+  wearsim uncertainty drive.toml     what 9 of 10, half, 1 of 10 drives exceed
 
 \b
 Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
@@ -75,6 +79,9 @@ for _command in (
     ui,
     maintain,
     remaining,
+    sweep,
+    uncertainty,
+    sensitivity,
     strength,
     stiffness_spectrum,
     wave_drive,

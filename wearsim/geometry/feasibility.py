@@ -1,6 +1,7 @@
 """Can this flank exist and run: the limits of physics and the values that satisfy them."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -37,6 +38,7 @@ def exit_cut(strand: Strand, contact_end: float, contact_start: float) -> float:
     return cut_depth(points, path, strand.roller_radius)
 
 
+@lru_cache(maxsize=32)
 def smallest_offset(
     centrode_radius: float, roller_radius: float, contact_end: float, contact_start: float
 ) -> float:

@@ -61,7 +61,7 @@ def cut_depth(points: Vector, path: shapely.Geometry, roller_radius: float) -> f
         Greatest depth [mm]; negative where there is clearance all along.
     """
     shapely.prepare(path)
-    return roller_radius - float(shapely.distance(shapely.points(points), path).min())
+    return roller_radius - float(shapely.distance(shapely.multipoints(points), path))
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """Figures of worn flanks; matplotlib without pyplot, so nothing is global."""
 
+import io
 import math
 import textwrap
 from collections.abc import Container
@@ -56,9 +57,30 @@ def save_figure(figure: Figure, folder: Path, name: str) -> None:
     name : str
         File stem.
     """
+    for kind in ("png", "svg"):
+        (folder / f"{name}.{kind}").write_bytes(picture_bytes(figure, kind))
+
+
+def picture_bytes(figure: Figure, kind: str) -> bytes:
+    """Return a figure as the content of a file, the same bytes for the same figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    kind : str
+        ``png`` or ``svg``.
+
+    Returns
+    -------
+    bytes
+        All of the file.
+    """
+    target = io.BytesIO()
+    metadata = {"Date": None} if kind == "svg" else None
     with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
-        figure.savefig(folder / f"{name}.png", dpi=150)
-        figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
+        figure.savefig(target, format=kind, dpi=150, metadata=metadata)
+    return target.getvalue()
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:

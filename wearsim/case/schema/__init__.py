@@ -17,6 +17,7 @@ from wearsim.case.schema.service import ServiceTable
 from wearsim.case.schema.sprocket import SprocketTable
 from wearsim.case.schema.stop import StopTable
 from wearsim.case.schema.table import Table
+from wearsim.case.schema.uncertainty import Uncertainty
 from wearsim.case.schema.wear import WearTable
 
 __all__ = [
@@ -58,3 +59,4 @@ class CaseTables(Table):
     run: RunTable = RunTable()
     maintenance: MaintenanceTable | None = None
     service: ServiceTable | None = None
+    uncertainty: Uncertainty | None = None

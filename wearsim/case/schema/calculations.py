@@ -7,6 +7,7 @@ from wearsim.case.schema.gear import GearTables
 from wearsim.case.schema.hertz_check import HertzCheckTables
 from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
 from wearsim.case.schema.strength import StrengthTables
+from wearsim.case.schema.sweep import SweepTables
 from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.case.schema.wave_drive import WaveDriveTables
 
@@ -21,4 +22,8 @@ CALCULATIONS: dict[str, type[CalculationTables]] = {
 }
 """By the command that reads them."""
 
-OTHER_FILES: dict[str, type[CalculationTables]] = {"gear": GearTables, **CALCULATIONS}
+OTHER_FILES: dict[str, type[CalculationTables]] = {
+    "gear": GearTables,
+    "sweep": SweepTables,
+    **CALCULATIONS,
+}

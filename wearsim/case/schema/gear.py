@@ -11,6 +11,7 @@ from wearsim.case.schema.run import RunTable
 from wearsim.case.schema.stop import Depth
 from wearsim.case.schema.synthesis import stress_conflicts
 from wearsim.case.schema.table import Table
+from wearsim.case.schema.uncertainty import Uncertainty
 from wearsim.case.schema.wear import WearTable
 from wearsim.case.units import Number, Positive, PositiveNumber, Series, Signed
 
@@ -165,3 +166,4 @@ class GearTables(CalculationTables):
     fatigue: GearFatigueTable | None = None
     stop: GearStopTable
     run: RunTable = RunTable()
+    uncertainty: Uncertainty | None = None

@@ -1,0 +1,184 @@
+"""``wearsim sweep``: lives over values of any keys."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+STUDIES = sorted((Path(__file__).parents[2] / "cases" / "studies").glob("*.toml"))
+
+STUDY = """\
+format_version = 1
+title = "Test sweep"
+case = "drive.toml"
+"""
+GRID = """\
+[grid]
+"sprocket.teeth" = [20, 25]
+"load.power_kW" = {from = 2.0, to = 8.0, count = 3, spacing = "log"}
+"""
+
+
+@pytest.fixture
+def sweep(drive, tmp_path):
+    """Function that writes the file of a sweep of the test drive and returns its path."""
+    drive()
+
+    def write(text, head=STUDY):
+        path = tmp_path / "study.toml"
+        path.write_text(head + text)
+        return path
+
+    return write
+
+
+def lives(cli, path, *options):
+    done = cli("sweep", path, "--json", *options)
+    rows = [json.loads(line) for line in done.out.splitlines()]
+    return done, [(row["inputs"], row["life_hours"]) for row in rows]
+
+
+def test_every_combination_of_a_grid(cli, sweep, drive):
+    done, found = lives(cli, sweep(GRID))
+    assert done.code == 0
+    assert [inputs["sprocket.teeth"] for inputs, _ in found] == [20, 20, 20, 25, 25, 25]
+    assert [inputs["load.power_kW"] for inputs, _ in found[:3]] == pytest.approx([2, 4, 8])
+    single = cli(
+        "life", drive(), "--json", "--set", "sprocket.teeth=25", "--set", "load.power_kW=8"
+    )
+    assert found[-1][1] == json.loads(single.out)["life_hours"]
+    # Wear goes with the load.
+    assert found[0][1] == pytest.approx(4.0 * found[2][1], rel=1e-4)
+
+
+def test_keys_that_go_together_and_designs(cli, sweep):
+    text = "[[zip]]\nsprocket.teeth = [20, 25]\nload.power_kW = [3.0, 4.0]\n"
+    text += "[[design]]\nsprocket.nodes = 51\n[[design]]\nsprocket.nodes = 101\n"
+    _, found = lives(cli, sweep(text))
+    rows = [tuple(inputs.values()) for inputs, _ in found]
+    assert rows == [(20, 3.0, 51), (20, 3.0, 101), (25, 4.0, 51), (25, 4.0, 101)]
+
+
+def test_setting_of_the_case(cli, sweep):
+    _, found = lives(cli, sweep(GRID))
+    _, deeper = lives(cli, sweep(GRID), "--set", "stop.critical_depth_mm=0.01")
+    assert all(less < more for (_, less), (_, more) in zip(deeper, found, strict=True))
+
+
+def test_table_on_stdout_and_failures(cli, sweep):
+    done = cli("sweep", sweep('[grid]\n"sprocket.teeth" = [20, 5]\n'))
+    assert done.code == 5
+    head, _, good, bad = done.out.splitlines()
+    assert head == "| sprocket.teeth | life, h | ended by |"
+    assert good.startswith("| 20 | ")
+    assert good.endswith(" | critical_depth_mm |")
+    assert bad.startswith("| 5 | failed: sprocket.")
+    assert "1 of 2 cases failed, first case 1" in done.err
+    done = cli("sweep", sweep('[grid]\n"sprocket.teeth" = [4, 5]\n'))
+    assert done.code == 3
+    assert "2 of 2 cases failed" in done.err
+
+
+def test_limit_that_is_not_reached(cli, sweep):
+    done = cli("sweep", sweep(GRID), "--set", "run.horizon_hours=5")
+    assert done.out.count("> 5 (limit not reached)") == 6
+
+
+def test_plan_without_a_run(cli, sweep, tmp_path):
+    done = cli("sweep", sweep(GRID), "--dry-run")
+    assert done.code == 0
+    assert "cases        6, of which 6 are to be run" in done.out
+    assert " s in one thread, from 4 cases" in done.out
+    assert "files" not in done.out
+
+
+def test_folder_and_going_on(cli, sweep, tmp_path):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    out = tmp_path / "out"
+    first = cli("sweep", sweep(GRID), "--out", out)
+    assert first.code == 0
+    names = {
+        f"{name}.{kind}" for name in ("curves", "heat_map", "parallel") for kind in ("png", "svg")
+    }
+    assert {path.name for path in out.iterdir()} == {
+        *names, "cases.csv", "summary.md", "study.json", "shards",
+    }  # fmt: skip
+    with (out / "cases.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["sprocket.teeth"] for row in rows] == ["20"] * 3 + ["25"] * 3
+    before = (out / "cases.csv").read_bytes()
+    assert cli("sweep", sweep(GRID), "--out", out).out == first.out
+    assert (out / "cases.csv").read_bytes() == before
+    planned = cli("sweep", sweep(GRID), "--out", out, "--dry-run")
+    assert "cases        6, of which 0 are to be run" in planned.out
+    other = sweep(GRID.replace("8.0", "9.0"))
+    assert cli("sweep", other, "--out", out).code == 2
+    assert cli("sweep", other, "--out", out, "--force").code == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "a sweep needs values for a key"),
+        ('[grid]\n"sprocket.tooth" = [3]\n', "must be a key of a case; did you mean 'sprocket.teeth'"),
+        ('[grid]\n"sprocket.teeth" = []\n', "at least 1 item"),
+        ('[grid]\n"a.b" = {from = 1.0, to = 2.0, count = 1}\n', "greater than or equal to 2"),
+        ('[grid]\n"a.b" = {from = 0.0, to = 2.0, count = 3, spacing = "log"}\n', "both ends above 0"),
+        ('[grid]\n"a.b" = {from = inf, to = 2.0, count = 3}\n', "finite number"),
+        ('[[zip]]\n"a.b" = [1, 2]\n"a.c" = [1]\n', "need as many values: a.b 2, a.c 1"),
+        ('[grid]\n"a.b" = [1]\n[[zip]]\n"a.b" = [1]\n', "a.b stands in two places"),
+        ('[[design]]\n"a.b" = 1\n[[design]]\n"a.c" = 1\n', "every [[design]] must give the same keys"),
+    ],
+)  # fmt: skip
+def test_bad_studies(cli, sweep, text, message):
+    done = cli("sweep", sweep(text))
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
+
+
+def test_case_that_is_not_there(cli, sweep):
+    done = cli("sweep", sweep(GRID, STUDY.replace("drive", "other")))
+    assert done.code == 2
+    assert "other.toml: must be a readable file" in done.err
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--threads", 2, "--jobs", 2), "--jobs and --threads do not go together"),
+        (("--tls-key", "study.toml"), "the --tls options need --scheduler"),
+        (("--scheduler", "tcp://x", "--scheduler-file", "study.toml"), "do not go together"),
+    ],
+)
+def test_options_that_do_not_go_together(cli, sweep, monkeypatch, tmp_path, options, message):
+    path = sweep(GRID)
+    monkeypatch.chdir(tmp_path)
+    done = cli("sweep", path, *options)
+    assert done.code == 2
+    assert message in done.err
+
+
+def test_interrupt_says_how_to_go_on(cli, sweep, monkeypatch):
+    from wearsim.study.runner import run
+
+    def interrupted(shard):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run, "_run", lambda waiting, workers: interrupted(waiting))
+    done = cli("sweep", sweep(GRID))
+    assert done.code == 130
+    assert "interrupted: nothing is kept without --out" in done.err
+
+
+def test_ends_and_spacing_of_a_range(cli, sweep):
+    text = '[grid]\n"load.power_kW" = {from = 2.0, to = 8.0, count = 3, spacing = "linear"}\n'
+    _, found = lives(cli, sweep(text))
+    assert [inputs["load.power_kW"] for inputs, _ in found] == [2.0, 5.0, 8.0]
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+def test_shipped_studies(cli, path):
+    done = cli("sweep", path, "--dry-run")
+    assert done.code == 0
+    assert done.out.startswith("cases        ")

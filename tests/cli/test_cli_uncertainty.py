@@ -1,0 +1,183 @@
+"""``wearsim uncertainty``: P10, P50 and P90 of a life whose inputs scatter."""
+
+import json
+import math
+import re
+
+import pytest
+
+SCATTER = """\
+[uncertainty]
+"wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = %s}
+"""
+Z10 = 1.2815516
+
+
+@pytest.fixture
+def case(drive):
+    """Function that writes the test drive with a tension and more tables."""
+
+    def write(more="", name="drive"):
+        path = drive(name)
+        text = path.read_text().replace("power_kW = 3\n", "tension_N = 3000.0\n")
+        path.write_text(text + more)
+        return path
+
+    return write
+
+
+def answer(cli, *arguments):
+    done = cli("uncertainty", *arguments, "--json")
+    return done, json.loads(done.out)
+
+
+@pytest.mark.parametrize("sigma", [0.3, 0.7])
+@pytest.mark.parametrize("method", ["sobol", "lhs", "random"])
+def test_closed_form_where_only_the_coefficient_scatters(cli, case, sigma, method):
+    path = case(SCATTER % sigma)
+    done, found = answer(cli, path, "--method", method, "--samples", 512, "--seed", 3)
+    assert done.code == 0
+    middle = json.loads(cli("life", path, "--json").out)["life_hours"]
+    for name, exact in (("p10", -Z10), ("p50", 0.0), ("p90", Z10)):
+        hours = middle * math.exp(exact * sigma)
+        assert found[f"{name}_hours_low"] < hours < found[f"{name}_hours_high"]
+        near = 0.2 if method == "random" else 0.01
+        assert found[f"{name}_hours"] == pytest.approx(hours, rel=near)
+    assert (found["samples"], found["method"], found["failed"]) == (512, method, 0)
+    fit = found["fits"][0]
+    assert fit["name"] == "lognormal"
+    assert fit["shape"] == pytest.approx(sigma, rel=0.1 if method == "random" else 0.01)
+
+
+def test_independent_scatters_add_in_squares(cli, case):
+    """On a strand the wear goes with coefficient and tension: ln L is a sum."""
+    more = SCATTER % 0.4 + '"load.tension_N" = {distribution = "lognormal", sigma_ln = 0.3}\n'
+    _, found = answer(cli, case(more), "--samples", 512)
+    ratio = found["p10_hours"] / found["p50_hours"]
+    assert ratio == pytest.approx(math.exp(-Z10 * 0.5), rel=0.01)
+
+
+def test_published_scatter_is_the_default(cli, case):
+    _, found = answer(cli, case(), "--samples", 256)
+    (inputs,) = found["inputs"].values()
+    assert inputs == {"distribution": "lognormal", "sigma_ln": 0.5}
+    assert found["p10_hours"] / found["p50_hours"] == pytest.approx(math.exp(-0.5 * Z10), rel=0.02)
+    assert any("sigma_ln = 0.5, the scatter of published" in text for text in found["assumptions"])
+
+
+def test_text_tells_the_same(cli, case):
+    path = case(SCATTER % 0.5)
+    _, found = answer(cli, path, "--samples", 64)
+    text = cli("uncertainty", path, "--samples", 64).out
+    for share in (10, 50, 90):
+        (shown,) = re.findall(rf"^P{share} +([\d\s.]+?) h", text, flags=re.MULTILINE)
+        hours = float(re.sub(r"\s", "", shown))
+        assert hours == pytest.approx(found[f"p{share}_hours"], rel=1e-3)
+    assert "64, scrambled Sobol' points, seed 1" in text
+
+
+def test_seed(cli, case):
+    path = case(SCATTER % 0.5)
+    hours = [
+        answer(cli, path, "--seed", seed, "--samples", 64)[1]["p10_hours"] for seed in (1, 1, 2)
+    ]
+    assert hours[0] == hours[1] != hours[2]
+
+
+def test_beyond_the_horizon_only_a_bound_is_known(cli, case):
+    path = case(SCATTER % 0.5)
+    middle = json.loads(cli("life", path, "--json").out)["life_hours"]
+    _, found = answer(cli, path, "--samples", 64, "--set", f"run.horizon_hours={middle * 1.2!r}")
+    assert found["p50_hours"] is not None
+    assert found["p90_hours"] is None
+    assert found["p90_hours_at_least"] == pytest.approx(middle * 1.2)
+    assert any("beyond run.horizon_hours are only bounds" in text for text in found["warnings"])
+    text = cli(
+        "uncertainty", path, "--samples", 64, "--set", f"run.horizon_hours={middle * 1.2!r}"
+    ).out
+    assert re.search(r"^P90 +> ", text, flags=re.MULTILINE)
+
+
+def test_required_hours_are_those_of_p10(cli, case):
+    path = case(SCATTER % 0.5)
+    _, found = answer(cli, path, "--samples", 64)
+    p10 = found["p10_hours"]
+    assert cli("uncertainty", path, "--samples", 64, "--require-hours", 0.99 * p10).code == 0
+    done = cli("uncertainty", path, "--samples", 64, "--require-hours", 1.01 * p10)
+    assert done.code == 4
+    assert "is below" in done.err
+
+
+def test_samples_that_cannot_run_are_counted(cli, case):
+    more = "[uncertainty]\nsprocket.evolute_offset_mm = "
+    more += '{distribution = "uniform", low = 4.0, high = 7.0}\n'
+    done, found = answer(cli, case(more), "--samples", 32)
+    assert done.code == 5
+    assert found["failed"] > 0
+    assert found["samples"] + found["failed"] == 32
+    assert any("samples failed and are left out" in text for text in found["warnings"])
+
+
+def test_gears_and_their_law(cli, tmp_path):
+    path = tmp_path / "gears.toml"
+    path.write_text(
+        "format_version = 1\n[gear]\npinion_teeth = 19\nwheel_teeth = 61\nmodule_mm = 3.0\n"
+        "face_width_mm = 30.0\nnodes = 61\n[load]\ntorque_N_m = 100.0\nspeed_rpm = 1450.0\n"
+        "[wear]\nspecific_wear_rate_mm2_per_N = 1e-11\n[stop]\ncritical_depth_mm = 0.02\n"
+        "[run]\nhorizon_hours = 1e6\n[uncertainty]\n"
+        '"gear.face_width_mm" = {distribution = "normal", standard_deviation = 0.1}\n'
+    )
+    _, found = answer(cli, path, "--samples", 8)
+    assert set(found["inputs"]) == {"gear.face_width_mm", "wear.specific_wear_rate_mm2_per_N"}
+    assert found["p10_hours"] < found["p50_hours"] < found["p90_hours"]
+
+
+def test_folder(cli, case, tmp_path):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    path, out = case(SCATTER % 0.5), tmp_path / "out"
+    first = cli("uncertainty", path, "--samples", 64, "--out", out)
+    assert first.code == 0
+    pictures = {f"{name}.{kind}" for name in ("lives", "convergence") for kind in ("png", "svg")}
+    assert {entry.name for entry in out.iterdir()} == {
+        *pictures, "cases.csv", "convergence.csv", "summary.md", "study.json", "shards",
+    }  # fmt: skip
+    assert cli("uncertainty", path, "--samples", 64, "--out", out).out == first.out
+    assert cli("uncertainty", path, "--samples", 65, "--out", out).code == 2
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ('"load.tension_N" = {distribution = "lognormal"}', "lognormal needs this key"),
+        (
+            '"load.tension_N" = {distribution = "uniform", low = 2.0, high = 1.0}',
+            "must be above low",
+        ),
+        (
+            '"load.tension_N" = {distribution = "normal", sigma_ln = 1.0}',
+            "does not belong to normal",
+        ),
+        ('"load.tension_N" = {distribution = "cauchy"}', "must be 'lognormal'"),
+        ('"load.tensions_N" = {distribution = "lognormal", sigma_ln = 1.0}', "is not in the case"),
+        (
+            '"sprocket.teeth" = {distribution = "lognormal", sigma_ln = 1.0}',
+            "number with a fraction",
+        ),
+        ('"sprocket.profile" = {distribution = "lognormal", sigma_ln = 1.0}', "it is 'evolute'"),
+        (
+            '"load.tension_N" = {distribution = "triangular", low = 1.0, high = 2.0}',
+            "mode must lie from 1 to 2",
+        ),
+    ],
+)
+def test_bad_tables(cli, case, table, message):
+    done = cli("uncertainty", case(f"[uncertainty]\n{table}\n"))
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
+    assert "uncertainty" in done.err
+
+
+def test_other_commands_take_the_table(cli, case):
+    plain, more = (cli("life", case(text), "--json") for text in ("", SCATTER % 0.5))
+    assert json.loads(plain.out)["life_hours"] == json.loads(more.out)["life_hours"]
+    assert cli("life", case('[uncertainty]\n"load.tension_N" = 3\n')).code == 2

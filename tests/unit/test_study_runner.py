@@ -1,0 +1,221 @@
+"""The runner of studies: the same numbers wherever they run, and nothing lost."""
+
+import errno
+import os
+from concurrent.futures import Future
+from contextlib import contextmanager
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.case.document import read_document
+from wearsim.errors import CaseError, OutputError, StudyError
+from wearsim.study.runner import design as design_module
+from wearsim.study.runner import run as run_module
+from wearsim.study.runner.design import Engine, content_hash, design, replaced
+from wearsim.study.runner.run import run_study
+from wearsim.study.runner.shard import run_shard, shards
+from wearsim.study.runner.workers import Threads
+
+CASE = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 51},
+    "load": {"tension_N": 3000.0, "speed_rpm": 100},
+    "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+    "stop": {"critical_depth_mm": 0.05},
+}
+
+
+@pytest.fixture
+def cases(monkeypatch):
+    """Ten cases in shards of three; the last one cannot be run."""
+    monkeypatch.setattr(design_module, "MANY", 3)
+    tensions = [*np.linspace(2000.0, 4000.0, 9).tolist(), -1.0]
+    return design(read_document(CASE, []), ["load.tension_N"], [(t,) for t in tensions], "test")
+
+
+def same(first, second):
+    return first.to_csv(index=False) == second.to_csv(index=False)
+
+
+def test_lives_are_those_of_single_runs_to_the_bit(cases):
+    table = run_study(cases, Threads(2))
+    assert table["case_index"].tolist() == list(range(10))
+    for index in (0, 8):
+        case = wearsim.load_case(cases.tables_of(index))
+        assert table["life_hours"][index] == wearsim.simulate(case).life.hours
+    assert table["error"][9].startswith("load.tension_N: must be greater than 0")
+    assert np.isnan(table["life_hours"][9])
+    assert (table["error"][:9] == "").all()
+
+
+def test_neither_order_nor_number_of_workers_matters(cases):
+    table = run_study(cases, Threads(1))
+    assert same(table, run_study(cases, Threads(3)))
+    backwards = [run_shard(shard) for shard in reversed(list(shards(cases)))]
+    hours = [value for rows in reversed(backwards) for value in rows["life_hours"]]
+    assert hours[:9] == table["life_hours"][:9].tolist()
+
+
+def test_bound_where_no_limit_is_met(cases):
+    tables = {**CASE, "run": {"horizon_hours": 10.0}}
+    table = run_study(replace(cases, tables=tables), Threads(1))
+    assert table["life_hours"].isna().all()
+    assert (table["hours_run"][:9] == 10.0).all()
+    assert (table["stop"][:9] == "horizon_hours").all()
+
+
+def test_other_engine_is_refused_with_both_versions(cases):
+    shard = next(shards(cases))
+    with pytest.raises(StudyError, match=r"wearsim .* the study 9\.9 \(abc\)"):
+        run_shard(replace(shard, engine=Engine("9.9", "abc")))
+
+
+class Dying:
+    """Workers of which every other one dies at its shard."""
+
+    losses = (ConnectionError,)
+
+    def __init__(self, most):
+        self.most, self.deaths, self.shards = most, 0, []
+
+    @contextmanager
+    def open(self):
+        yield self, 2
+
+    def submit(self, function, shard):
+        future = Future()
+        if self.deaths < self.most and shard.first % 2:
+            self.deaths += 1
+            future.set_exception(ConnectionError())
+        else:
+            self.shards.append(shard.first)
+            future.set_result(function(shard))
+        return future
+
+
+def test_death_of_workers_loses_and_repeats_nothing(cases):
+    workers = Dying(most=3)
+    assert same(run_study(cases, workers), run_study(cases, Threads(1)))
+    assert workers.deaths == 3
+    assert sorted(workers.shards) == [0, 3, 6, 9]
+
+
+def test_study_ends_when_all_workers_die(cases):
+    with pytest.raises(StudyError, match="workers died 3 times"):
+        run_study(cases, Dying(most=99))
+
+
+def test_key_that_is_none_is_named():
+    with pytest.raises(CaseError, match=r'test: "sprocket.teth": must be a key of a case; did you'):
+        design(read_document(CASE, []), ["sprocket.teth"], [(17,)], "test")
+
+
+def test_key_of_a_list_of_tables():
+    blocks = [{"share_of_time": 0.5, "power_kW": 3.0, "speed_rpm": n} for n in (100, 50)]
+    document = read_document({**CASE, "load": {}, "duty": blocks}, [])
+    cases = design(document, ["duty.2.speed_rpm"], [(80,)], "test")
+    assert cases.tables_of(0)["duty"][1]["speed_rpm"] == 80
+    assert cases.tables_of(0)["duty"][0] == blocks[0]
+    for key in ("duty.3.speed_rpm", "format_version.x"):
+        with pytest.raises(CaseError, match="must be a key of the case"):
+            replaced(document.data, key.split("."), 1)
+
+
+def test_files_go_with_the_study(tmp_path, monkeypatch):
+    source = wearsim.__path__[0] + "/../cases/hertz-arc-prescribed.toml"
+    document = read_document(source, [])
+    key = "wear.specific_wear_rate_mm2_per_N"
+    cases = design(document, [key], [(1e-10,), (2e-10,)], "test")
+    monkeypatch.chdir(tmp_path)
+    table = run_study(cases, Threads(1))
+    assert (table["error"] == "").all()
+    one, two = table["cycles_run"]
+    assert one == pytest.approx(2.0 * two, rel=1e-3)
+
+
+def test_address_depends_on_all_that_lives_depend_on(cases):
+    others = [
+        replace(cases, tables={**CASE, "stop": {"critical_depth_mm": 0.06}}),
+        replace(cases, rows=cases.rows[:-1]),
+        replace(cases, keys=("load.speed_rpm",)),
+        replace(cases, files={"a.csv": "1"}),
+    ]
+    assert len({case.address() for case in [cases, *others]}) == 5
+    assert replace(cases, name="other").address() == cases.address()
+    assert content_hash({"a": 1.0}) != content_hash({"a": 1.5})
+
+
+@pytest.fixture
+def store(cases, tmp_path):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    from wearsim.study.runner.store import open_store
+
+    return open_store(tmp_path / "study", cases, {"study": "test"}, False)
+
+
+def run_count(monkeypatch):
+    """Shards that are run from here on."""
+    seen = []
+
+    def counted(shard):
+        seen.append(shard.first)
+        return run_shard(shard)
+
+    monkeypatch.setattr(run_module, "run_shard", counted)
+    return seen
+
+
+def test_finished_shards_are_not_run_again(cases, store, monkeypatch):
+    whole = run_study(cases, Threads(1), store)
+    seen = run_count(monkeypatch)
+    assert same(run_study(cases, Threads(1), store), whole)
+    assert seen == []
+    second, third = list(shards(cases))[1:3]
+    store.path(second).write_bytes(store.path(second).read_bytes()[:-40])
+    store.path(third).unlink()
+    assert same(run_study(cases, Threads(1), store), whole)
+    assert sorted(seen) == [3, 6]
+
+
+def test_rows_of_other_cases_are_not_taken(cases, store):
+    run_study(cases, Threads(1), store)
+    first, second = list(shards(cases))[:2]
+    store.path(first).write_bytes(store.path(second).read_bytes())
+    assert store.finished(first) is None
+    assert store.finished(second) is not None
+
+
+def test_full_disk_keeps_what_is_finished(cases, store, monkeypatch):
+    flushed, fsync = [], os.fsync
+
+    def full(handle):
+        flushed.append(handle)
+        if len(flushed) > 2:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        fsync(handle)
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OutputError, match="No space left on device; what is finished is kept"):
+        run_study(cases, Threads(1), store)
+    monkeypatch.setattr(os, "fsync", fsync)
+    assert len(list((store.folder / "shards").iterdir())) == 2
+    seen = run_count(monkeypatch)
+    run_study(cases, Threads(1), store)
+    assert len(seen) == 2
+
+
+def test_folder_of_another_study_is_refused(cases, store, tmp_path):
+    from wearsim.study.runner.store import open_store
+
+    other = replace(cases, rows=cases.rows[:-1])
+    with pytest.raises(OutputError, match="must hold this study to go on"):
+        open_store(store.folder, other, {"study": "test"}, False)
+    assert open_store(store.folder, other, {"study": "test"}, True).folder == store.folder
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match="must be new or hold a study"):
+        open_store(tmp_path / "mine", cases, {"study": "test"}, True)

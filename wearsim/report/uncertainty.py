@@ -1,0 +1,254 @@
+"""What is shown of the uncertainty of a life: text, JSON, tables and pictures."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from wearsim.geometry.profile import Vector
+from wearsim.output import write_file
+from wearsim.report.answer import grouped
+from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
+from wearsim.study.uncertainty import UncertaintyStudy
+
+SHARES = (0.1, 0.5, 0.9)
+_FEWEST = 16
+"""Samples from which the convergence of the percentiles is followed."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The lives of the samples and what they tell.
+
+    Attributes
+    ----------
+    study : UncertaintyStudy
+        What was asked.
+    table : pandas.DataFrame
+        A row for each sample, of `run_study`.
+    """
+
+    study: UncertaintyStudy
+    table: pd.DataFrame
+
+    @cached_property
+    def sound(self) -> pd.DataFrame:
+        """Rows of the samples that did not fail."""
+        return self.table[self.table["error"] == ""]
+
+    @property
+    def reached(self) -> Flags:
+        """Whether each of them is a life, not a bound."""
+        return self.sound["life_hours"].notna().to_numpy()
+
+    @property
+    def hours(self) -> Vector:
+        """Lives, or how long they are at least [h]."""
+        return self.sound["hours_run"].to_numpy(float)
+
+    @cached_property
+    def percentiles(self) -> tuple[Percentile, ...]:
+        """P10, P50 and P90."""
+        return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
+
+    @cached_property
+    def fits(self) -> list[Fit]:
+        """Distributions fitted to the lives, the better one first."""
+        return fits(self.hours, self.reached)
+
+    @cached_property
+    def convergence(self) -> pd.DataFrame:
+        """Percentiles of the first samples, doubled from row to row up to all."""
+        count = len(self.sound)
+        counts = [
+            count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST
+        ]
+        rows = []
+        for some in reversed(counts or [count]):
+            found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
+            names = [f"p{100 * share:.0f}_hours" for share in SHARES]
+            rows.append({"samples": some} | dict(zip(names, (p.hours for p in found), strict=True)))
+        return pd.DataFrame(rows)
+
+
+def uncertainty_text(answer: Answer) -> str:
+    """Return percentiles, what they rest on, and fits, as text.
+
+    Parameters
+    ----------
+    answer : Answer
+        At least one sample that did not fail.
+
+    Returns
+    -------
+    str
+        Lines.
+    """
+    study = answer.study
+    lines = [study.scattered.case.title, ""]
+    for found, text in zip(answer.percentiles, _MEANING, strict=True):
+        name = f"P{100 * found.share:.0f}"
+        lines.append(f"{name:<12} {_hours(found):>12} h    {_interval(found)}    {text}")
+    lines += ["", f"samples      {len(answer.sound)}, {_METHODS[study.method]}, seed {study.seed}"]
+    for fit in answer.fits:
+        lines.append(
+            f"{fit.name:<12} {_parameters(fit)}, B10 {grouped(fit.b10)} h, ln likelihood "
+            f"{fit.log_likelihood:.1f}"
+        )
+    lines += ["", "what scatters:"]
+    lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
+    lines += ["", "percentiles of the first samples, h:"]
+    lines += [f"  {line}" for line in _columns(answer.convergence)]
+    lines += ["", "assumptions:"]
+    lines += [f"  {number}. {text}" for number, text in enumerate(_assumptions(study), start=1)]
+    lines += [f"warning: {text}" for text in warnings_of(answer)]
+    return "\n".join(lines)
+
+
+_MEANING = ("9 of 10 live longer (B10)", "half live longer", "1 of 10 lives longer")
+_METHODS = {
+    "sobol": "scrambled Sobol' points", "lhs": "Latin hypercube", "random": "independent",
+}  # fmt: skip
+_OF_INTERVALS = (
+    f"intervals hold the percentile with {100 * CONFIDENCE:.0f} % confidence for independent samples, "
+    "whatever the distribution; they do not tell of errors of the model"
+)
+
+
+def warnings_of(answer: Answer) -> list[str]:
+    """Return what is doubtful about the percentiles.
+
+    Parameters
+    ----------
+    answer : Answer
+        Of a study.
+
+    Returns
+    -------
+    list of str
+        Failed samples, percentiles beyond the horizon, unbalanced points, and how often the
+        samples warn of what.
+    """
+    found = []
+    failed, count = len(answer.table) - len(answer.sound), len(answer.table)
+    if failed:
+        found.append(
+            f"{failed} of {count} samples failed and are left out: the percentiles hold only for designs "
+            "that can run"
+        )
+    if not all(one.known for one in answer.percentiles):
+        found.append("percentiles beyond run.horizon_hours are only bounds: raise it")
+    if answer.study.method == "sobol" and count & (count - 1):
+        below = 1 << (count.bit_length() - 1)
+        found.append(
+            f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
+        )
+    texts = [text for joined in answer.sound["warnings"] for text in joined.split("; ") if text]
+    found += [
+        f"{texts.count(text)} of {len(answer.sound)} samples: {text}"
+        for text in list(dict.fromkeys(texts))[:5]
+    ]
+    return found
+
+
+def uncertainty_json(answer: Answer) -> dict[str, Any]:
+    """Return the answer as plain values.
+
+    Parameters
+    ----------
+    answer : Answer
+        Of a study.
+
+    Returns
+    -------
+    dict
+        A percentile that is not known is null, and its bound stands under ``at_least``.
+    """
+    study = answer.study
+    content: dict[str, Any] = {"schema_version": 1, "case": study.scattered.case.name}
+    for found in answer.percentiles:
+        name = f"p{100 * found.share:.0f}_hours"
+        content[name] = found.hours if found.known else None
+        content[f"{name}_low"], content[f"{name}_high"] = found.low, _known(found.high)
+        if not found.known:
+            content[f"{name}_at_least"] = found.hours
+    content["confidence"] = CONFIDENCE
+    content |= {"samples": len(answer.sound), "failed": len(answer.table) - len(answer.sound)}
+    content |= {"method": study.method, "seed": study.seed}
+    content["inputs"] = {
+        scatter.key: scatter.distribution.model_dump(exclude_none=True)
+        for scatter in study.scattered.scatters
+    }
+    content["fits"] = [
+        {"name": f.name, "shape": f.shape, "scale_hours": f.scale, "b10_hours": f.b10,
+         "log_likelihood": f.log_likelihood}
+        for f in answer.fits
+    ]  # fmt: skip
+    content["assumptions"] = [
+        *study.scattered.assumptions,
+        _OF_INTERVALS,
+        *study.scattered.case.assumptions,
+    ]
+    content["warnings"] = warnings_of(answer)
+    return content
+
+
+def save_uncertainty(answer: Answer, folder: Path) -> None:
+    """Write tables and pictures into the folder of a study.
+
+    Parameters
+    ----------
+    answer : Answer
+        Of a study.
+    folder : pathlib.Path
+        Its folder.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    from wearsim.report.uncertainty_figures import uncertainty_figures
+
+    files: dict[str, str | bytes] = {
+        "cases.csv": answer.table.to_csv(index=False),
+        "convergence.csv": answer.convergence.to_csv(index=False),
+        "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
+    }
+    for name, content in (files | uncertainty_figures(answer)).items():
+        write_file(folder / name, content, force=True)
+
+
+def _assumptions(study: UncertaintyStudy) -> list[str]:
+    scattered = study.scattered
+    return [*scattered.assumptions, _OF_INTERVALS, *scattered.case.assumptions]
+
+
+def _hours(found: Percentile) -> str:
+    return grouped(found.hours) if found.known else f"> {grouped(found.hours)}"
+
+
+def _interval(found: Percentile) -> str:
+    high = grouped(found.high) if math.isfinite(found.high) else "not known"
+    return f"({grouped(found.low)} to {high})"
+
+
+def _parameters(fit: Fit) -> str:
+    if fit.name == "lognormal":
+        return f"median {grouped(fit.scale)} h, sigma_ln {fit.shape:.3f}"
+    return f"shape {fit.shape:.3f}, scale {grouped(fit.scale)} h"
+
+
+def _columns(table: pd.DataFrame) -> list[str]:
+    head = "".join(f"{name.removesuffix('_hours'):>12}" for name in table.columns)
+    return [head] + [
+        f"{int(row[0]):>12}" + "".join(f"{grouped(value):>12}" for value in row[1:])
+        for row in table.itertuples(index=False)
+    ]
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,131 @@
+"""Percentiles of lives of which some are only known to be longer, and distributions fitted to them."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from wearsim.geometry.profile import Vector
+
+CONFIDENCE = 0.95
+
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Percentile:
+    """The hours that a part of all lives does not exceed.
+
+    Attributes
+    ----------
+    share : float
+        The part; 0.1 for P10, the life that 90 % reach (also called B10).
+    hours : float
+        Estimate [h]; a lower bound where it is not known.
+    low, high : float
+        Ends of the interval that holds it with 95 % confidence; inf where not known.
+    known : bool
+        Whether the hours are the percentile, not a bound.
+    """
+
+    share: float
+    hours: float
+    low: float
+    high: float
+    known: bool
+
+
+def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
+    """Return a percentile of lives with an interval that assumes no distribution.
+
+    The interval lies between two of the ordered lives: of n independent ones the number below
+    the percentile is binomial. For Sobol' points and Latin hypercubes, which scatter less, it
+    is too wide.
+
+    Parameters
+    ----------
+    lives : numpy.ndarray
+        Hours of the lives, or how long they are at least, shape (n,).
+    reached : numpy.ndarray of bool
+        Whether they are lives.
+    share : float
+        The part of all lives, between 0 and 1.
+
+    Returns
+    -------
+    Percentile
+        The estimate interpolates between the ordered lives (median-unbiased).
+
+    Examples
+    --------
+    >>> percentile(np.arange(1.0, 100.0), np.full(99, True), 0.5).hours
+    50.0
+    """
+    floor = float(lives[~reached].min()) if not reached.all() else math.inf
+    ordered = np.sort(np.minimum(np.where(reached, lives, np.inf), floor))
+    n = ordered.size
+    tail = 0.5 * (1.0 - CONFIDENCE)
+    first, last = (int(stats.binom.ppf(p, n, share)) for p in (tail, 1.0 - tail))
+    low = float(ordered[first - 1]) if first > 0 else 0.0
+    high = float(ordered[last]) if last < n else math.inf
+    hours = float(np.quantile(ordered, share, method="median_unbiased"))
+    known = float(np.quantile(ordered, share, method="higher")) < floor
+    return Percentile(
+        share, hours if known else floor, low, high if high < floor else math.inf, known
+    )
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A distribution fitted to lives by maximum likelihood.
+
+    Attributes
+    ----------
+    name : str
+        ``lognormal`` or ``weibull``.
+    shape, scale : float
+        sigma of ln L and the median [h]; Weibull's modulus and characteristic life [h].
+    log_likelihood : float
+        Of the lives, the larger the better; both have two parameters.
+    b10 : float
+        Life that 90 % reach, by the fit [h].
+    """
+
+    name: str
+    shape: float
+    scale: float
+    log_likelihood: float
+    b10: float
+
+
+def fits(lives: Vector, reached: Flags) -> list[Fit]:
+    """Return a log-normal and a Weibull distribution fitted to lives.
+
+    Parameters
+    ----------
+    lives : numpy.ndarray
+        Hours of the lives, or how long they are at least, shape (n,).
+    reached : numpy.ndarray of bool
+        Whether they are lives; at least two that differ, else there is no fit.
+
+    Returns
+    -------
+    list of Fit
+        The better one first; both leave the origin at 0.
+    """
+    seen = lives[reached]
+    if seen.size < 2 or np.ptp(seen) <= 1e-9 * seen.max():
+        return []
+    unit = float(np.median(seen))
+    data = stats.CensoredData(uncensored=seen / unit, right=lives[~reached] / unit)
+    found = []
+    for name, law in (("lognormal", stats.lognorm), ("weibull", stats.weibull_min)):
+        shape, _, scale = law.fit(data, floc=0.0)
+        frozen = law(shape, scale=scale)
+        likelihood = frozen.logpdf(seen / unit).sum() + frozen.logsf(lives[~reached] / unit).sum()
+        likelihood -= seen.size * math.log(unit)
+        b10 = unit * float(frozen.ppf(0.1))
+        found.append(Fit(name, float(shape), unit * float(scale), float(likelihood), b10))
+    return sorted(found, key=lambda fit: -fit.log_likelihood)

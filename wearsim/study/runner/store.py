@@ -1,0 +1,161 @@
+"""The folder of a study: finished shards as Parquet files, from which the same command goes on."""
+
+import contextlib
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wearsim.errors import OutputError
+from wearsim.extras import library
+from wearsim.output import write_file
+from wearsim.study.runner.design import Design
+from wearsim.study.runner.shard import COLUMNS, Rows, Shard
+
+MANIFEST = "study.json"
+_SHARDS = "shards"
+_TEXTS = ("stop", "warnings", "error", "case_sha256")
+
+
+@dataclass(frozen=True)
+class Store:
+    """The folder of a study.
+
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Its place.
+    """
+
+    folder: Path
+
+    def path(self, shard: Shard) -> Path:
+        """Return the place of a shard.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+
+        Returns
+        -------
+        pathlib.Path
+            Named by the hash of all that its rows depend on.
+        """
+        return self.folder / _SHARDS / f"{shard.address}.parquet"
+
+    def finished(self, shard: Shard) -> Rows | None:
+        """Return the rows of a shard that was run before.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+
+        Returns
+        -------
+        dict of list or None
+            None where it was not, or where the file is damaged, which is then removed.
+        """
+        parquet = library("pyarrow.parquet", "parquet", "--out")
+        path = self.path(shard)
+        if not path.exists():
+            return None
+        try:
+            rows: Rows = parquet.read_table(path).to_pydict()
+        except (OSError, ValueError):
+            rows = {}
+        indices = list(range(shard.first, shard.first + shard.count))
+        if tuple(rows) == COLUMNS and rows["case_index"] == indices:
+            return rows
+        with contextlib.suppress(OSError):
+            path.unlink()
+        return None
+
+    def keep(self, shard: Shard, rows: Rows) -> None:
+        """Write the rows of a shard beside its place, flush them to the disk, and rename.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+        rows : dict of list
+            What came of them.
+
+        Raises
+        ------
+        OutputError
+            The disk is full or the folder cannot be written; nothing half-written stays.
+        """
+        arrow = library("pyarrow", "parquet", "--out")
+        from pyarrow import parquet
+
+        kinds = {name: arrow.string() for name in _TEXTS} | {"case_index": arrow.int64()}
+        columns = {
+            name: arrow.array(values, kinds.get(name, arrow.float64()))
+            for name, values in rows.items()
+        }
+        path = self.path(shard)
+        beside = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with beside.open("wb") as file:
+                parquet.write_table(arrow.table(columns), file, compression="zstd")
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(beside, path)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                beside.unlink()
+            reason = error.strerror or error
+            raise OutputError(
+                f"{path.parent}: must be writable: {reason}; what is finished is kept, run the same "
+                "command again to go on"
+            ) from None
+
+
+def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> Store:
+    """Make the folder of a study, or open it to go on.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        New, empty, or that of the same study.
+    design : Design
+        Its cases.
+    told : mapping
+        What else the manifest tells of the study.
+    force : bool
+        Take the folder of another study.
+
+    Returns
+    -------
+    Store
+        With what is finished.
+
+    Raises
+    ------
+    OutputError
+        The folder holds another study or anything else.
+    """
+    manifest = {"schema_version": 1, **told, "cases": len(design.rows), "sha256": design.address()}
+    place = folder / MANIFEST
+    text = json.dumps(manifest, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    try:
+        old = place.read_text(encoding="utf-8") if place.exists() else None
+        taken = folder.exists() and (not folder.is_dir() or any(folder.iterdir()))
+    except OSError as error:
+        raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
+    if old == text:
+        return Store(folder)
+    if old is None and taken:
+        raise OutputError(f"{folder}: must be new or hold a study, but does not: choose another")
+    if old is not None and not force:
+        raise OutputError(
+            f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
+            "number or version): choose another place or --force"
+        )
+    write_file(place, text, force=True)
+    return Store(folder)

@@ -1,0 +1,140 @@
+"""Where shards run: threads of this process, other processes, or a Dask cluster."""
+
+import signal
+from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, Protocol
+
+from wearsim.errors import StudyError
+from wearsim.extras import library
+from wearsim.study.runner.design import engine
+
+_PATIENCE = 30.0
+"""Seconds in which the first worker of a cluster must show up."""
+
+
+class Workers(Protocol):
+    """A kind of executor that can be opened anew when its workers have died."""
+
+    def open(self) -> Any:
+        """Return a context with an executor and the number of its workers."""
+
+    @property
+    def losses(self) -> tuple[type[BaseException], ...]:
+        """What a future raises whose worker has died."""
+
+
+@dataclass(frozen=True)
+class Threads:
+    """Threads of this process; compiled loops run side by side.
+
+    Attributes
+    ----------
+    count : int
+        How many.
+    """
+
+    count: int
+    losses: tuple[type[BaseException], ...] = ()
+
+    @contextmanager
+    def open(self) -> Iterator[tuple[Executor, int]]:
+        """Give an executor and the number of its workers."""
+        with ThreadPoolExecutor(self.count) as pool:
+            yield pool, self.count
+
+
+@dataclass(frozen=True)
+class Processes:
+    """Processes of this machine.
+
+    Attributes
+    ----------
+    count : int
+        How many.
+    """
+
+    count: int
+    losses: tuple[type[BaseException], ...] = (BrokenExecutor,)
+
+    @contextmanager
+    def open(self) -> Iterator[tuple[Executor, int]]:
+        """Give an executor and the number of its workers."""
+        context = get_context("spawn")
+        with ProcessPoolExecutor(self.count, context, initializer=_deaf) as pool:
+            yield pool, self.count
+
+
+def _deaf() -> None:
+    """Leave it to the parent to end on Ctrl-C, after the shards that are under way."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Workers of a Dask scheduler.
+
+    Attributes
+    ----------
+    address : str or None
+        Such as ``tcp://127.0.0.1:8786``.
+    scheduler_file : pathlib.Path or None
+        File that the scheduler wrote, in place of the address.
+    security : mapping
+        ``tls_ca_file``, ``tls_client_cert`` and ``tls_client_key``, empty without TLS.
+    """
+
+    address: str | None
+    scheduler_file: Path | None
+    security: dict[str, str]
+
+    @property
+    def losses(self) -> tuple[type[BaseException], ...]:
+        """What a future raises whose worker has died."""
+        dask = library("distributed", "dask", "--scheduler")
+        from concurrent.futures import CancelledError
+
+        return (dask.KilledWorker, dask.CancelledError, CancelledError)
+
+    @contextmanager
+    def open(self) -> Iterator[tuple[Executor, int]]:
+        """Give an executor and the number of its workers."""
+        dask = library("distributed", "dask", "--scheduler")
+        security = (
+            dask.Security(require_encryption=True, **self.security) if self.security else None
+        )
+        place = self.address or str(self.scheduler_file)
+        try:
+            client = dask.Client(
+                self.address,
+                scheduler_file=None if self.scheduler_file is None else str(self.scheduler_file),
+                security=security,
+                timeout=_PATIENCE,
+                set_as_default=False,
+            )
+        except (OSError, ValueError) as error:
+            raise StudyError(f"{place}: must be a Dask scheduler that answers: {error}") from None
+        with client:
+            yield client.get_executor(pure=False), _checked(client, dask, place)
+
+
+def _checked(client: Any, dask: Any, place: str) -> int:
+    """Return the number of workers, all of which have this wearsim."""
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except (dask.TimeoutError, TimeoutError):
+        raise StudyError(f"{place}: must have a worker, but has none: start some") from None
+    mine = engine()
+    for worker, found in client.run(engine, on_error="return").items():
+        if isinstance(found, BaseException):
+            raise StudyError(f"{worker}: must have wearsim {mine.version}, but: {found}")
+        if found != mine:
+            raise StudyError(
+                f"{worker}: must have this wearsim, {mine.version} (kernels {mine.kernels}), but has "
+                f"{found.version} ({found.kernels}): install the same on all"
+            )
+    return sum(client.nthreads().values())
