@@ -166,17 +166,17 @@ class Tooth:
         radius = np.clip(radius, *_radii(self.flank)[[0, -1]])
         return 2.0 * radius * np.sin(0.5 * self._angle(radius))
 
-    @property
+    @cached_property
     def tip_land(self) -> float:
         """Length of the tip between the two flanks along the tip circle [mm]."""
         return float(self.tip_radius * self._angle(self.tip_radius))
 
-    @property
+    @cached_property
     def neck(self) -> float:
         """Smallest chordal thickness along the working flank [mm]."""
         return float(self.thickness(_radii(self.flank)).min())
 
-    @property
+    @cached_property
     def pitch_line_thickness(self) -> float:
         """Chordal thickness where the centrode meets the tooth [mm]."""
         return float(self.thickness(self.strand.centrode_radius))
