@@ -1,6 +1,7 @@
 """``wearsim report``: pages of cases and of runs."""
 
 import json
+import math
 import re
 from pathlib import Path
 
@@ -260,3 +261,25 @@ def test_page_of_a_table_of_loads(cli, tmp_path):
     page = text_of(out / "index.html")
     assert '<section id="drive"' not in page
     assert "<dt>file hertz-arc-prescribed.csv</dt>" in page
+
+
+def test_percentiles_that_follow_from_a_run(cli, drive, tmp_path):
+    path = drive()
+    key = '"wear.specific_wear_rate_mm2_per_N"'
+    table = f'[uncertainty]\n{key} = {{distribution = "lognormal", sigma_ln = 0.5}}\n'
+    path.write_text(path.read_text() + table)
+    hours = json.loads(cli("life", path, "--json").out)["life_hours"]
+    cli("report", path, "--out", tmp_path / "out")
+    page = text_of(tmp_path / "out" / "index.html")
+    for name, factor in (
+        ("P10", math.exp(-0.64077578)),
+        ("P50", 1.0),
+        ("P90", math.exp(0.64077578)),
+    ):
+        (shown,) = re.findall(rf"<dt>{name}: .*?</dt><dd>(.*?)</dd>", page)
+        assert float(re.sub(r"[^\d.]", "", shown)) == pytest.approx(hours * factor, rel=1e-3)
+    path.write_text(
+        path.read_text() + '"load.power_kW" = {distribution = "lognormal", sigma_ln = 0.1}\n'
+    )
+    cli("report", path, "--out", tmp_path / "two")
+    assert "P10" not in text_of(tmp_path / "two" / "index.html")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import wearsim
 from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
 from wearsim.citation import apa
-from wearsim.report.answer import BAND, LIMITS, ending, findings, hours, told_apart
+from wearsim.report.answer import BAND, LIMITS, ending, findings, grouped, hours, told_apart
 from wearsim.report.compare import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
@@ -39,6 +39,8 @@ class DrivePage:
         Whether it is a life and not a bound.
     low, high, band : str
         The lives at the ends of the band, and where that comes from.
+    percentiles : list of tuple of str
+        Names and hours of P10, P50 and P90, where they are known.
     findings : list of tuple of str
         The rest of the answer.
     margins : list of Margin
@@ -74,6 +76,7 @@ class DrivePage:
     low: str
     high: str
     band: str
+    percentiles: list[tuple[str, str]]
     findings: list[tuple[str, str]]
     margins: list[Margin]
     tooth: list[Chart]
@@ -154,6 +157,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         low=hours(result.life_low),
         high=hours(result.life_high),
         band=result.band,
+        percentiles=_percentiles(result, case),
         findings=[found for found in findings(result) if found[0] not in (BAND, LIMITS)],
         margins=margins(result, case),
         tooth=tooth,
@@ -171,6 +175,16 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         ],
         citation=apa(result.environment["wearsim"]),
     )
+
+
+def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:
+    if not result.inputs.get("uncertainty"):
+        return []
+    from wearsim.study.scaled_percentiles import scaled_percentiles  # takes 0.4 s, for scipy.stats
+
+    found = scaled_percentiles(result, case, (0.1, 0.5, 0.9))
+    names = ("P10: 9 of 10 live longer", "P50: half live longer", "P90: 1 of 10 lives longer")
+    return [(name, f"{grouped(value)} h") for name, value in zip(names, found, strict=False)]
 
 
 def _charts(result: WearResult, case: Case) -> list[Chart]:
