@@ -115,6 +115,9 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
     other = sweep(GRID.replace("8.0", "9.0"))
     assert cli("sweep", other, "--out", out).code == 2
     assert cli("sweep", other, "--out", out, "--force").code == 0
+    single = sweep('[grid]\n"sprocket.teeth" = [20, 25]\n')
+    assert cli("sweep", single, "--out", out, "--force").code == 0
+    assert not (out / "heat_map.png").exists()
 
 
 @pytest.mark.parametrize(

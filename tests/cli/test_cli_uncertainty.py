@@ -181,3 +181,14 @@ def test_other_commands_take_the_table(cli, case):
     plain, more = (cli("life", case(text), "--json") for text in ("", SCATTER % 0.5))
     assert json.loads(plain.out)["life_hours"] == json.loads(more.out)["life_hours"]
     assert cli("life", case('[uncertainty]\n"load.tension_N" = 3\n')).code == 2
+
+
+def test_joints_of_a_wrap_scatter_too(cli, case):
+    path = case()
+    text = path.read_text().replace('profile = "evolute"\nevolute_offset_mm = 5.6\nnodes = 51', 'profile = "iso606"\nnodes = 101')  # fmt: skip  # noqa: E501
+    path.write_text(text + "[mechanism]\nphases = 1\n[run]\nlife_tolerance = 0.1\n")
+    _, found = answer(cli, path, "--samples", 4)
+    assert set(found["inputs"]) == {
+        "wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N",
+    }  # fmt: skip
+    assert found["p10_hours"] < found["p50_hours"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.case.document import Document, read_document
 from wearsim.case.load import load_case
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WrapDrive
 from wearsim.case.schema.uncertainty import Distribution
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
@@ -140,8 +140,8 @@ def load_scattered(
     Returns
     -------
     Scattered
-        Where no wear coefficient scatters by the table, it does log-normally, by the published
-        scatter.
+        Wear coefficients that the table does not name, of the teeth and on a wrap of the joints,
+        scatter log-normally, by the published scatter.
 
     Raises
     ------
@@ -151,14 +151,14 @@ def load_scattered(
     document = read_document(path, overrides)
     case = load_case(path, overrides).with_horizon(least_horizon or 0.0)
     given = _given(case)
-    coefficient = coefficient_key(case)
     assumptions = []
-    if coefficient not in given:
-        given[coefficient] = Distribution(distribution="lognormal", sigma_ln=PUBLISHED_SIGMA)
-        assumptions.append(
-            f"{coefficient} is log-normal with sigma_ln = {PUBLISHED_SIGMA:g}, the scatter of published "
-            "coefficients (default; [uncertainty] gives another)"
-        )
+    for coefficient in _coefficients(case):
+        if coefficient not in given:
+            given[coefficient] = Distribution(distribution="lognormal", sigma_ln=PUBLISHED_SIGMA)
+            assumptions.append(
+                f"{coefficient} is log-normal with sigma_ln = {PUBLISHED_SIGMA:g}, the scatter of "
+                "published coefficients (default; [uncertainty] gives another)"
+            )
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
@@ -180,6 +180,12 @@ def coefficient_key(case: Case) -> str:
     """
     name = "specific_wear_rate_mm2_per_N" if case.wear.law == "archard" else "coefficient"
     return f"wear.{name}"
+
+
+def _coefficients(case: Case) -> list[str]:
+    """Wear coefficients of the teeth and, on a wrap, of the joints."""
+    joints = ["joint.specific_wear_rate_mm2_per_N"] if isinstance(case.drive, WrapDrive) else []
+    return [coefficient_key(case), *joints]
 
 
 def _given(case: Case) -> dict[str, Distribution]:

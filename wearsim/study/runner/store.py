@@ -16,6 +16,13 @@ from wearsim.study.runner.shard import COLUMNS, Rows, Shard
 
 MANIFEST = "study.json"
 _SHARDS = "shards"
+_FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado")
+_WRITTEN = (
+    "cases.csv", "summary.md", "convergence.csv", "sensitivity.csv",
+    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
+)  # fmt: skip
+"""Tables and pictures of studies."""
+
 _TEXTS = ("stop", "warnings", "error", "case_sha256")
 
 
@@ -157,5 +164,16 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
             f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
             "number or version): choose another place or --force"
         )
+    if old is not None:
+        _clear(folder)
     write_file(place, text, force=True)
     return Store(folder)
+
+
+def _clear(folder: Path) -> None:
+    """Remove what another study wrote about all of its cases, before this one has run."""
+    try:
+        for name in _WRITTEN:
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
