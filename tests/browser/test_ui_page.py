@@ -471,7 +471,7 @@ def test_closing_the_page_ends_its_calculation(watched, context, serve):
     server = serve(WRAP)
     page = context.new_page()
     page.goto(server.url)
-    page.wait_for_selector('.ws-state[data-state="estimate"]', timeout=60_000)
+    page.wait_for_selector('.ws-state[data-state="estimate"]', timeout=300_000)
     page.close()
     other = opened(watched, server)
     assert shown_hours(other) == life(server.path)

@@ -130,3 +130,10 @@ def test_folder(cli, case, tmp_path):
     }  # fmt: skip
     again = cli("sensitivity", case(), "--samples", 8, "--trajectories", 4, "--out", out)
     assert again.out == first.out
+
+
+def test_nothing_that_varies(cli, case):
+    path = case(SCATTER.replace("0.4", "0.0").replace("0.3", "0.0"))
+    done = cli("sensitivity", path, "--samples", 8, "--trajectories", 4)
+    assert (done.code, done.out) == (3, "")
+    assert "nothing that scatters changes the life" in done.err

@@ -129,6 +129,11 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
         ('[grid]\n"a.b" = {from = 1.0, to = 2.0, count = 1}\n', "greater than or equal to 2"),
         ('[grid]\n"a.b" = {from = 0.0, to = 2.0, count = 3, spacing = "log"}\n', "both ends above 0"),
         ('[grid]\n"a.b" = {from = inf, to = 2.0, count = 3}\n', "finite number"),
+        ('[grid]\n"a.b" = {from = 2.0, to = 2.0, count = 3}\n', "must differ from from = 2"),
+        ('[grid]\n"a.b" = [20, 20]\n', "every value once"),
+        ('[grid]\n"a.b" = [[nan, 1.0]]\n', "must be"),
+        ('[grid]\n"a.b" = [[1979-05-27]]\n', "must be"),
+        ('[grid]\n"a.b" = [1]\na.b = [2]\n', "a.b is given twice"),
         ('[[zip]]\n"a.b" = [1, 2]\n"a.c" = [1]\n', "need as many values: a.b 2, a.c 1"),
         ('[grid]\n"a.b" = [1]\n[[zip]]\n"a.b" = [1]\n', "a.b stands in two places"),
         ('[[design]]\n"a.b" = 1\n[[design]]\n"a.c" = 1\n', "every [[design]] must give the same keys"),
@@ -185,3 +190,20 @@ def test_shipped_studies(cli, path):
     done = cli("sweep", path, "--dry-run")
     assert done.code == 0
     assert done.out.startswith("cases        ")
+
+
+def test_dollars_are_no_formulas(cli, sweep, tmp_path):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    text = '[grid]\n"title" = ["$x_{$", "cost $"]\n"sprocket.teeth" = [20, 25]\n'
+    out = tmp_path / "out"
+    path = sweep(text, STUDY.replace("Test sweep", "cost $x_{$"))
+    assert cli("sweep", path, "--out", out).code == 0
+    assert "cost $x_{$" in (out / "parallel.svg").read_text(encoding="utf-8")
+
+
+def test_fatigue_is_not_passed_over(cli, sweep, tmp_path):
+    path = sweep(GRID)
+    more = '[fatigue.sprocket]\ntreatment = "improved"\nhardness_HB = 250\n'
+    with (tmp_path / "drive.toml").open("a") as file:
+        file.write(more)
+    assert "contact fatigue is left out of studies" in cli("sweep", path).err

@@ -165,6 +165,19 @@ def test_folder(cli, case, tmp_path):
         ),
         ('"sprocket.profile" = {distribution = "lognormal", sigma_ln = 1.0}', "it is 'evolute'"),
         (
+            '"load.tension_N" = {distribution = "normal", standard_deviation = 1.0}\n'
+            'load.tension_N = {distribution = "normal", standard_deviation = 2.0}',
+            "load.tension_N is given twice",
+        ),
+        (
+            '"load.tension_N" = {distribution = "lognormal", sigma_ln = 1, median = "5 N"}',
+            "must be a",
+        ),
+        (
+            '"run.horizon_hours" = {distribution = "uniform", low = 1.0, high = 2.0}',
+            "cannot scatter",
+        ),
+        (
             '"load.tension_N" = {distribution = "triangular", low = 1.0, high = 2.0}',
             "mode must lie from 1 to 2",
         ),
@@ -192,3 +205,48 @@ def test_joints_of_a_wrap_scatter_too(cli, case):
         "wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N",
     }  # fmt: skip
     assert found["p10_hours"] < found["p50_hours"]
+
+
+def test_contact_fatigue_is_not_passed_over(cli, case):
+    path = case('[fatigue.sprocket]\ntreatment = "improved"\nhardness_HB = 250\n')
+    done = cli("uncertainty", path, "--samples", 16)
+    assert done.code == 0
+    assert "warning: contact fatigue is left out of studies" in done.out
+    done = cli("uncertainty", path, "--samples", 16, "--require-hours", 1)
+    assert done.code == 2
+    assert "--require-hours asks of fatigue too" in done.err
+
+
+@pytest.mark.parametrize("hours", [1300, 2500, 3000])
+def test_required_hours_at_the_horizon(cli, case, hours):
+    path = case()
+    given = 'condition = "hardened, oiled"'
+    weak = "specific_wear_rate_mm2_per_N = 1e-14"
+    path.write_text(path.read_text().replace(given, weak))
+    options = ("--set", "run.horizon_hours=10", "--require-hours", hours, "--samples", 16)
+    assert cli("uncertainty", path, *options).code == 0
+
+
+def test_bounds_do_not_converge(cli, case):
+    text = cli("uncertainty", case(), "--samples", 16, "--set", "run.horizon_hours=1").out
+    (row,) = [line for line in text.splitlines() if line.split()[:1] == ["16"]]
+    assert row.count("not known") == 3
+
+
+def test_warnings_of_samples_are_grouped(cli, case):
+    _, found = answer(cli, case(), "--samples", 16)
+    assert all(text.startswith("16 of 16 samples, such as: ") for text in found["warnings"])
+
+
+def test_plan_finds_what_is_in_the_way(cli, case, tmp_path):
+    (tmp_path / "file").write_text("mine")
+    done = cli("uncertainty", case(), "--dry-run", "--out", tmp_path / "file")
+    assert done.code == 2
+
+
+def test_missed_hours_are_told_beside_failures(cli, case):
+    more = "[uncertainty]\nsprocket.evolute_offset_mm = "
+    more += '{distribution = "uniform", low = 4.0, high = 7.0}\n'
+    done = cli("uncertainty", case(more), "--samples", 16, "--require-hours", 1e6)
+    assert done.code == 5
+    assert "is below 1e+06 h" in done.err

@@ -11,7 +11,7 @@ import pytest
 
 import wearsim
 from wearsim.case.document import read_document
-from wearsim.errors import CaseError, OutputError, StudyError
+from wearsim.errors import CaseError, Fault, OutputError, StudyError
 from wearsim.study.runner import design as design_module
 from wearsim.study.runner import run as run_module
 from wearsim.study.runner.design import Engine, content_hash, design, replaced
@@ -181,6 +181,21 @@ def test_finished_shards_are_not_run_again(cases, store, monkeypatch):
     assert sorted(seen) == [3, 6]
 
 
+def test_no_flipped_bit_is_taken_for_a_life(cases, store):
+    whole = run_study(cases, Threads(1), store)
+    (shard, *_) = shards(cases)
+    path, rng = store.path(shard), np.random.default_rng(1)
+    sound = path.read_bytes()
+    right = store.finished(shard)
+    for place in rng.integers(8 * len(sound), size=200):
+        changed = bytearray(sound)
+        changed[place // 8] ^= 1 << (place % 8)
+        path.write_bytes(changed)
+        assert store.finished(shard) in (None, right)
+    path.write_bytes(sound)
+    assert same(run_study(cases, Threads(1), store), whole)
+
+
 def test_rows_of_other_cases_are_not_taken(cases, store):
     run_study(cases, Threads(1), store)
     first, second = list(shards(cases))[:2]
@@ -215,7 +230,39 @@ def test_folder_of_another_study_is_refused(cases, store, tmp_path):
     with pytest.raises(OutputError, match="must hold this study to go on"):
         open_store(store.folder, other, {"study": "test"}, False)
     assert open_store(store.folder, other, {"study": "test"}, True).folder == store.folder
+    (store.folder / "study.json").write_bytes(b"\xff\xfe")
+    with pytest.raises(OutputError, match="must hold this study to go on"):
+        open_store(store.folder, cases, {"study": "test"}, False)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "notes.txt").write_text("mine")
     with pytest.raises(OutputError, match="must be new or hold a study"):
         open_store(tmp_path / "mine", cases, {"study": "test"}, True)
+
+
+def test_warnings_and_errors_stay_apart():
+    from wearsim.study.runner import shard as shard_module
+
+    found = shard_module.CaseLife("x", shard_module.Life(1.0, 1.0), "stop", 0.0, ("a; b", "c"))
+    assert shard_module._row(found)[5] == "a; b\nc"
+    error = CaseError([Fault("one", file="case"), Fault("two", file="case")])
+    assert shard_module._row(error)[-1] == "one\ntwo"
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1", "tcp://127.0.0.1:99999"])
+def test_scheduler_that_is_none(address):
+    pytest.importorskip("distributed", reason="distributed is not installed")
+    from wearsim.study.runner.workers import Cluster
+
+    with pytest.raises(StudyError, match="must be a"), Cluster(address, None, {}).open():
+        pass
+
+
+@pytest.mark.parametrize("content", ["{", "{}", '{"address": 3}', "[]"])
+def test_scheduler_file_that_is_none(content, tmp_path):
+    pytest.importorskip("distributed", reason="distributed is not installed")
+    from wearsim.study.runner.workers import Cluster
+
+    place = tmp_path / "scheduler.json"
+    place.write_text(content)
+    with pytest.raises(StudyError, match="must be the file"), Cluster(None, place, {}).open():
+        pass

@@ -7,7 +7,7 @@ import click
 from wearsim.cli.complete import RunPath
 from wearsim.cli.single_file import check_place, format_of, write_content
 from wearsim.cli.sources import results_of
-from wearsim.cli.standard import overrides, standard, working
+from wearsim.cli.standard import finite, overrides, standard, working
 from wearsim.errors import OutputError
 
 _FORMATS = ("gif", "webp", "png")
@@ -31,6 +31,7 @@ _SHORTEST_S = 0.02
 )  # fmt: skip
 @click.option(
     "--seconds", type=click.FloatRange(0.1, 120.0), default=5.0, show_default=True,
+    callback=finite,
     help="What they take; the last one stays 2 s longer.",
 )  # fmt: skip
 @click.option(

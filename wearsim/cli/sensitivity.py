@@ -65,7 +65,8 @@ def sensitivity(
         warnings_of,
     )
 
-    answer = Answer(study, float(table["life_hours"][0]), found, doubled, warnings_of(found))
+    doubts = warnings_of(found, scattered.case)
+    answer = Answer(study, float(table["life_hours"][0]), found, doubled, doubts)
     if as_json:
         print_json(sensitivity_json(answer), case, answer.warnings)
     else:

@@ -159,11 +159,13 @@ def run(
         A row for each case; None for a dry run.
     """
     from wearsim.study.runner.run import run_study
-    from wearsim.study.runner.store import open_store
+    from wearsim.study.runner.store import check_store, open_store
 
     workers = place.workers()
     if place.dry_run:
-        _show_plan(design, place, workers)
+        if place.out is not None:
+            check_store(place.out, design, told, place.force)
+        _show_plan(design, place)
         return None
     if place.out is not None:
         from wearsim.extras import library
@@ -212,7 +214,7 @@ def exit_code(table: "pd.DataFrame") -> int:
     return SOME_FAILED
 
 
-def _show_plan(design: "Design", place: Place, workers: "Workers") -> None:
+def _show_plan(design: "Design", place: Place) -> None:
     from wearsim.study.runner.shard import Shard, run_shard, shards
     from wearsim.study.runner.store import Store
 

@@ -8,10 +8,14 @@ import click
 from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import NOT_MET, finite, overrides, print_json, standard, warn
 from wearsim.cli.study import Place, exit_code, place_options, run
+from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
     from wearsim.report.uncertainty import Answer
     from wearsim.study.uncertainty import Method
+
+
+_ROUNDING = 1e-9
 
 
 @click.command(short_help="P10, P50 and P90 of a life whose inputs scatter.")
@@ -50,6 +54,9 @@ def uncertainty(
     from wearsim.study.uncertainty import load_uncertainty
 
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
+    if require_hours is not None and study.scattered.case.fatigue is not None:
+        text = "--require-hours asks of fatigue too, which studies leave out: remove one of them"
+        raise CaseError([Fault(text, "fatigue", str(case))])
     told = {
         "study": "uncertainty",
         "case": study.scattered.case.name,
@@ -75,12 +82,13 @@ def uncertainty(
     if place.out is not None:
         save_uncertainty(answer, place.out)
         warn(f"written to {place.out}")
-    return code or _missed(answer, require_hours)
+    missed = _missed(answer, require_hours)
+    return code or missed
 
 
 def _missed(answer: "Answer", require_hours: float | None) -> int:
     p10 = answer.percentiles[0]
-    if require_hours is None or p10.hours >= require_hours:
+    if require_hours is None or p10.hours >= (1.0 - _ROUNDING) * require_hours:
         return 0
     warn(f"{answer.study.scattered.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")
     return NOT_MET

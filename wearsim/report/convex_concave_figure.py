@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from wearsim.geometry.outline import turned
+from wearsim.report.figure_text import literal
 from wearsim.sizing.convex_concave import Layout
 
 _TOLERANCE = 1e-3
@@ -34,7 +35,7 @@ def convex_concave_figure(title: str, layout: Layout) -> Figure:
     mesh, along = figure.subplots(1, 2, width_ratios=[1.15, 1.0])
     _draw_mesh(mesh, layout)
     _draw_radius(along, layout)
-    figure.suptitle(title, fontsize=10)
+    figure.suptitle(literal(title), fontsize=10)
     return figure
 
 

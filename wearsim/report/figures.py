@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
+from wearsim.report.figure_text import literal
 from wearsim.report.flank_view import outline, run_time, snapshot
 from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
 from wearsim.result import Life, WearResult
@@ -133,7 +134,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
     title = textwrap.fill(result.title, 42)
-    panel.set_title(f"{title}\nafter {run_time(result)}", fontsize=9)
+    panel.set_title(literal(f"{title}\nafter {run_time(result)}"), fontsize=9)
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
@@ -174,7 +175,9 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
         first, last = snapshot(result, 0), snapshot(result, -1)
-        (line,) = panels[0].plot(last["arc_length_mm"], last["depth_mm"], label=result.title)
+        (line,) = panels[0].plot(
+            last["arc_length_mm"], last["depth_mm"], label=literal(result.title)
+        )
         if "wheel_depth_mm" in last:
             wheel = last["arc_length_mm"], last["wheel_depth_mm"]
             panels[0].plot(*wheel, ":", color=line.get_color(), lw=1.2)
@@ -220,7 +223,7 @@ def depth_figure(results: list[WearResult]) -> Figure:
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
         time = result.history_columns["time_hours"]
-        (line,) = panels[0].plot([], [], label=result.title)
+        (line,) = panels[0].plot([], [], label=literal(result.title))
         for panel, (name, _) in zip(panels, shown, strict=True):
             if name in result.history_columns:
                 panel.plot(time, result.history_columns[name], color=line.get_color())

@@ -14,6 +14,7 @@ from wearsim.contact.line_stress import (
     axis_von_mises,
     greatest_von_mises,
 )
+from wearsim.report.figure_text import literal
 from wearsim.sizing.hertz_check import HertzCheck
 from wearsim.sizing.hertz_fem import FemContact
 
@@ -48,7 +49,7 @@ def hertz_check_figure(
     _draw_depth(axes[0], check, meshes, axis)
     if meshes:
         _draw_pressure(axes[1], check, meshes)
-    figure.suptitle(title, fontsize=9, x=0.01, ha="left")
+    figure.suptitle(literal(title), fontsize=9, x=0.01, ha="left")
     return figure
 
 

@@ -5,6 +5,7 @@ import math
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wearsim.report.figure_text import literal
 from wearsim.result import Life
 from wearsim.study.maintain import MaintenancePlan, Policy
 
@@ -38,7 +39,7 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
         panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
         panel.grid(alpha=0.3)
     panels[0].legend(loc="lower left", frameon=False, fontsize=8)
-    panels[0].set_title(plan.title, fontsize=9, loc="left")
+    panels[0].set_title(literal(plan.title), fontsize=9, loc="left")
     panels[-1].set_xlabel("elongation at which the chain is replaced, %")
     return figure
 

@@ -9,9 +9,12 @@ from typing import Any
 import pandas as pd
 from matplotlib.figure import Figure
 
+from wearsim.case.model import Case
 from wearsim.output import write_file
 from wearsim.report.answer import grouped
+from wearsim.report.figure_text import literal
 from wearsim.report.figures import picture_bytes
+from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.sensitivity import HIGH, LOW, Effect, SensitivityStudy
 
 
@@ -40,23 +43,29 @@ class Answer:
     warnings: tuple[str, ...]
 
 
-def warnings_of(effects: Sequence[Effect]) -> tuple[str, ...]:
+def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
     """Return what is doubtful about indices.
 
     Parameters
     ----------
     effects : sequence of Effect
         Of all keys.
+    case : Case
+        The case.
 
     Returns
     -------
     tuple of str
-        Indices that are not much larger than their errors.
+        Indices that are not much larger than their errors, and what is left out.
     """
+    found = (WITHOUT_FATIGUE,) if case.fatigue is not None else ()
     loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
     if not loose:
-        return ()
-    return (f"the indices of {', '.join(loose)} are not known well: take more --samples",)
+        return found
+    return (
+        *found,
+        f"the indices of {', '.join(loose)} are not known well: take more --samples",
+    )
 
 
 def sensitivity_table(answer: Answer) -> pd.DataFrame:
@@ -221,7 +230,7 @@ def tornado(answer: Answer) -> Figure:
     panel.set_xlabel("life, h")
     panel.grid(alpha=0.3, axis="x", which="both")
     panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    figure.suptitle(answer.study.scattered.case.title, fontsize=10)
+    figure.suptitle(literal(answer.study.scattered.case.title), fontsize=10)
     return figure
 
 

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wearsim.report.figure_text import literal
 from wearsim.sizing.contact_number import StepFunction
 from wearsim.sizing.stiffness_spectrum import Line, StiffnessSpectrum
 
@@ -48,7 +49,7 @@ def stiffness_spectrum_figure(title: str, spectrum: StiffnessSpectrum) -> Figure
     _write_names(about, near, spectrum, 0.03 * reach)
     about.set_xlim(1.0 - reach, 1.0 + reach)
     lines.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, frameon=False, fontsize=8)
-    figure.suptitle(title, fontsize=9, y=0.985)
+    figure.suptitle(literal(title), fontsize=9, y=0.985)
     return figure
 
 

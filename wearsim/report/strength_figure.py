@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wearsim.report.figure_text import literal
 from wearsim.sizing.pair_strength import PairStrength, Stresses
 from wearsim.sizing.strength import Endurance
 
@@ -64,7 +65,7 @@ def strength_figure(title: str, pair: PairStrength) -> Figure:
         panel.margins(y=0.12)
         panel.grid(alpha=0.3)
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
-    upper.set_title(title, fontsize=9, loc="left")
+    upper.set_title(literal(title), fontsize=9, loc="left")
     upper.annotate(
         "life asked for", (pair.hours, 1.0), (3, -3), xycoords=("data", "axes fraction"),
         textcoords="offset points", rotation=90, va="top", color="0.4", fontsize=7,

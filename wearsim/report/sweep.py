@@ -88,10 +88,12 @@ def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[str]:
         "cases.csv": table.to_csv(index=False),
         "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",
     }
-    files |= sweep_figures(sweep, table)
     for name, content in files.items():
         write_file(folder / name, content, force=True)
-    return list(files)
+    figures = sweep_figures(sweep, table)
+    for name, content in figures.items():
+        write_file(folder / name, content, force=True)
+    return [*files, *figures]
 
 
 def _life(row: Mapping[Any, Any]) -> str:

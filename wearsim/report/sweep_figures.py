@@ -14,6 +14,7 @@ from matplotlib.ticker import MaxNLocator
 
 from wearsim.quantities import quantities
 from wearsim.report.answer import grouped
+from wearsim.report.figure_text import literal
 from wearsim.report.figures import picture_bytes
 from wearsim.study.sweep import Sweep
 
@@ -51,7 +52,7 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
         figures["parallel"] = _parallel(table, sweep.design.keys)
     files: dict[str, bytes] = {}
     for name, figure in figures.items():
-        figure.suptitle(sweep.title, fontsize=10)
+        figure.suptitle(literal(sweep.title), fontsize=10)
         files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
     return files
 
@@ -86,7 +87,14 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
             for key, value in zip(others, values, strict=True)
         )
         colour = f"C{number}"
-        panel.plot(group[key], _hours(group), "-o", color=colour, markersize=4, label=shown or None)
+        panel.plot(
+            group[key],
+            _hours(group),
+            "-o",
+            color=colour,
+            markersize=4,
+            label=literal(shown) or None,
+        )
         bound = group[group["life_hours"].isna()]
         panel.plot(bound[key], _hours(bound), "^", color=colour, markersize=9)
     if (table["life_hours"].isna() & (table["error"] == "")).any():
@@ -169,5 +177,5 @@ def _heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any,
         marks = list(zip(steps, names, strict=True))
         heights = np.array([steps[names.index(str(value))] for value in values])
     for height, text in marks:
-        panel.text(at + 0.03, height, text, fontsize=8, va="center")
+        panel.text(at + 0.03, height, literal(text), fontsize=8, va="center")
     return heights

@@ -13,6 +13,7 @@ from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.geometry.line_of_action import LineOfAction
 from wearsim.geometry.plane_gearing import Family, PitchCircles
 from wearsim.geometry.profile import Vector
+from wearsim.report.figure_text import literal
 from wearsim.sizing.synthesis import MeshField, Phase
 
 _RADII = (2.0, 5.0, 10.0, 20.0, 50.0)
@@ -60,7 +61,7 @@ def line_figure(title: str, phases: Sequence[Phase]) -> Figure:
         panel.grid(alpha=0.3)
     plane.set_ylabel("y, mm")
     figure.legend(loc="outside lower left", ncols=3, frameon=False, fontsize=8)
-    figure.suptitle(title, fontsize=10, x=0.01, ha="left")
+    figure.suptitle(literal(title), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -114,7 +115,7 @@ def indices_figure(title: str, indices: pd.DataFrame) -> Figure:
         panel.set_xlabel("distance from the pole, mm")
     if indices["mesh_phase"].nunique() > 1:
         panels[2].legend(frameon=False, fontsize=8)
-    figure.suptitle(f"{title}; dashed: involute", fontsize=10, x=0.01, ha="left")
+    figure.suptitle(literal(f"{title}; dashed: involute"), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -180,7 +181,7 @@ def field_figure(
     _axes_labels(panels.reshape(2, 3))
     size = "great" if family == 1 else "small"
     note = f"family {family:+d}, {size} radii; hatched: no such profiles; thick: line of action"
-    figure.suptitle(f"{title}: {note}", fontsize=10, x=0.01, ha="left")
+    figure.suptitle(literal(f"{title}: {note}"), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -208,7 +209,9 @@ def direction_figure(title: str, fields: Mapping[float, MeshField]) -> Figure:
         column[0].set_title(f"reduced radius, mm (mu = {mu:g} deg)", fontsize=9, loc="left")
         column[1].set_title(f"contact stress, MPa (mu = {mu:g} deg)", fontsize=9, loc="left")
     _axes_labels(panels)
-    figure.suptitle(f"{title}; hatched: profiles interfere", fontsize=10, x=0.01, ha="left")
+    figure.suptitle(
+        literal(f"{title}; hatched: profiles interfere"), fontsize=10, x=0.01, ha="left"
+    )
     return figure
 
 

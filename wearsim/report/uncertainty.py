@@ -1,6 +1,7 @@
 """What is shown of the uncertainty of a life: text, JSON, tables and pictures."""
 
 import math
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,9 +13,11 @@ from wearsim.geometry.profile import Vector
 from wearsim.output import write_file
 from wearsim.report.answer import grouped
 from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
+from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.uncertainty import UncertaintyStudy
 
 SHARES = (0.1, 0.5, 0.9)
+_MOST_KINDS = 8
 _FEWEST = 16
 """Samples from which the convergence of the percentiles is followed."""
 
@@ -61,7 +64,7 @@ class Answer:
 
     @cached_property
     def convergence(self) -> pd.DataFrame:
-        """Percentiles of the first samples, doubled from row to row up to all."""
+        """Percentiles of the first samples, doubled from row to row up to all; nan for a bound."""
         count = len(self.sound)
         counts = [
             count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST
@@ -70,7 +73,8 @@ class Answer:
         for some in reversed(counts or [count]):
             found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
             names = [f"p{100 * share:.0f}_hours" for share in SHARES]
-            rows.append({"samples": some} | dict(zip(names, (p.hours for p in found), strict=True)))
+            known = (one.hours if one.known else math.nan for one in found)
+            rows.append({"samples": some} | dict(zip(names, known, strict=True)))
         return pd.DataFrame(rows)
 
 
@@ -132,7 +136,7 @@ def warnings_of(answer: Answer) -> list[str]:
         Failed samples, percentiles beyond the horizon, unbalanced points, and how often the
         samples warn of what.
     """
-    found = []
+    found = [WITHOUT_FATIGUE] if answer.study.scattered.case.fatigue is not None else []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
     if failed:
         found.append(
@@ -146,11 +150,23 @@ def warnings_of(answer: Answer) -> list[str]:
         found.append(
             f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
         )
-    texts = [text for joined in answer.sound["warnings"] for text in joined.split("; ") if text]
-    found += [
-        f"{texts.count(text)} of {len(answer.sound)} samples: {text}"
-        for text in list(dict.fromkeys(texts))[:5]
+    return found + _of_samples(answer.sound["warnings"])
+
+
+def _of_samples(warnings: "pd.Series[str]") -> list[str]:
+    """Warnings of the samples, those that differ in their numbers only as one."""
+    kinds: dict[str, tuple[str, int]] = {}
+    for joined in warnings:
+        for text in filter(None, joined.split("\n")):
+            kind = re.sub(r"\d[\d.e+-]*", "#", text)
+            first, count = kinds.get(kind, (text, 0))
+            kinds[kind] = first, count + 1
+    most = sorted(kinds.values(), key=lambda entry: -entry[1])
+    found = [
+        f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]
     ]
+    if len(most) > _MOST_KINDS:
+        found.append(f"and {len(most) - _MOST_KINDS} other kinds of warnings, see cases.csv")
     return found
 
 
@@ -218,8 +234,10 @@ def save_uncertainty(answer: Answer, folder: Path) -> None:
         "convergence.csv": answer.convergence.to_csv(index=False),
         "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
     }
-    for name, content in (files | uncertainty_figures(answer)).items():
+    for name, content in files.items():
         write_file(folder / name, content, force=True)
+    for name, picture in uncertainty_figures(answer).items():
+        write_file(folder / name, picture, force=True)
 
 
 def _assumptions(study: UncertaintyStudy) -> list[str]:
@@ -245,7 +263,10 @@ def _parameters(fit: Fit) -> str:
 def _columns(table: pd.DataFrame) -> list[str]:
     head = "".join(f"{name.removesuffix('_hours'):>12}" for name in table.columns)
     return [head] + [
-        f"{int(row[0]):>12}" + "".join(f"{grouped(value):>12}" for value in row[1:])
+        f"{int(row[0]):>12}"
+        + "".join(
+            f"{'not known' if math.isnan(value) else grouped(value):>12}" for value in row[1:]
+        )
         for row in table.itertuples(index=False)
     ]
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 from scipy import stats
 
+from wearsim.report.figure_text import literal
 from wearsim.report.figures import picture_bytes
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def uncertainty_figures(answer: "Answer") -> dict[str, bytes]:
     figures = {"lives": _lives(answer), "convergence": _convergence(answer)}
     files: dict[str, bytes] = {}
     for name, figure in figures.items():
-        figure.suptitle(answer.study.scattered.case.title, fontsize=10)
+        figure.suptitle(literal(answer.study.scattered.case.title), fontsize=10)
         files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
     return files
 

@@ -22,6 +22,12 @@ PUBLISHED_SIGMA = 0.5
 as +-40 to 60 % (Podra and Andersson 1999)."""
 
 
+WITHOUT_FATIGUE = (
+    "contact fatigue is left out of studies: these are lives by wear, and [fatigue] may end one before "
+    "(wearsim life tells)"
+)
+
+
 @dataclass(frozen=True)
 class Scatter:
     """A key that scatters.
@@ -159,6 +165,8 @@ def load_scattered(
                 f"{coefficient} is log-normal with sigma_ln = {PUBLISHED_SIGMA:g}, the scatter of "
                 "published coefficients (default; [uncertainty] gives another)"
             )
+    if case.fatigue is not None:
+        assumptions.append(WITHOUT_FATIGUE)
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
@@ -194,6 +202,9 @@ def _given(case: Case) -> dict[str, Distribution]:
 
 
 def _scatter(case: Case, key: str, distribution: Distribution) -> Scatter:
+    if key.startswith("run."):
+        text = "keys of [run] tell how a life is calculated and cannot scatter: remove it"
+        raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
     value = case.wear.coefficient if key == coefficient_key(case) else _value(case, key)
     return Scatter(key, distribution, value, described(distribution, value))
 

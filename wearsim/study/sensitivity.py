@@ -28,6 +28,8 @@ LOW, HIGH = 0.1, 0.9
 """Probabilities between which one key at a time is moved, and Morris' method moves them all."""
 
 _LEVELS = 4
+_SAME = 1e-9
+"""Difference of ln L below which lives are the same."""
 
 
 @dataclass(frozen=True)
@@ -155,6 +157,8 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
     count, problem = len(study.scattered.scatters), _problem(study.scattered)
     one = hours[1 : 1 + 2 * count].reshape(count, 2)
     logs = np.log(hours)
+    if np.ptp(logs) < _SAME:
+        raise StudyError("nothing that scatters changes the life: there is nothing to tell apart")
     screened = library("SALib.analyze.morris", "study", "sensitivity").analyze(
         problem,
         study.morris,

@@ -139,7 +139,10 @@ def named_beside(path: Path, name: str) -> Path:
 
 
 def _content(path: Path) -> bytes | None:
+    """What is there, empty where it cannot be read; None where there is nothing."""
     try:
         return path.read_bytes()
-    except OSError:
+    except FileNotFoundError:
         return None
+    except OSError:
+        return b""

@@ -18,6 +18,11 @@ def dotted(value: Any, leaf: str) -> Any:
     object
         A table of one level.
 
+    Raises
+    ------
+    ValueError
+        A key is given in both ways.
+
     Examples
     --------
     >>> dotted({"wear": {"coefficient": {"from": 1, "to": 2}}}, "from")
@@ -27,8 +32,11 @@ def dotted(value: Any, leaf: str) -> Any:
         return value
     flat: dict[str, Any] = {}
     for key, below in value.items():
-        if isinstance(below, dict) and leaf not in below:
-            flat |= {f"{key}.{name}": entry for name, entry in dotted(below, leaf).items()}
-        else:
-            flat[key] = below
+        nested = isinstance(below, dict) and leaf not in below
+        inner = dotted(below, leaf) if nested else {"": below}
+        for name, entry in inner.items():
+            whole = f"{key}.{name}" if name else key
+            if whole in flat:
+                raise ValueError(f"{whole} is given twice, with and without quotes: remove one")
+            flat[whole] = entry
     return flat

@@ -8,7 +8,8 @@ from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.dotted import dotted
 from wearsim.case.schema.table import Table
 
-Value = bool | int | float | str | list[Any]
+Number = Annotated[int | float, Field(allow_inf_nan=False)]
+Value = bool | Number | str | list[bool | Number | str]
 Values = Annotated[list[Value], Field(min_length=1)]
 
 _MOST = 1_000_000
@@ -24,6 +25,8 @@ class Range(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
+        if self.first == self.last:
+            return [("to", f"must differ from from = {self.first:g}")]
         if self.spacing == "log" and not (self.first > 0.0 and self.last > 0.0):
             return [("spacing", "log needs both ends above 0: take linear")]
         return []
@@ -54,6 +57,11 @@ class SweepTables(CalculationTables):
             found.append(
                 ("grid", "a sweep needs values for a key in [grid], [[zip]] or [[design]]")
             )
+        found += [
+            (f"grid.{key}", "every value once, but one is given twice: remove it")
+            for key, values in self.grid.items()
+            if isinstance(values, list) and len({repr(value) for value in values}) < len(values)
+        ]
         for number, group in enumerate(self.zip, start=1):
             counts = {key: len(values) for key, values in group.items()}
             if len(set(counts.values())) > 1:

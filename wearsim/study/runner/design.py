@@ -152,7 +152,7 @@ def content_hash(content: Mapping[str, Any]) -> str:
     >>> content_hash({"a": 1, "b": 2.0}) == content_hash({"b": 2.0, "a": 1})
     True
     """
-    text = json.dumps(content, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -265,8 +265,8 @@ def _taken(document: Document, files: dict[str, str], path: str) -> str:
     """Read a file that a case names, if it is there, and return its name without folder."""
     name = PurePath(path).name
     try:
-        text = (document.folder / path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError):
+        text = (document.folder / path).read_text(encoding="utf-8", errors="surrogateescape")
+    except OSError:
         return name
     if files.setdefault(name, text) != text:
         raise CaseError([Fault(f"two files of a study must not share the name {name}: rename one")])

@@ -1,5 +1,6 @@
 """A part of a study that is run and stored as a whole; all that a worker needs to run it."""
 
+import re
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -96,7 +97,7 @@ def run_shard(shard: Shard) -> Rows:
         )
     with tempfile.TemporaryDirectory() as folder:
         for name, text in shard.design.files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8")
+            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         loaded = [_loaded(shard.design, index, folder) for index in range(shard.count)]
     lives = simulate_many((case for case in loaded if isinstance(case, Case)), threads=1)
     rows: Rows = {name: [] for name in COLUMNS}
@@ -117,10 +118,10 @@ def _loaded(design: Design, index: int, folder: str) -> Case | WearsimError:
 
 def _row(found: CaseLife | WearsimError) -> tuple[Any, ...]:
     if isinstance(found, WearsimError):
-        return (None,) * 5 + ("", str(found).removeprefix("case: "))
+        return (None,) * 5 + ("", re.sub("^case: ", "", str(found), flags=re.MULTILINE))
     life = found.life
     hours = life.hours if isinstance(life, Life) else None
-    warnings = "; ".join(found.warnings)
+    warnings = "\n".join(found.warnings)
     return hours, life.hours_run, life.cycles_run, found.stop, found.numerical_error, warnings, ""
 
 

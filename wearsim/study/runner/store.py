@@ -11,7 +11,7 @@ from typing import Any
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.output import write_file
-from wearsim.study.runner.design import Design
+from wearsim.study.runner.design import Design, content_hash
 from wearsim.study.runner.shard import COLUMNS, Rows, Shard
 
 MANIFEST = "study.json"
@@ -23,6 +23,7 @@ _WRITTEN = (
 )  # fmt: skip
 """Tables and pictures of studies."""
 
+_HASH = b"rows_sha256"
 _TEXTS = ("stop", "warnings", "error", "case_sha256")
 
 
@@ -70,12 +71,16 @@ class Store:
         path = self.path(shard)
         if not path.exists():
             return None
+        arrow = library("pyarrow", "parquet", "--out")
         try:
-            rows: Rows = parquet.read_table(path).to_pydict()
-        except (OSError, ValueError):
-            rows = {}
+            table = parquet.read_table(path)
+            rows: Rows = table.to_pydict()
+            written = (table.schema.metadata or {}).get(_HASH)
+            sound = written == content_hash(rows).encode()
+        except (OSError, ValueError, TypeError, arrow.ArrowException):
+            rows, sound = {}, False
         indices = list(range(shard.first, shard.first + shard.count))
-        if tuple(rows) == COLUMNS and rows["case_index"] == indices:
+        if sound and tuple(rows) == COLUMNS and rows["case_index"] == indices:
             return rows
         with contextlib.suppress(OSError):
             path.unlink()
@@ -104,12 +109,13 @@ class Store:
             name: arrow.array(values, kinds.get(name, arrow.float64()))
             for name, values in rows.items()
         }
+        table = arrow.table(columns).replace_schema_metadata({_HASH: content_hash(rows)})
         path = self.path(shard)
         beside = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             with beside.open("wb") as file:
-                parquet.write_table(arrow.table(columns), file, compression="zstd")
+                parquet.write_table(table, file, compression="zstd")
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, path)
@@ -147,27 +153,59 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
     OutputError
         The folder holds another study or anything else.
     """
-    manifest = {"schema_version": 1, **told, "cases": len(design.rows), "sha256": design.address()}
+    text = _manifest(design, told)
+    old = check_store(folder, design, told, force)
+    if old == text:
+        return Store(folder)
+    if old is not None:
+        _clear(folder)
+    write_file(folder / MANIFEST, text, force=True)
+    return Store(folder)
+
+
+def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> str | None:
+    """Raise where a study cannot go into a folder.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        New, empty, or that of the same study.
+    design : Design
+        Its cases.
+    told : mapping
+        What else the manifest tells of the study.
+    force : bool
+        Take the folder of another study.
+
+    Returns
+    -------
+    str or None
+        The manifest that is there.
+
+    Raises
+    ------
+    OutputError
+        The folder holds another study or anything else.
+    """
     place = folder / MANIFEST
-    text = json.dumps(manifest, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     try:
-        old = place.read_text(encoding="utf-8") if place.exists() else None
+        old = place.read_bytes().decode("utf-8", "replace") if place.exists() else None
         taken = folder.exists() and (not folder.is_dir() or any(folder.iterdir()))
     except OSError as error:
         raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
-    if old == text:
-        return Store(folder)
     if old is None and taken:
         raise OutputError(f"{folder}: must be new or hold a study, but does not: choose another")
-    if old is not None and not force:
+    if old not in (None, _manifest(design, told)) and not force:
         raise OutputError(
             f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
             "number or version): choose another place or --force"
         )
-    if old is not None:
-        _clear(folder)
-    write_file(place, text, force=True)
-    return Store(folder)
+    return old
+
+
+def _manifest(design: Design, told: Mapping[str, Any]) -> str:
+    content = {"schema_version": 1, **told, "cases": len(design.rows), "sha256": design.address()}
+    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _clear(folder: Path) -> None:

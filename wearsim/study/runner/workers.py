@@ -1,6 +1,9 @@
 """Where shards run: threads of this process, other processes, or a Dask cluster."""
 
+import json
+import re
 import signal
+import socket
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -66,7 +69,23 @@ class Processes:
         """Give an executor and the number of its workers."""
         context = get_context("spawn")
         with ProcessPoolExecutor(self.count, context, initializer=_deaf) as pool:
+            with _held():
+                for _ in range(self.count):
+                    pool.submit(int)
             yield pool, self.count
+
+
+@contextmanager
+def _held() -> Iterator[None]:
+    """Hold Ctrl-C back while processes start, which inherit that until they are deaf to it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _deaf() -> None:
@@ -108,6 +127,7 @@ class Cluster:
             dask.Security(require_encryption=True, **self.security) if self.security else None
         )
         place = self.address or str(self.scheduler_file)
+        _reach(self.address or _address(place), place)
         try:
             client = dask.Client(
                 self.address,
@@ -120,6 +140,30 @@ class Cluster:
             raise StudyError(f"{place}: must be a Dask scheduler that answers: {error}") from None
         with client:
             yield client.get_executor(pure=False), _checked(client, dask, place)
+
+
+def _address(place: str) -> str:
+    """Address in the file of a scheduler."""
+    try:
+        found = json.loads(Path(place).read_text(encoding="utf-8"))["address"]
+    except (OSError, ValueError, KeyError, TypeError):
+        found = None
+    if not isinstance(found, str):
+        raise StudyError(f"{place}: must be the file that a Dask scheduler wrote, but is not")
+    return found
+
+
+def _reach(address: str, place: str) -> None:
+    """Find out whether anybody answers, before a client that would try for long."""
+    match = re.fullmatch(r"(?:tcp|tls)://\[?([^\]/]+)\]?:(\d{1,5})", address)
+    if match is None:
+        raise StudyError(
+            f"{place}: must be an address such as tcp://127.0.0.1:8786, not {address!r}"
+        )
+    try:
+        socket.create_connection((match[1], int(match[2])), timeout=_PATIENCE).close()
+    except (OSError, OverflowError) as error:
+        raise StudyError(f"{place}: must be a Dask scheduler that answers: {error}") from None
 
 
 def _checked(client: Any, dask: Any, place: str) -> int:
