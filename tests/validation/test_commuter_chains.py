@@ -1,0 +1,101 @@
+"""V2: three chains of a commuter's bicycle
+
+Two chains used in turn on one drive, and a third with two rainy stretches, read with a caliper between the rollers
+over 11 pitches ([commuter_chains.csv](../tests/validation/data/commuter_chains.csv)). The engine runs the shipped case
+`bicycle-17t-road` (50/17 teeth, 200 W at 33 km/h, 210 N in the chain: all assumed, the source states neither teeth nor power).
+
+Calibrated on the six readings of Shimano and KMC up to 3250 km: the length of a new chain (not stated either) and one coefficient of
+the joints, both by one straight line. Predicts the four readings from 3750 km on. Then one factor for wet, from Miche
+between 2350 and 2850 km, predicts Miche between 3250 and 4000 km.
+
+What fails: three of the four readings lie 0.2 to 0.3 mm above the line. They were taken in winter (salt is noted once): a drive in
+all weathers has no constant coefficient, and 0.24 mm in 1000 km up to 3250 km become some 0.6 after.
+A coefficient fitted to all ten readings (0.32 mm in 1000 km) would pass; that would be no prediction.
+
+It cannot show: a coefficient of the joints, since teeth and tension stand only in a product with it, and the reading also holds the
+play of the rollers (the rate is an upper bound); any effect of teeth or power; running-in, as no reading is below 1200 km; wear of teeth.
+Between its two rainy stretches Miche read no growth in 400 km: the factor for wet is one of weeks.
+"""
+
+import numpy as np
+import pytest
+
+READING = "sd 0.1 mm"
+
+
+def test_new_length(commuter, measured):
+    measured(
+        "reading of a new chain, from the line",
+        commuter.new_reading,
+        "132.20 to 132.60, two other chains (V3)",
+        ("range", (132.20, 132.60)),
+        "passed",
+        unit="mm",
+        scatter=READING,
+        digits=5,
+    )
+
+
+@pytest.mark.parametrize(
+    ("chain", "km", "verdict"),
+    [
+        ("Shimano", 3750, "failed"),
+        ("KMC", 3800, "passed"),
+        ("Shimano", 3900, "failed"),
+        ("KMC", 4100, "failed"),
+    ],
+)
+def test_later_readings(data, commuter, grown, span, measured, chain, km, verdict):
+    read = data("commuter_chains").set_index(["chain", "distance_km"]).reading_mm
+    growth = span(11, grown(commuter.coefficient, 4100.0).at(km)) - span(11, 0.0)
+    measured(
+        f"{chain} at {km} km",
+        commuter.new_reading + growth,
+        float(read[chain, km]),
+        ("within", 0.15),
+        verdict,
+        unit="mm",
+        scatter=READING,
+        digits=5,
+    )
+
+
+def rate(table, chain, start, end):
+    """Growth of the reading in 1000 km between two distances of a chain."""
+    read = table[table.chain == chain].drop_duplicates("distance_km").set_index("distance_km")
+    return float(1e3 * (read.reading_mm[end] - read.reading_mm[start]) / (end - start))
+
+
+def test_wet_stretch(data, wet_factor, commuter, grown, span, measured):
+    after = grown(wet_factor * commuter.coefficient, 1000.0).at(1000.0)
+    measured(
+        "Miche in the rain from 3250 to 4000 km, growth in 1000 km",
+        span(11, after) - span(11, 0.0),
+        rate(data("commuter_chains"), "Miche", 3250, 4000),
+        ("within", 0.3),
+        "passed",
+        unit="mm",
+        scatter="+-0.19 mm, that of the stretch before +-0.28 mm",
+    )
+
+
+def test_cassette_does_not_skip(commuter, wrap_run, measured):
+    """Teeth that wear like joints, chains replaced at 1 %, 13 000 km on one cog of a cassette."""
+    result = wrap_run(
+        "bicycle-17t-road",
+        f"joint.specific_wear_rate_mm2_per_N={commuter.coefficient!r}",
+        f"wear.specific_wear_rate_mm2_per_N={commuter.coefficient!r}",
+        "stop.elongation_percent=1",
+        "stop.critical_depth_mm=2",
+        f"run.horizon_hours={13000 / 33!r}",
+    )
+    least = {limit.name: limit for limit in result.limits}["min_slack_tension_N"]
+    assert np.isclose(least.limit, 10.0)
+    measured(
+        "slack tension that the worn cog needs not to skip, after 13 000 km",
+        least.value,
+        "no skipping (the derailleur's spring assumed 10 N)",
+        ("below", least.limit),
+        "passed",
+        unit="N",
+    )
