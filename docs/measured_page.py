@@ -21,6 +21,7 @@ SECTIONS = (
     "test_sealed_chain",
     "test_life_bands",
     "test_pin_on_disc",
+    "test_carbon_fibre_plastic",
     "test_twin_disc",
 )
 """Files of tests in the order of the page."""
@@ -42,7 +43,7 @@ def allowed(kind: str, size: object, unit: str) -> str:
             return f"+-{number(size)}{unit}"
         case "factor":
             return f"factor {number(size)}"
-        case "range":
+        case "range" | "found":
             return f"{number(size[0])} to {number(size[1])}{unit}"
         case _:
             return f"{kind} {number(size)}{unit}"

@@ -1,23 +1,30 @@
 """V2: three chains of a commuter's bicycle
 
-Two chains used in turn on one drive, and a third with two rainy stretches, read with a caliper between the rollers
-over 11 pitches ([commuter_chains.csv](../tests/validation/data/commuter_chains.csv)). The engine runs the shipped case
-`bicycle-17t-road` (50/17 teeth, 200 W at 33 km/h, 210 N in the chain: all assumed, the source states neither teeth nor power).
+Two chains used in turn on one drive, and a third with two rainy stretches, read with a caliper
+between the rollers over 11 pitches
+([commuter_chains.csv](../tests/validation/data/commuter_chains.csv)). The engine runs the shipped
+case `bicycle-17t-road` (50/17 teeth, 200 W at 33 km/h, 210 N in the chain: all assumed, the source
+states neither teeth nor power).
 
-Calibrated on the six readings of Shimano and KMC up to 3250 km: the length of a new chain (not stated either) and one coefficient of
-the joints, both by one straight line. Predicts the four readings from 3750 km on. Then one factor for wet, from Miche
-between 2350 and 2850 km, predicts Miche between 3250 and 4000 km.
+Calibrated on the six readings of Shimano and KMC up to 3250 km: the length of a new chain (not
+stated either) and one coefficient of the joints, both by one straight line. Predicts the four
+readings from 3750 km on. Then one factor for wet, from Miche between 2350 and 2850 km, predicts
+Miche between 3250 and 4000 km.
 
-What fails: three of the four readings lie 0.2 to 0.3 mm above the line. They were taken in winter (salt is noted once): a drive in
-all weathers has no constant coefficient, and 0.24 mm in 1000 km up to 3250 km become some 0.6 after.
-A coefficient fitted to all ten readings (0.32 mm in 1000 km) would pass; that would be no prediction.
+What fails: three of the four readings lie 0.2 to 0.3 mm above the line. A drive in all weathers has
+no constant coefficient: 0.24 mm in 1000 km up to 3250 km became 0.4 (KMC) and 0.8 (Shimano, salt is
+noted) after. One line through all ten readings, 0.32 mm in 1000 km, would pass; it would be no
+prediction.
 
-It cannot show: a coefficient of the joints, since teeth and tension stand only in a product with it, and the reading also holds the
-play of the rollers (the rate is an upper bound); any effect of teeth or power; running-in, as no reading is below 1200 km; wear of teeth.
-Between its two rainy stretches Miche read no growth in 400 km: the factor for wet is one of weeks.
+The last row wears one cog of 17 teeth, its coefficient that of the joints and the spring of the
+derailleur 10 N (both assumed), the chain replaced at 1 %; the run ends at 13 100 km.
+
+It cannot show: a coefficient of the joints, since teeth and tension stand only in a product with
+it, and the reading also holds the play of the rollers (the rate is an upper bound); any effect of
+teeth or power; running-in, as no reading is below 1200 km; wear of teeth. Between its two rainy
+stretches Miche read no growth in 400 km: the factor for wet is one of weeks.
 """
 
-import numpy as np
 import pytest
 
 READING = "sd 0.1 mm"
@@ -36,6 +43,11 @@ def test_new_length(commuter, measured):
     )
 
 
+@pytest.fixture(scope="module")
+def growth(commuter, grown):
+    return grown(commuter.coefficient, 4100.0)
+
+
 @pytest.mark.parametrize(
     ("chain", "km", "verdict"),
     [
@@ -45,12 +57,11 @@ def test_new_length(commuter, measured):
         ("KMC", 4100, "failed"),
     ],
 )
-def test_later_readings(data, commuter, grown, span, measured, chain, km, verdict):
+def test_later_readings(data, commuter, growth, span, measured, chain, km, verdict):
     read = data("commuter_chains").set_index(["chain", "distance_km"]).reading_mm
-    growth = span(11, grown(commuter.coefficient, 4100.0).at(km)) - span(11, 0.0)
     measured(
         f"{chain} at {km} km",
-        commuter.new_reading + growth,
+        commuter.new_reading + span(11, growth.at(km)) - span(11, 0.0),
         float(read[chain, km]),
         ("within", 0.15),
         verdict,
@@ -86,16 +97,15 @@ def test_cassette_does_not_skip(commuter, wrap_run, measured):
         f"joint.specific_wear_rate_mm2_per_N={commuter.coefficient!r}",
         f"wear.specific_wear_rate_mm2_per_N={commuter.coefficient!r}",
         "stop.elongation_percent=1",
-        "stop.critical_depth_mm=2",
-        f"run.horizon_hours={13000 / 33!r}",
+        "stop.critical_depth_mm=1",
+        "mechanism.phases=2",
+        f"run.horizon_hours={13100 / 33!r}",
     )
-    least = {limit.name: limit for limit in result.limits}["min_slack_tension_N"]
-    assert np.isclose(least.limit, 10.0)
     measured(
-        "slack tension that the worn cog needs not to skip, after 13 000 km",
-        least.value,
-        "no skipping (the derailleur's spring assumed 10 N)",
-        ("below", least.limit),
+        "distance on one cog before the chain skips or 1 mm is worn off",
+        33.0 * result.parts["sprocket"].hours_run,
+        "no skipping in 13 000 km",
+        ("above", 13000),
         "passed",
-        unit="N",
+        unit="km",
     )

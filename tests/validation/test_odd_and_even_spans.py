@@ -1,16 +1,21 @@
 """V3: which pitches grow
 
 Two chains, new and worn, between the rollers over 11 and over 10 pitches
-([odd_and_even_spans.csv](../tests/validation/data/odd_and_even_spans.csv)). Joint wear lengthens only the outer links: the rollers sit
-on bushes that the inner links hold. The engine gives the pitches of both links at an elongation.
+([odd_and_even_spans.csv](../tests/validation/data/odd_and_even_spans.csv)). Joint wear lengthens
+only the outer links: the rollers sit on bushes that the inner links hold. The engine gives the
+pitches of both links at an elongation.
 
-Calibrated on the growth over 10 pitches, predicts by how much 11 pitches grow more: nothing where the span begins and ends in an
-inner link, two joints' wear where in outer ones. Where it began is not stated. `joint.pitch = "uniform"` is the rival, and the play of
-rollers falls out of the difference.
+Calibrated on the growth over 10 pitches, predicts by how much 11 pitches grow more: nothing where
+the span begins and ends in an inner link, two joints' wear where in outer ones. Where it began is
+not stated. The rival is `joint.pitch = "uniform"`. What the play of the rollers adds falls out of
+the difference. More than 0.1 mm is not allowed.
 
-What fails: both rivals. That supports the pattern that the engine has by default, weakly: the caliper reads 0.05 mm.
+What fails: a span that begins in an outer link, on both chains, and the rival on one. That supports
+the pattern which the engine has by default, if the spans began in inner links; weakly, as the
+caliper reads 0.05 mm.
 
-It cannot show: how fast a chain grows, nor by how much a sprocket is worn faster by unequal pitches.
+It cannot show: how fast a chain grows, nor by how much a sprocket is worn faster by unequal
+pitches.
 """
 
 import pytest
@@ -28,16 +33,21 @@ def growths(data, chain):
     return row.worn_11_mm - row.new_11_mm, row.worn_10_mm - row.new_10_mm
 
 
+def excess(span, over_10, *pattern):
+    """By how much 11 pitches grow more than 10, by the engine's pitches."""
+    elongation = over_10 / span(10, 0.0)
+    over_11 = span(11, elongation, *pattern) - span(11, 0.0)
+    return over_11 - (span(10, elongation, *pattern) - span(10, 0.0))
+
+
 @pytest.mark.parametrize(("chain", "first", "verdict"), SPANS)
 def test_alternating_pitches(data, span, measured, chain, first, verdict):
     over_11, over_10 = growths(data, chain)
-    elongation = over_10 / span(10, 0.0)
-    more = [span(pitches, elongation, first) - span(pitches, 0.0) for pitches in (11, 10)]
     measured(
         f"{chain}: growth over 11 less over 10 pitches, {first} links at both ends",
-        more[0] - more[1],
+        excess(span, over_10, first, "alternating"),
         float(over_11 - over_10),
-        ("within", 0.1),
+        ("below", 0.1),
         verdict,
         unit="mm",
         scatter="steps of 0.05 mm, two of them",
@@ -45,15 +55,15 @@ def test_alternating_pitches(data, span, measured, chain, first, verdict):
 
 
 @pytest.mark.parametrize(
-    ("chain", "verdict"), [("Shimano XT HG94", "failed"), ("Campagnolo Veloce", "failed")]
+    ("chain", "verdict"), [("Shimano XT HG94", "passed"), ("Campagnolo Veloce", "failed")]
 )
-def test_uniform_pitches(data, measured, chain, verdict):
+def test_uniform_pitches(data, span, measured, chain, verdict):
     over_11, over_10 = growths(data, chain)
     measured(
-        f"{chain}: the same if all pitches grew alike",
-        over_10 / 10.0,
+        f"{chain}: the same, rival: all pitches grow alike",
+        excess(span, over_10, "inner", "uniform"),
         float(over_11 - over_10),
-        ("within", 0.1),
+        ("below", 0.1),
         verdict,
         unit="mm",
         scatter="steps of 0.05 mm, two of them",

@@ -1,17 +1,21 @@
 """Pins of plastic on a disc at two loads
 
-Dry pins of PPS with PTFE ([pin_on_disc.csv](../tests/validation/data/pin_on_disc.csv)). The engine runs an even contact given by a table
-(`mechanism.kind = "prescribed"`): a cycle is a metre of sliding, the load that of the pin. The area of the pin is not stated; only
-the coefficient over it is identified.
+Dry pins of PPS with PTFE ([pin_on_disc.csv](../tests/validation/data/pin_on_disc.csv)). The engine
+runs an even contact given by a table (`mechanism.kind = "prescribed"`): a cycle is a metre of
+sliding, the load that of the pin. The area of the pin is not stated; only the coefficient over it
+is identified.
 
-Calibrated at 59.8 N, the mean of two tests: the late slope, and for the depth a running-in of two keys besides. Predicts the late slope
-and the depths at 98.1 N, means of one (PPS) and two tests (30 % PTFE). A factor of 2 is allowed; duplicates differ by as much.
+Calibrated at 59.8 N, the mean of two tests: the late slope, and for the depth a running-in of two
+keys besides. Predicts the late slope and the depths at 98.1 N, means of one (PPS) and two tests (30
+% PTFE). A factor of 2 is allowed; duplicates differ by as much.
 
-Left out: 15 % PTFE, as there is no second load, and 45 % PTFE, whose depth is below the drift of the gauge (one test is negative throughout).
+Left out: 15 % PTFE, as there is no second load, and 45 % PTFE, whose depth is below the drift of
+the gauge (one test is negative throughout).
 
-It cannot show: an absolute coefficient; a redistribution of pressure, since a flat pin stays flat; anything of steel, of oil or of a line
-contact. It is Archard's proportion to load and sliding that is tested, and the slope of 30 % PTFE does not follow it
-(it falls by 7 % where it should grow by 64 %): it passes only because a factor of 2 is wide.
+It cannot show: an absolute coefficient; a redistribution of pressure, since a flat pin stays flat;
+anything of steel, of oil or of a line contact. It is Archard's proportion to load and sliding that
+is tested, and the slope of 30 % PTFE does not follow it (it falls by 7 % where it should grow by 64
+%): it passes only because a factor of 2 is wide.
 """
 
 import numpy as np
@@ -62,7 +66,9 @@ def depth_at(even_contact):
 
 @pytest.mark.parametrize("material", MATERIALS)
 def test_late_slope(tests_of, depth_at, measured, material):
-    low, high = (float(tests_of(material, load).late_slope_um_per_m.iloc[0]) for load in (LOW, HIGH))
+    low, high = (
+        float(tests_of(material, load).late_slope_um_per_m.iloc[0]) for load in (LOW, HIGH)
+    )
     measured(
         f"{material}: late slope at 98.1 N",
         float(depth_at(HIGH, low / LOW, [100.0])[0] / 100.0),

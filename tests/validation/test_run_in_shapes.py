@@ -1,18 +1,22 @@
 """V4: curves of elongation, running-in and lubrication
 
-Typical figures of a bicycle shop and of a maker of chains ([run_in.csv](../tests/validation/data/run_in.csv)). The engine runs
-`bicycle-17t-road` with `wear.running_in_factor` and `wear.running_in_distance_mm`, which fall off exponentially.
+Typical figures of a bicycle shop and of a maker of chains
+([run_in.csv](../tests/validation/data/run_in.csv)). The engine runs `bicycle-17t-road` with
+`wear.running_in_factor` and `wear.running_in_distance_mm`, which fall off exponentially.
 
-Calibrated on three figures: 2 mm in the first 150 km, of the excess 95 % in the first 100 km, then 2.5 mm in 2000 km, of 1397 mm.
-Predicts that the run-in is below 0.15 %, over by 200 km, the curve straight after, and the whole length at 2500 km. The coefficients of
-the oiled and the degreased chain are in the ratio of roller scars, 13.
+Calibrated on three figures: 2 mm in the first 150 km, of the excess 95 % in the first 100 km, then
+2.5 mm in 2000 km, of 1397 mm. Predicts that the run-in is below 0.15 %, over by 200 km, the curve
+straight after, and the whole length at 2500 km. The coefficients of the oiled and the degreased
+chain are in the ratio of roller scars, 13.
 
-What fails: two figures. A chain that is not oiled again bends upward; the engine's coefficient knows no age of the
-lubricant, so its late curve stays straight. And a run-in of a bicycle's chain is above the 0.1 % of the
-industrial guide: the two sources differ, and the engine follows the one it was calibrated on.
+What fails: two figures. A chain that is not oiled again bends upward; the engine's coefficient
+knows no age of the lubricant, so its late curve stays straight. And a run-in of a bicycle's chain
+is above the 0.1 % of the industrial guide: the two sources differ, and the engine follows the one
+it was calibrated on.
 
-It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that the order of oiled and degreased is
-right follows from the coefficients put in. That it runs in by conforming, as joints do, is not in the engine.
+It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that
+the order of oiled and degreased is right follows from the coefficients put in. That it runs in by
+conforming, as joints do, is not in the engine.
 """
 
 import numpy as np
@@ -144,10 +148,10 @@ def test_degreased_is_steeper(oiled, grown, coefficient, figures, measured):
 
 
 def test_knee_without_oil(oiled, measured):
-    thirds = [oiled.at(km) for km in (500.0, 1000.0, 2000.0, 2500.0)]
+    marks = [oiled.at(km) for km in (500.0, 1000.0, 2000.0, 2500.0)]
     measured(
         "not oiled again: last rate over the one before",
-        (thirds[3] - thirds[2]) / (thirds[1] - thirds[0]),
+        (marks[3] - marks[2]) / (marks[1] - marks[0]),
         "a knee upward",
         ("above", 1.05),
         "failed",
