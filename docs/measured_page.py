@@ -61,7 +61,7 @@ def cells(place: str, row: Mapping[str, object]) -> list[str]:
         row["scatter"],
         allowed(row["kind"], row["size"], unit),
         row["verdict"] if row["verdict"] == "passed" else f"**{row['verdict']}**",
-        f"[{Path(file).name}::{name}](../{file})",
+        f"[{name}](../{file})",
     ]
 
 

@@ -1,4 +1,4 @@
-"""Plastic with carbon fibres at three loads
+"""V8: plastic with carbon fibres at three loads
 
 Loss of mass over 1000 m of sliding, four contents of nanotubes
 ([carbon_fibre_plastic.csv](../tests/validation/data/carbon_fibre_plastic.csv)). The engine runs an

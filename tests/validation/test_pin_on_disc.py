@@ -1,4 +1,4 @@
-"""Pins of plastic on a disc at two loads
+"""V7: pins of plastic on a disc at two loads
 
 Dry pins of PPS with PTFE ([pin_on_disc.csv](../tests/validation/data/pin_on_disc.csv)). The engine
 runs an even contact given by a table (`mechanism.kind = "prescribed"`): a cycle is a metre of

@@ -1,4 +1,4 @@
-"""Twin discs of wheel and rail steel
+"""V9: twin discs of wheel and rail steel
 
 The published law of wear of two dry discs that roll and slip at 1500 MPa
 ([twin_disc.csv](../tests/validation/data/twin_disc.csv)). The engine runs an even line contact
