@@ -23,7 +23,7 @@ extensions = [
     "gallery",
     "key_tables",
 ]
-exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md"]
+exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md", "measured_head.md"]
 html_theme = "furo"
 html_title = f"wearsim {release}"
 html_math_renderer = "mathml"

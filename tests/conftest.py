@@ -1,4 +1,4 @@
-"""What tests of all folders share, and the validation page that a run can write."""
+"""What tests of all folders share, and the pages that a run can write from their rows."""
 
 import runpy
 from pathlib import Path
@@ -7,7 +7,9 @@ import pytest
 
 from wearsim.case.messages import known_keys
 
-WRITER = Path(__file__).parents[1] / "docs" / "validation_page.py"
+DOCS = Path(__file__).parents[1] / "docs"
+PAGES = {"validated": "validation_page", "measured": "measured_page"}
+"""Name of a row that a test hands over, and the option and writer of its page."""
 
 
 def pytest_addoption(parser):
@@ -16,13 +18,21 @@ def pytest_addoption(parser):
         metavar="FILE",
         help="write docs/validation.md to FILE from the rows of tests/verification",
     )
+    parser.addoption(
+        "--measured-page",
+        metavar="FILE",
+        help="write docs/measured.md to FILE from the rows of tests/validation",
+    )
 
 
 def pytest_terminal_summary(terminalreporter, exitstatus, config):
-    """Write the page where all tests passed; with xdist only the controller comes here."""
-    file = config.getoption("validation_page")
-    if not file:
-        return
+    """Write the pages where all tests passed; with xdist only the controller comes here."""
+    for kind, writer in PAGES.items():
+        if file := config.getoption(writer):
+            write_page(terminalreporter, exitstatus, file, kind, writer)
+
+
+def write_page(terminalreporter, exitstatus, file, kind, writer):
     if exitstatus:
         terminalreporter.write_line(f"{file}: not written, not all tests passed")
         return
@@ -30,9 +40,10 @@ def pytest_terminal_summary(terminalreporter, exitstatus, config):
         (report.nodeid, report.location[1], row)
         for report in terminalreporter.getreports("passed")
         for name, row in report.user_properties
-        if name == "validated"
+        if name == kind
     ]
-    Path(file).write_text(runpy.run_path(str(WRITER))["page"](rows), encoding="utf-8")
+    page = runpy.run_path(str(DOCS / f"{writer}.py"))["page"](rows)
+    Path(file).write_text(page, encoding="utf-8")
     terminalreporter.write_line(f"{file}: {len(rows)} rows")
 
 

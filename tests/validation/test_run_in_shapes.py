@@ -1,0 +1,158 @@
+"""V4: curves of elongation, running-in and lubrication
+
+Typical figures of a bicycle shop and of a maker of chains
+([run_in.csv](../tests/validation/data/run_in.csv)). The engine runs `bicycle-17t-road` with
+`wear.running_in_factor` and `wear.running_in_distance_mm`, which fall off exponentially.
+
+Calibrated on three figures: 2 mm in the first 150 km, of the excess 95 % in the first 100 km, then
+2.5 mm in 2000 km, of 1397 mm. Predicts that the run-in is below 0.15 %, over by 200 km, the curve
+straight after, and the whole length at 2500 km. The coefficients of the oiled and the degreased
+chain are in the ratio of roller scars, 13.
+
+What fails: two figures. A chain that is not oiled again bends upward; the engine's coefficient
+knows no age of the lubricant, so its late curve stays straight. And a run-in of a bicycle's chain
+is above the 0.1 % of the industrial guide: the two sources differ, and the engine follows the one
+it was calibrated on.
+
+It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that
+the order of oiled and degreased is right follows from the coefficients put in. That it runs in by
+conforming, as joints do, is not in the engine.
+"""
+
+import numpy as np
+import pytest
+
+import wearsim
+from wearsim.simulation.wrap import wrap_contact
+
+CASE = "bicycle-17t-road"
+KM_PER_HOUR = 33.0
+OVER_BY = 100.0
+"""Distance in which 95 % of the excess are worn [km]."""
+
+
+@pytest.fixture(scope="module")
+def figures(data):
+    return data("run_in").set_index("quantity").value
+
+
+@pytest.fixture(scope="module")
+def later_rate(figures):
+    """Elongation in a km after the run-in."""
+    return figures.later_lengthening / figures.chain_length / figures.later_distance
+
+
+@pytest.fixture(scope="module")
+def coefficient(grown, later_rate):
+    return 1e-8 * 1e5 * later_rate / grown(1e-8, 1000.0).rate
+
+
+@pytest.fixture(scope="module")
+def excess(figures, later_rate):
+    """Run-in beyond the later rate, all of it, and the distance over which it falls to 1/e."""
+    distance = OVER_BY / np.log(20.0)
+    first = figures.run_in_lengthening / figures.chain_length
+    first -= later_rate * figures.run_in_distance
+    return float(first / -np.expm1(-figures.run_in_distance / distance)), float(distance)
+
+
+@pytest.fixture(scope="module")
+def oiled(grown, coefficient, excess, later_rate, request):
+    """Growth with running-in over 2500 km."""
+    amount, distance = excess
+    case = wearsim.load_case(request.path.parents[2] / "cases" / f"{CASE}.toml")
+    cycles_per_km = case.cycles_per_hour / KM_PER_HOUR
+    path = wrap_contact(case, case.drive).sliding_per_cycle * cycles_per_km * distance
+    return grown(
+        coefficient,
+        2500.0,
+        f"wear.running_in_factor={float(1.0 + amount / (later_rate * distance))!r}",
+        f"wear.running_in_distance_mm={float(path)!r}",
+    )
+
+
+def late_line(growth):
+    """Slope and intercept of the second half."""
+    late = growth.distance >= 0.5 * growth.distance[-1]
+    return np.polyfit(growth.distance[late], growth.elongation[late], 1)
+
+
+def test_amount(oiled, measured):
+    measured(
+        "run-in, where the late line begins",
+        100.0 * late_line(oiled)[1],
+        0.14,
+        ("below", 0.15),
+        "passed",
+        unit="%",
+        scatter="range of 100 to 200 km",
+    )
+
+
+def test_amount_of_industrial_chains(oiled, figures, measured):
+    measured(
+        "the same, industrial guide",
+        100.0 * late_line(oiled)[1],
+        "below 0.1, usually",
+        ("below", figures.industrial_run_in),
+        "failed",
+        unit="%",
+    )
+
+
+def test_over_by_200_km(oiled, measured):
+    slope, start = late_line(oiled)
+    measured(
+        "part of the run-in that is left at 200 km",
+        (start + slope * 200.0 - oiled.at(200.0)) / start,
+        "over by 200 km, or 20 h",
+        ("below", 0.05),
+        "passed",
+    )
+
+
+def test_straight_after(oiled, measured):
+    slope, start = late_line(oiled)
+    after = oiled.distance >= 200.0
+    off = np.abs(oiled.elongation[after] - start - slope * oiled.distance[after]).max()
+    measured(
+        "greatest distance from a straight line after 200 km, over the growth since",
+        off / (oiled.elongation[-1] - oiled.at(200.0)),
+        "nearly linear",
+        ("below", 0.05),
+        "passed",
+    )
+
+
+def test_whole_length(oiled, figures, measured):
+    measured(
+        "lengthening at 2500 km",
+        oiled.at(figures.whole_distance) * figures.chain_length,
+        float(figures.whole_lengthening),
+        ("within", 1.0),
+        "passed",
+        unit="mm",
+        scatter="4 to 5 mm at 2150 km, 5 mm in 2000 to 3000 km",
+    )
+
+
+def test_degreased_is_steeper(oiled, grown, coefficient, figures, measured):
+    dry = grown(figures.dry_over_oiled * coefficient, 500.0)
+    measured(
+        "late rate degreased over oiled",
+        dry.rate / (1e5 * late_line(oiled)[0]),
+        "steeper, nearly straight",
+        ("above", 2.0),
+        "passed",
+    )
+
+
+def test_knee_without_oil(oiled, measured):
+    marks = [oiled.at(km) for km in (500.0, 1000.0, 2000.0, 2500.0)]
+    measured(
+        "not oiled again: last rate over the one before",
+        (marks[3] - marks[2]) / (marks[1] - marks[0]),
+        "a knee upward",
+        ("above", 1.05),
+        "failed",
+    )
