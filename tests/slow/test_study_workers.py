@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 WEARSIM = str(Path(sys.executable).parent / "wearsim")
 DASK = str(Path(sys.executable).parent / "dask")
-SAMPLES = 6000
+SAMPLES = 4000
 CASE = """\
 format_version = 1
 [chain]
@@ -172,6 +172,7 @@ def test_worker_of_another_version_is_refused(study, cluster):
 
     place, _ = cluster
     with Client(scheduler_file=str(place), set_as_default=False) as client:
+        client.wait_for_workers(2)
         client.run(other_version)
     done = run(study, "other", "--scheduler-file", place)
     assert done.returncode == 3
