@@ -5,6 +5,7 @@ import os
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -126,7 +127,7 @@ def test_key_of_a_list_of_tables():
 
 
 def test_files_go_with_the_study(tmp_path, monkeypatch):
-    source = wearsim.__path__[0] + "/../cases/hertz-arc-prescribed.toml"
+    source = Path(__file__).parents[2] / "cases" / "hertz-arc-prescribed.toml"
     document = read_document(source, [])
     key = "wear.specific_wear_rate_mm2_per_N"
     cases = design(document, [key], [(1e-10,), (2e-10,)], "test")

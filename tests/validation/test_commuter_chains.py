@@ -58,7 +58,7 @@ def growth(commuter, grown):
     ],
 )
 def test_later_readings(data, commuter, growth, span, measured, chain, km, verdict):
-    read = data("commuter_chains").set_index(["chain", "distance_km"]).reading_mm
+    read = data("commuter_chains").set_index(["chain", "distance_km"]).sort_index().reading_mm
     measured(
         f"{chain} at {km} km",
         commuter.new_reading + span(11, growth.at(km)) - span(11, 0.0),
