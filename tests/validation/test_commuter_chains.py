@@ -58,11 +58,12 @@ def growth(commuter, grown):
     ],
 )
 def test_later_readings(data, commuter, growth, span, measured, chain, km, verdict):
-    read = data("commuter_chains").set_index(["chain", "distance_km"]).sort_index().reading_mm
+    table = data("commuter_chains")
+    (read,) = table[(table.chain == chain) & (table.distance_km == km)].reading_mm
     measured(
         f"{chain} at {km} km",
         commuter.new_reading + span(11, growth.at(km)) - span(11, 0.0),
-        float(read[chain, km]),
+        read,
         ("within", 0.15),
         verdict,
         unit="mm",
