@@ -128,6 +128,7 @@ def read_only(package):
 NO_TEMPORARY_FOLDER = "import os, tempfile; tempfile.tempdir = os.environ['HOME']\n" + LIFE
 
 
+@pytest.mark.slow
 def test_read_only_install_runs_without_a_home(read_only, tmp_path):
     package, settings = read_only
     temporary = tmp_path / "temporary"
