@@ -1,11 +1,38 @@
 """The keys that an input file may hold, by their dotted names."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
+from wearsim.case.schema import CaseTables
 from wearsim.case.schema.table import Table
+
+
+def schema_of(tables: Mapping[str, Any]) -> type[Table]:
+    """Return the schema that a case is read by.
+
+    Parameters
+    ----------
+    tables : mapping
+        What stands in it.
+
+    Returns
+    -------
+    type
+        That of gear pairs or that of chain drives.
+
+    Examples
+    --------
+    >>> schema_of({"chain": {}}).__name__, schema_of({"gear": {}}).__name__
+    ('CaseTables', 'GearTables')
+    """
+    if "gear" not in tables:
+        return CaseTables
+    # Models of tables take time to build, and most cases are not of gears.
+    from wearsim.case.schema.gear import GearTables
+
+    return GearTables
 
 
 def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
@@ -33,8 +60,8 @@ def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, F
     (True, True)
     """
     for name, field in model.model_fields.items():
-        tables = list(_tables(field.annotation))
-        many = "[]" if any(get_origin(part) is list for part in _parts(field.annotation)) else ""
+        tables = list(tables_in(field.annotation))
+        many = "[]" if any(get_origin(part) is list for part in parts(field.annotation)) else ""
         for table in tables:
             yield from schema_fields(table, f"{prefix}{name}{many}.")
         if not tables:
@@ -61,7 +88,7 @@ def words(field: FieldInfo) -> tuple[str, ...]:
     ('strand', 'prescribed', 'wrap')
     """
     found: list[str] = []
-    for part in _parts(field.annotation):
+    for part in parts(field.annotation):
         if get_origin(part) is Literal:
             found += [word for word in get_args(part) if isinstance(word, str)]
         if part is bool:
@@ -69,15 +96,38 @@ def words(field: FieldInfo) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _parts(annotation: Any) -> Iterator[Any]:
-    """Give a type and all types that it is made of."""
+def parts(annotation: Any) -> Iterator[Any]:
+    """Give a type and all types that it is made of.
+
+    Parameters
+    ----------
+    annotation : object
+        Of a key; of a choice of words the words are no types.
+
+    Yields
+    ------
+    object
+        The type, then its parts.
+    """
     yield annotation
     if get_origin(annotation) is not Literal:
         for inner in get_args(annotation):
-            yield from _parts(inner)
+            yield from parts(inner)
 
 
-def _tables(annotation: Any) -> Iterator[type[Table]]:
-    for part in _parts(annotation):
+def tables_in(annotation: Any) -> Iterator[type[Table]]:
+    """Give the tables that a type is made of.
+
+    Parameters
+    ----------
+    annotation : object
+        Of a key.
+
+    Yields
+    ------
+    type
+        Itself, or those in a list or a choice.
+    """
+    for part in parts(annotation):
         if isinstance(part, type) and issubclass(part, Table):
             yield part

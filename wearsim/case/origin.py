@@ -5,8 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.case.keys import schema_fields
-from wearsim.case.schema import CaseTables, Table
+from wearsim.case.keys import schema_fields, schema_of
 from wearsim.catalogue.tables import chains, rows, wear_conditions
 from wearsim.quantities import quantities
 
@@ -61,7 +60,7 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
     """
     defaults = {
         key: field.get_default(call_default_factory=True)
-        for key, field in schema_fields(_schema(inputs))
+        for key, field in schema_fields(schema_of(inputs))
         if not field.is_required()
     }
     found = []
@@ -76,15 +75,6 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
         unit, meaning = (quantity.unit, quantity.meaning) if quantity else ("", "")
         found.append(InputRow(key, value, unit, meaning, origin, why))
     return found
-
-
-def _schema(inputs: Mapping[str, Any]) -> type[Table]:
-    if "gear" not in inputs:
-        return CaseTables
-    # Models of tables take time to build, and most cases are not of gears.
-    from wearsim.case.schema.gear import GearTables
-
-    return GearTables
 
 
 def _keys(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

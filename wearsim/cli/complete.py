@@ -247,13 +247,9 @@ def _model(context: click.Context) -> "type[Table]":
 
         if context.info_name in CALCULATIONS:
             return CALCULATIONS[context.info_name]
-    if any(map(_is_gear, _cases(context))):
-        from wearsim.case.schema.gear import GearTables
+    from wearsim.case.keys import schema_of
 
-        return GearTables
-    from wearsim.case.schema import CaseTables
-
-    return CaseTables
+    return schema_of({"gear": {}} if any(map(_is_gear, _cases(context))) else {})
 
 
 def _cases(context: click.Context) -> list[Path]:

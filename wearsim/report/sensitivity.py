@@ -10,10 +10,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from wearsim.case.model import Case
-from wearsim.output import write_file
 from wearsim.report.answer import grouped
-from wearsim.report.figure_text import literal
-from wearsim.report.figures import picture_bytes
+from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.sensitivity import HIGH, LOW, Effect, SensitivityStudy
 
@@ -168,7 +166,7 @@ def sensitivity_json(answer: Answer) -> dict[str, Any]:
         "case": scattered.case.name,
         "life_hours": answer.hours,
         "seed": answer.study.seed,
-        "keys": [{str(name): _plain(value) for name, value in row.items()} for row in rows],
+        "keys": [{str(name): plain(value) for name, value in row.items()} for row in rows],
         "assumptions": [*scattered.assumptions, *scattered.case.assumptions],
         "warnings": [*answer.warnings, *scattered.case.warnings],
     }
@@ -191,16 +189,13 @@ def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
     OutputError
         It cannot be written.
     """
-    figure = tornado(answer)
-    files: dict[str, str | bytes] = {
+    texts = {
         "cases.csv": table.to_csv(index=False),
         "sensitivity.csv": sensitivity_table(answer).to_csv(index=False),
         "summary.md": f"```\n{sensitivity_text(answer)}\n```\n",
-        "tornado.png": picture_bytes(figure, "png"),
-        "tornado.svg": picture_bytes(figure, "svg"),
     }
-    for name, content in files.items():
-        write_file(folder / name, content, force=True)
+    save_texts(folder, texts)
+    save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})
 
 
 def tornado(answer: Answer) -> Figure:
@@ -230,9 +225,4 @@ def tornado(answer: Answer) -> Figure:
     panel.set_xlabel("life, h")
     panel.grid(alpha=0.3, axis="x", which="both")
     panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    figure.suptitle(literal(answer.study.scattered.case.title), fontsize=10)
     return figure
-
-
-def _plain(value: Any) -> Any:
-    return None if isinstance(value, float) and math.isnan(value) else value

@@ -8,8 +8,8 @@ from typing import Any
 
 import pandas as pd
 
-from wearsim.output import write_file
 from wearsim.report.answer import grouped
+from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.report.sweep_figures import sweep_figures
 from wearsim.study.sweep import Sweep
 
@@ -55,14 +55,14 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     """
     lines = []
     for row in table.to_dict("records"):
-        plain = {name: _plain(value) for name, value in row.items()}
-        inputs = {key: plain.pop(key) for key in sweep.design.keys}
-        content = {"schema_version": 1, "case": sweep.design.name, "inputs": inputs, **plain}
+        known = {name: plain(value) for name, value in row.items()}
+        inputs = {key: known.pop(key) for key in sweep.design.keys}
+        content = {"schema_version": 1, "case": sweep.design.name, "inputs": inputs, **known}
         lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
     return lines
 
 
-def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[str]:
+def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
     """Write the table and the pictures of a sweep into its folder.
 
     Parameters
@@ -74,26 +74,17 @@ def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[str]:
     folder : pathlib.Path
         That of the study.
 
-    Returns
-    -------
-    list of str
-        Names of the files.
-
     Raises
     ------
     OutputError
         The folder cannot be written.
     """
-    files: dict[str, str | bytes] = {
+    texts = {
         "cases.csv": table.to_csv(index=False),
         "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",
     }
-    for name, content in files.items():
-        write_file(folder / name, content, force=True)
-    figures = sweep_figures(sweep, table)
-    for name, content in figures.items():
-        write_file(folder / name, content, force=True)
-    return [*files, *figures]
+    save_texts(folder, texts)
+    save_figures(folder, sweep.title, sweep_figures(sweep, table))
 
 
 def _life(row: Mapping[Any, Any]) -> str:
@@ -106,7 +97,3 @@ def _life(row: Mapping[Any, Any]) -> str:
 
 def _shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def _plain(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value

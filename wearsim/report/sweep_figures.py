@@ -15,7 +15,6 @@ from matplotlib.ticker import MaxNLocator
 from wearsim.quantities import quantities
 from wearsim.report.answer import grouped
 from wearsim.report.figure_text import literal
-from wearsim.report.figures import picture_bytes
 from wearsim.study.sweep import Sweep
 
 _MOST_CURVES = 10
@@ -23,8 +22,8 @@ _MOST_LINES = 2000
 _MOST_NUMBERS = 100
 
 
-def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
-    """Return the pictures that suit a sweep, as PNG and SVG by file name.
+def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
+    """Return the pictures that suit a sweep, by file stem.
 
     Parameters
     ----------
@@ -41,7 +40,7 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
     """
     if not (table["hours_run"] > 0.0).any():
         return {}
-    figures = {}
+    figures: dict[str, Figure] = {}
     numeric = [axis[0] for axis in sweep.axes if len(axis) == 1 and _is_numeric(table[axis[0]])]
     others = [key for key in sweep.design.keys if not numeric or key != numeric[0]]
     if numeric and len(table.groupby(others) if others else [0]) <= _MOST_CURVES:
@@ -50,11 +49,7 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, bytes]:
         figures["heat_map"] = _heat_map(table, *numeric)
     if len(sweep.design.keys) > 1:
         figures["parallel"] = _parallel(table, sweep.design.keys)
-    files: dict[str, bytes] = {}
-    for name, figure in figures.items():
-        figure.suptitle(literal(sweep.title), fontsize=10)
-        files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
-    return files
+    return figures
 
 
 def _is_numeric(column: "pd.Series[Any]") -> bool:

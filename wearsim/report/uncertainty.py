@@ -10,8 +10,8 @@ from typing import Any
 import pandas as pd
 
 from wearsim.geometry.profile import Vector
-from wearsim.output import write_file
 from wearsim.report.answer import grouped
+from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
 from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.uncertainty import UncertaintyStudy
@@ -188,7 +188,7 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
     for found in answer.percentiles:
         name = f"p{100 * found.share:.0f}_hours"
         content[name] = found.hours if found.known else None
-        content[f"{name}_low"], content[f"{name}_high"] = found.low, _known(found.high)
+        content[f"{name}_low"], content[f"{name}_high"] = found.low, plain(found.high)
         if not found.known:
             content[f"{name}_at_least"] = found.hours
     content["confidence"] = CONFIDENCE
@@ -229,15 +229,13 @@ def save_uncertainty(answer: Answer, folder: Path) -> None:
     """
     from wearsim.report.uncertainty_figures import uncertainty_figures
 
-    files: dict[str, str | bytes] = {
+    texts = {
         "cases.csv": answer.table.to_csv(index=False),
         "convergence.csv": answer.convergence.to_csv(index=False),
         "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
     }
-    for name, content in files.items():
-        write_file(folder / name, content, force=True)
-    for name, picture in uncertainty_figures(answer).items():
-        write_file(folder / name, picture, force=True)
+    save_texts(folder, texts)
+    save_figures(folder, answer.study.scattered.case.title, uncertainty_figures(answer))
 
 
 def _assumptions(study: UncertaintyStudy) -> list[str]:
@@ -269,7 +267,3 @@ def _columns(table: pd.DataFrame) -> list[str]:
         )
         for row in table.itertuples(index=False)
     ]
-
-
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -8,17 +8,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 from scipy import stats
 
-from wearsim.report.figure_text import literal
-from wearsim.report.figures import picture_bytes
-
 if TYPE_CHECKING:
     from wearsim.report.uncertainty import Answer
 
 _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 
 
-def uncertainty_figures(answer: "Answer") -> dict[str, bytes]:
-    """Return the pictures as PNG and SVG by file name.
+def uncertainty_figures(answer: "Answer") -> dict[str, Figure]:
+    """Return the pictures by file stem.
 
     Parameters
     ----------
@@ -30,12 +27,7 @@ def uncertainty_figures(answer: "Answer") -> dict[str, bytes]:
     dict
         ``lives``: lives on log-normal paper with the fits; ``convergence``.
     """
-    figures = {"lives": _lives(answer), "convergence": _convergence(answer)}
-    files: dict[str, bytes] = {}
-    for name, figure in figures.items():
-        figure.suptitle(literal(answer.study.scattered.case.title), fontsize=10)
-        files |= {f"{name}.{kind}": picture_bytes(figure, kind) for kind in ("png", "svg")}
-    return files
+    return {"lives": _lives(answer), "convergence": _convergence(answer)}
 
 
 def _lives(answer: "Answer") -> Figure:

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 
 from wearsim.case.document import CaseText
 from wearsim.case.load import load_case
-from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
+from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, Fault, WearsimError
-from wearsim.report.html.chain_sketch import strand_sketch, wrap_sketch
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.gear_sketch import gear_sketch
+from wearsim.report.html.drive_view import drive_sketch
 from wearsim.report.html.margins import Margin, margins
-from wearsim.report.html.run_charts import along_chart, history_chart, loads_chart
+from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import WearResult
@@ -79,32 +78,6 @@ def is_slow(case: Case) -> bool:
         True on a wrap.
     """
     return isinstance(case.drive, WrapDrive)
-
-
-def tooth_load_chart(case: Case) -> Chart | None:
-    """Return what the teeth of a wrap carry, new and with a grown chain.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    Chart or None
-        None of other drives.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    """
-    if not isinstance(case.drive, WrapDrive):
-        return None
-    from wearsim.simulation.loads import tooth_loads  # takes 0.4 s, for its kernels
-
-    grown = tooth_loads(case, case.drive.joint.elongation_limit)
-    return loads_chart(tooth_loads(case), grown)
 
 
 def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:
@@ -191,18 +164,9 @@ def pictures(case: Case, result: WearResult) -> Pictures:
     return Pictures(
         tooth_charts(result),
         [along_chart([result], label), history_chart([result], label)],
-        _sketch(case),
+        drive_sketch(case),
         margins(result, case),
     )
-
-
-def _sketch(case: Case) -> Sketch | None:
-    drive = case.drive
-    if isinstance(drive, WrapDrive):
-        return wrap_sketch(drive)
-    if isinstance(drive, GearDrive):
-        return gear_sketch(drive)
-    return strand_sketch(drive, case.engaged_every) if isinstance(drive, StrandDrive) else None
 
 
 def _watch(

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, get_args
+from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from wearsim.case.keys import schema_fields, words
-from wearsim.case.schema import CaseTables, Table
+from wearsim.case.keys import parts, schema_fields, schema_of, tables_in, words
+from wearsim.case.schema import Table
 from wearsim.catalogue.tables import chains, rows, wear_conditions
 from wearsim.quantities import quantities
 
@@ -52,27 +52,6 @@ class Field:
     def name(self) -> str:
         """Its name in the table."""
         return self.key.rpartition(".")[2]
-
-
-def schema_of(data: Mapping[str, Any]) -> type[Table]:
-    """Return the schema that an input file is read by.
-
-    Parameters
-    ----------
-    data : mapping
-        Its tables.
-
-    Returns
-    -------
-    type
-        That of gear pairs or that of chain drives.
-    """
-    if "gear" not in data:
-        return CaseTables
-    # Models of tables take time to build, and most cases are not of gears.
-    from wearsim.case.schema.gear import GearTables
-
-    return GearTables
 
 
 def form_fields(data: Mapping[str, Any]) -> dict[str, list[Field]]:
@@ -132,14 +111,14 @@ def table_meaning(data: Mapping[str, Any], name: str) -> str:
         return ""
     for part in name.removesuffix("[]").split("."):
         if not part.isdigit():
-            model = _table(model.model_fields[part].annotation) if model else None
+            model = next(tables_in(model.model_fields[part].annotation), None) if model else None
     return (model.__doc__ or "").partition("\n")[0] if model else ""
 
 
 def _field(key: str, info: FieldInfo) -> Field:
     name = key.rpartition(".")[2]
     quantity = quantities()[name]
-    kinds = set(_kinds(info.annotation))
+    kinds = list(parts(info.annotation))
     default = None if info.is_required() else info.get_default(call_default_factory=True)
     return Field(
         key=key,
@@ -177,16 +156,3 @@ def _proposals(key: str) -> tuple[str, ...]:
     if key.startswith("material.") and key.endswith(".name"):
         return tuple(row["name"] for row in rows("materials"))
     return ()
-
-
-def _kinds(annotation: Any) -> Iterator[Any]:
-    """Give a type and all types that it is made of."""
-    yield annotation
-    for inner in get_args(annotation):
-        if isinstance(inner, type) or get_args(inner):
-            yield from _kinds(inner)
-
-
-def _table(annotation: Any) -> type[Table] | None:
-    kinds = (kind for kind in _kinds(annotation) if isinstance(kind, type))
-    return next((kind for kind in kinds if issubclass(kind, Table)), None)

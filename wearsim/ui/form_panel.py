@@ -6,8 +6,9 @@ from typing import Any
 
 from nicegui import ui
 
+from wearsim.case.keys import schema_of
 from wearsim.errors import Fault
-from wearsim.ui.fields import Field, form_fields, schema_of, table_meaning
+from wearsim.ui.fields import Field, form_fields, table_meaning
 
 _MOST_CHOICES = 20
 """Words of a catalogue that a list still shows at once."""

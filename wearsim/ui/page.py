@@ -12,6 +12,7 @@ from wearsim.case.load import load_case
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.report.answer import hours
+from wearsim.report.html.drive_view import tooth_load_chart
 from wearsim.result import WearResult
 from wearsim.ui.answer_panel import AnswerPanel
 from wearsim.ui.answers import (
@@ -21,7 +22,6 @@ from wearsim.ui.answers import (
     is_slow,
     life,
     pictures,
-    tooth_load_chart,
 )
 from wearsim.ui.chart_view import style
 from wearsim.ui.fields import Field

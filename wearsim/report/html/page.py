@@ -4,20 +4,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import wearsim
-from wearsim.case.model import Case, GearDrive, StrandDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.citation import apa
 from wearsim.report.answer import BAND, LIMITS, ending, findings, grouped, hours, told_apart
 from wearsim.report.compare import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
-from wearsim.report.html.chain_sketch import strand_sketch, wrap_sketch
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.gear_sketch import gear_sketch
+from wearsim.report.html.drive_view import drive_sketch, tooth_load_chart
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.picture import picture
-from wearsim.report.html.run_charts import along_chart, history_chart, loads_chart
+from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import Life, WearResult
@@ -162,7 +161,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         margins=margins(result, case),
         tooth=tooth,
         charts=charts,
-        sketch=None if brief else _sketch(case),
+        sketch=None if brief else drive_sketch(case),
         pictures={stem: picture(figure) for stem, figure in figures.items()},
         inputs=[] if brief else input_table(result),
         sources=[] if brief else catalogue_sources(result),
@@ -188,23 +187,9 @@ def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:
 
 
 def _charts(result: WearResult, case: Case) -> list[Chart]:
-    label = [result.case]
-    found = []
-    if isinstance(case.drive, WrapDrive):
-        from wearsim.simulation.loads import tooth_loads  # takes 0.4 s, for its kernels
-
-        grown = tooth_loads(case, case.drive.joint.elongation_limit)
-        found.append(loads_chart(tooth_loads(case), grown))
-    return [*found, along_chart([result], label), history_chart([result], label)]
-
-
-def _sketch(case: Case) -> Sketch | None:
-    drive = case.drive
-    if isinstance(drive, WrapDrive):
-        return wrap_sketch(drive)
-    if isinstance(drive, GearDrive):
-        return gear_sketch(drive)
-    return strand_sketch(drive, case.engaged_every) if isinstance(drive, StrandDrive) else None
+    label, loads = [result.case], tooth_load_chart(case)
+    along = [along_chart([result], label), history_chart([result], label)]
+    return along if loads is None else [loads, *along]
 
 
 def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> ComparisonPage:

@@ -10,9 +10,8 @@ from typing import Any
 
 from wearsim import __version__
 from wearsim.case.document import Document
-from wearsim.case.keys import schema_fields
+from wearsim.case.keys import schema_fields, schema_of
 from wearsim.case.kind import WRAP_PROFILES
-from wearsim.case.schema import CaseTables, Table
 from wearsim.catalogue.tables import nearest
 from wearsim.errors import CaseError, Fault
 from wearsim.kernels.compiled import source_hash
@@ -242,7 +241,7 @@ def design(
 
 
 def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
-    known = {key.replace("[]", "") for key, _ in schema_fields(_schema(document.data))}
+    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
     faults = []
     for key in keys:
         plain = ".".join(part for part in key.split(".") if not part.isdigit())
@@ -251,14 +250,6 @@ def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
             faults.append(Fault(text, f'"{key}"', place))
     if faults:
         raise CaseError(faults)
-
-
-def _schema(data: Mapping[str, Any]) -> type[Table]:
-    if "gear" not in data:
-        return CaseTables
-    from wearsim.case.schema.gear import GearTables  # takes time to build, most cases are of chains
-
-    return GearTables
 
 
 def _taken(document: Document, files: dict[str, str], path: str) -> str:

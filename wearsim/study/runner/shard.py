@@ -4,6 +4,7 @@ import re
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,7 @@ class Shard:
         """Number of its cases."""
         return len(self.design.rows)
 
-    @property
+    @cached_property
     def address(self) -> str:
         """Hash of all that its rows depend on."""
         return content_hash({"first": self.first, "design": self.design.address()})

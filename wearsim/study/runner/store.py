@@ -154,7 +154,7 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
         The folder holds another study or anything else.
     """
     text = _manifest(design, told)
-    old = check_store(folder, design, told, force)
+    old = _found(folder, text, force)
     if old == text:
         return Store(folder)
     if old is not None:
@@ -163,8 +163,8 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
     return Store(folder)
 
 
-def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> str | None:
-    """Raise where a study cannot go into a folder.
+def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> None:
+    """Raise where a study cannot go into a folder, as `open_store` does.
 
     Parameters
     ----------
@@ -177,16 +177,16 @@ def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bo
     force : bool
         Take the folder of another study.
 
-    Returns
-    -------
-    str or None
-        The manifest that is there.
-
     Raises
     ------
     OutputError
         The folder holds another study or anything else.
     """
+    _found(folder, _manifest(design, told), force)
+
+
+def _found(folder: Path, text: str, force: bool) -> str | None:
+    """Manifest of the study that is there, which must be the same one unless it may be replaced."""
     place = folder / MANIFEST
     try:
         old = place.read_bytes().decode("utf-8", "replace") if place.exists() else None
@@ -195,7 +195,7 @@ def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bo
         raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
     if old is None and taken:
         raise OutputError(f"{folder}: must be new or hold a study, but does not: choose another")
-    if old not in (None, _manifest(design, told)) and not force:
+    if old not in (None, text) and not force:
         raise OutputError(
             f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
             "number or version): choose another place or --force"
