@@ -12,6 +12,7 @@ import click
 
 import wearsim
 from wearsim.cli.animate import animate
+from wearsim.cli.calibrate import calibrate
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
@@ -51,6 +52,7 @@ How long will this sprocket live?
   wearsim ui drive.toml              a local page: edit it, see the life change
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
+  wearsim calibrate drive.toml readings.csv         coefficients and hours left
   wearsim uncertainty drive.toml     what 9 of 10, half, 1 of 10 drives exceed
 
 \b
@@ -82,6 +84,7 @@ for _command in (
     sweep,
     uncertainty,
     sensitivity,
+    calibrate,
     strength,
     stiffness_spectrum,
     wave_drive,

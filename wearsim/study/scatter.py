@@ -170,7 +170,7 @@ def load_scattered(
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
-    return Scattered(path, case, _plain(document, case), scatters, tuple(assumptions))
+    return Scattered(path, case, plain_document(document, case), scatters, tuple(assumptions))
 
 
 def coefficient_key(case: Case) -> str:
@@ -225,8 +225,22 @@ def _value(case: Case, key: str) -> float:
     return found
 
 
-def _plain(document: Document, case: Case) -> Document:
-    """Give the coefficient by its own key, which scatters, and files by their whole paths."""
+def plain_document(document: Document, case: Case) -> Document:
+    """Return a case in which every value stands that a study changes.
+
+    Parameters
+    ----------
+    document : Document
+        What stands in the file.
+    case : Case
+        The same with all defaults.
+
+    Returns
+    -------
+    Document
+        Without [uncertainty], the wear coefficient by its own key, files by their whole paths,
+        the horizon that of the case.
+    """
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
     if "condition" in data["wear"]:
         wear = {name: value for name, value in data["wear"].items() if name != "condition"}

@@ -1,0 +1,172 @@
+"""Measured points of a profile laid on its nominal form by least squares."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import shapely
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.profile import Profile, Vector
+
+Freedom = Literal["none", "turn", "free"]
+"""How points may be moved: not at all, turned about the axis, turned and shifted."""
+
+_MOST_STEPS = 50
+_SETTLED = 1e-8
+"""Largest movement of the last step [mm]."""
+
+UNSEEN = 1e-3
+"""Ways to move whose change of the recess, over that of the one that changes most, is smaller are
+not gone: that along an arc by its own radius is one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Registered:
+    """Points on a nominal profile.
+
+    Attributes
+    ----------
+    arc_length : numpy.ndarray
+        Where their feet lie along the nominal profile [mm], shape (n,).
+    recess : numpy.ndarray
+        Distance from the nominal profile into the material [mm], shape (n,).
+    moves : numpy.ndarray
+        What a further movement changes of the recess over what is expected, a column for each
+        way to move, shape (n, 0, 1 or 3): turn, by the way of the outermost point, then shifts
+        along x and y.
+    turn, shift_x, shift_y : float
+        The movement that was found: about the axis [rad], then along x and y [mm].
+    left_out : int
+        Points beyond the ends of the nominal profile.
+    """
+
+    arc_length: Vector
+    recess: Vector
+    moves: Vector
+    turn: float
+    shift_x: float
+    shift_y: float
+    left_out: int
+
+
+def feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector]:
+    """Return the feet of points on a profile.
+
+    Parameters
+    ----------
+    nominal : Profile
+        The profile, taken as straight between its points.
+    x, y : numpy.ndarray
+        Points [mm], of any shape.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        Arc length along the chords [mm], and distance into the material [mm].
+
+    Examples
+    --------
+    A flank along +y with the gap on its right:
+
+    >>> flank = Profile([0.0, 0.0, 0.0], [0.0, 1.0, 2.0])
+    >>> arc, recess = feet(flank, np.array([-0.1]), np.array([0.5]))
+    >>> float(arc[0]), float(recess[0])
+    (0.5, 0.1)
+    """
+    line = shapely.LineString(np.column_stack([nominal.x, nominal.y]))
+    places = shapely.line_locate_point(line, shapely.points(x, y))
+    foot = shapely.line_interpolate_point(line, places)
+    normal_x, normal_y = _normals(nominal, places)
+    away_x, away_y = x - shapely.get_x(foot), y - shapely.get_y(foot)
+    return places, -(away_x * normal_x + away_y * normal_y)
+
+
+def register(
+    nominal: Profile, x: Vector, y: Vector, freedom: Freedom, expected: Vector | None = None
+) -> Registered:
+    """Lay measured points on a nominal profile, or on one that has worn as is expected.
+
+    The movement of least squared distances, by Gauss-Newton steps on the distances to the
+    tangents (point to plane). Without what is expected a worn profile is moved too far by
+    that: whoever compares the recess with a model must let the model move by `moves`, and
+    register again with what it says.
+
+    Parameters
+    ----------
+    nominal : Profile
+        The new profile.
+    x, y : numpy.ndarray
+        Points in the same frame, a few millimetres off at most [mm], shape (n,).
+    freedom : str
+        ``none``, ``turn`` about the axis, or ``free``.
+    expected : numpy.ndarray, optional
+        Recess at the points of the nominal profile [mm]; 0 where it is left out.
+
+    Returns
+    -------
+    Registered
+        The points that have a foot on the profile.
+
+    Raises
+    ------
+    GeometryError
+        Fewer than 11 points have one, or the points do not settle.
+    """
+    turn, shift = 0.0, np.zeros(2)
+    chords = _chords(nominal)
+    recessed = np.zeros(chords.size) if expected is None else expected
+    slopes = np.gradient(recessed, chords)
+    for _ in range(_MOST_STEPS):
+        cos, sin = np.cos(turn), np.sin(turn)
+        at_x, at_y = cos * x - sin * y + shift[0], sin * x + cos * y + shift[1]
+        places, recess = feet(nominal, at_x, at_y)
+        on = (places > 0.0) & (places < chords[-1])
+        if on.sum() < 11:
+            raise GeometryError(
+                f"registration: at least 11 points must lie on the profile of the case, {on.sum()} do: "
+                "give them in the frame of profile_points (axis at 0, gap on +y), in mm"
+            )
+        slope = np.interp(places, chords, slopes)
+        moves = _moves(nominal, places, at_x, at_y, slope)[:, : _WAYS[freedom]]
+        over = recess - np.interp(places, chords, recessed)
+        step = np.zeros(3)
+        step[: _WAYS[freedom]] = -np.linalg.lstsq(moves[on], over[on], rcond=UNSEEN)[0]
+        if np.abs(step).sum() < _SETTLED:
+            left_out = int((~on).sum())
+            shift_x, shift_y = shift.tolist()
+            return Registered(places[on], recess[on], moves[on], turn, shift_x, shift_y, left_out)
+        angle = step[0] / float(np.hypot(at_x, at_y).max())
+        c, s = np.cos(angle), np.sin(angle)
+        turn, shift = turn + angle, np.array([[c, -s], [s, c]]) @ shift + step[1:]
+    raise GeometryError(
+        "registration: the points must settle on the profile of the case, but do not: check that they "
+        "are those of its flank, in mm, or fix them by a datum (turn, none)"
+    )
+
+
+_WAYS = {"none": 0, "turn": 1, "free": 3}
+
+
+def _chords(nominal: Profile) -> Vector:
+    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(nominal.x), np.diff(nominal.y)))])
+
+
+def _normals(nominal: Profile, places: Vector) -> tuple[Vector, Vector]:
+    """Normals into the gap at arc lengths along the chords."""
+    chords = _chords(nominal)
+    x = np.interp(places, chords, nominal.normal_x)
+    y = np.interp(places, chords, nominal.normal_y)
+    size = np.hypot(x, y)
+    return x / size, y / size
+
+
+def _moves(nominal: Profile, places: Vector, x: Vector, y: Vector, slope: Vector) -> Vector:
+    """Change of the recess over what is expected by a turn about the axis and by shifts, shape (n, 3).
+
+    A movement along the profile matters as far as what is expected has a slope there.
+    """
+    normal_x, normal_y = _normals(nominal, places)
+    worn_x, worn_y = normal_x - slope * normal_y, normal_y + slope * normal_x
+    size = float(np.hypot(x, y).max())
+    return np.column_stack([(y * worn_x - x * worn_y) / size, -worn_x, -worn_y])

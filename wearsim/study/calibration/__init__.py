@@ -1,0 +1,1 @@
+"""Wear coefficients and what goes with them, fitted to what was measured in service."""

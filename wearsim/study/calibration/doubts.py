@@ -1,0 +1,113 @@
+"""What the user of a calibration should look at."""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from scipy.stats import chi2
+
+from wearsim.case.model import Case
+from wearsim.geometry.profile import Vector
+from wearsim.study.calibration.fit import Fitted
+from wearsim.study.calibration.observe import Observation
+from wearsim.study.calibration.parameters import EXPONENT
+from wearsim.study.calibration.readings import PROFILE
+
+if TYPE_CHECKING:
+    from wearsim.study.calibration.calibrate import Value
+
+_TOGETHER = 0.95
+"""Correlation above which two values are looked at together."""
+
+_WIDE = 2.0
+"""Ratio of the ends of an interval above which a value counts as not determined."""
+
+_TOO_GOOD = 0.001
+
+
+def doubts(
+    case: Case, values: "Sequence[Value]", correlation: Vector, found: Fitted,
+    observations: Sequence[Observation], freedom: int,
+) -> Iterator[str]:  # fmt: skip
+    """Give what is doubtful about a fit.
+
+    Parameters
+    ----------
+    case : Case
+        As it was given.
+    values : sequence of Value
+        What was fitted.
+    correlation : numpy.ndarray
+        Of their logarithms.
+    found : Fitted
+        The fit.
+    observations : sequence of Observation
+        The readings.
+    freedom : int
+        Degrees of freedom.
+
+    Yields
+    ------
+    str
+        What is wrong and what to do.
+    """
+    yield from _identifiability(values, correlation)
+    yield from _residuals(found, freedom)
+    if values[0].key.startswith("wear."):
+        factor = values[0].value / values[0].given
+        if not case.wear.low <= factor <= case.wear.high:
+            yield (
+                f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its "
+                f"band of {case.wear.low:.3g} to {case.wear.high:.3g}: check the readings and the load"
+            )
+    left_out = sum(one.left_out for one in observations if one.reading.quantity == PROFILE)
+    if left_out:
+        yield f"{left_out} measured points lie beyond the ends of the flank and are left out"
+    if case.fatigue is not None:
+        yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it before)"
+    yield from case.warnings
+
+
+def _identifiability(values: "Sequence[Value]", correlation: Vector) -> Iterator[str]:
+    told = set()
+    for (i, one), (j, other) in combinations(enumerate(values), 2):
+        alike = abs(correlation[i, j])
+        if alike > _TOGETHER and _loose(one) and _loose(other):
+            told |= {one.key, other.key}
+            ways = "of their ratio" if correlation[i, j] > 0.0 else "of their product"
+            yield (
+                f"the data cannot tell {one.key} and {other.key} apart (correlation "
+                f"{correlation[i, j]:.2f}): they know something like a value {ways} only; "
+                "fix one of them, or measure where they act differently"
+            )
+    # The unit of a coefficient goes with the exponent, and with that its size.
+    judged = values[1:] if any(value.key == EXPONENT for value in values) else values
+    for value in judged:
+        if _loose(value) and value.key not in told:
+            yield (
+                f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the "
+                "case"
+            )
+
+
+def _loose(value: "Value") -> bool:
+    interval = value.interval
+    return not interval.known or interval.high > _WIDE * interval.low
+
+
+def _residuals(found: Fitted, freedom: int) -> Iterator[str]:
+    if freedom == 0:
+        yield "there are as many fitted values as readings: nothing is left to check the fit by"
+        return
+    if found.scale > 1.0:
+        yield (
+            f"the readings are {found.scale:.2g} times as far from the fit as their errors say: check "
+            "them, the errors and the load; the intervals are widened by as much"
+        )
+    if chi2.cdf(found.chi_square, freedom) < _TOO_GOOD:
+        size = math.sqrt(found.chi_square / freedom)
+        yield (
+            f"the readings are only {size:.2g} times as far from the fit as their errors say: the errors "
+            "are stated too large, or the readings are not independent"
+        )

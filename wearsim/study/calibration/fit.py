@@ -1,0 +1,293 @@
+"""Bounded least squares, and intervals by the profile of the likelihood."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq, least_squares
+from scipy.stats import chi2
+
+from wearsim.errors import WearsimError
+from wearsim.geometry.profile import Vector
+
+Residuals = Callable[[Vector], Vector]
+
+_STEP = 0.01
+"""Of the differences that a derivative is taken from: 1 % of a parameter, as they are logarithms."""
+
+_MOST_STEPS = 40
+"""Steps of the way out to the end of an interval."""
+
+_UNLIKELY = 0.01
+"""Probability of the sum of squares below which the stated errors are taken to be too small."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Residuals of normal errors of size 1 to be made small.
+
+    Attributes
+    ----------
+    residuals : callable
+        Of the parameters, shape (n,).
+    low, high : numpy.ndarray
+        Bounds of the parameters, shape (p,).
+    freedom : int
+        Degrees of freedom: readings that tell something less the parameters.
+    """
+
+    residuals: Residuals
+    low: Vector
+    high: Vector
+    freedom: int
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """The most likely parameters.
+
+    Attributes
+    ----------
+    point : numpy.ndarray
+        The parameters, shape (p,).
+    chi_square : float
+        Sum of squared residuals.
+    scale : float
+        What errors are multiplied by: 1, or more where the residuals are too large for chance.
+    covariance : numpy.ndarray
+        Of the parameters by the linear theory, shape (p, p), inf where the data say nothing.
+    correlation : numpy.ndarray
+        The same as correlations.
+    """
+
+    point: Vector
+    chi_square: float
+    scale: float
+    covariance: Vector
+    correlation: Vector
+
+
+@dataclass(frozen=True)
+class Interval:
+    """What a parameter can be.
+
+    Attributes
+    ----------
+    low, high : float
+        Ends.
+    low_known, high_known : bool
+        False where the end is only the bound that the parameter was searched within.
+    """
+
+    low: float
+    high: float
+    low_known: bool
+    high_known: bool
+
+    @property
+    def known(self) -> bool:
+        """Whether the data give both ends."""
+        return self.low_known and self.high_known
+
+    def scaled(self, start: float) -> "Interval":
+        """Return the interval of a value of which this one is that of the logarithm.
+
+        Parameters
+        ----------
+        start : float
+            The value where the logarithm is 0.
+
+        Returns
+        -------
+        Interval
+            Of start times the exponential.
+        """
+        low, high = start * math.exp(self.low), start * math.exp(self.high)
+        return Interval(low, high, self.low_known, self.high_known)
+
+    def inverse(self, whole: float) -> "Interval":
+        """Return the interval of a value that is inverse to this one.
+
+        Parameters
+        ----------
+        whole : float
+            Product of both.
+
+        Returns
+        -------
+        Interval
+            Of whole over the value.
+        """
+        return Interval(whole / self.high, whole / self.low, self.high_known, self.low_known)
+
+
+def fit(problem: Problem, start: Vector) -> Fitted:
+    """Return the parameters of least squares within their bounds.
+
+    Parameters
+    ----------
+    problem : Problem
+        The residuals.
+    start : numpy.ndarray
+        Parameters to start from, shape (p,).
+
+    Returns
+    -------
+    Fitted
+        The minimum that is reached from there. Where the sum of squares is larger than chance
+        gives in one of a hundred cases, all errors are scaled so that it is what is expected.
+
+    Examples
+    --------
+    The mean of two readings of error 1, 1.0 and 3.0, has the error 1/sqrt(2):
+
+    >>> ends = np.array([-9.0]), np.array([9.0])
+    >>> problem = Problem(lambda u: u[0] - np.array([1.0, 3.0]), *ends, freedom=1)
+    >>> found = fit(problem, np.zeros(1))
+    >>> round(float(found.point[0]), 6), round(float(found.covariance[0, 0]), 6)
+    (2.0, 0.5)
+    """
+    return stated_at(problem, _minimum(problem.residuals, start, problem.low, problem.high))
+
+
+def stated_at(problem: Problem, point: Vector) -> Fitted:
+    """Return the most likely parameters, where they are known already.
+
+    Parameters
+    ----------
+    problem : Problem
+        The residuals, perhaps over other parameters than those that were fitted.
+    point : numpy.ndarray
+        The minimum, shape (p,).
+
+    Returns
+    -------
+    Fitted
+        With errors and correlations there.
+    """
+    residuals = problem.residuals(point)
+    square = float(residuals @ residuals)
+    scale = 1.0
+    if problem.freedom > 0 and chi2.sf(square, problem.freedom) < _UNLIKELY:
+        scale = math.sqrt(square / problem.freedom)
+    covariance, correlation = _covariance(
+        _jacobian(problem.residuals, point, problem.low, problem.high)
+    )
+    return Fitted(point, square, scale, scale**2 * covariance, correlation)
+
+
+def profile_interval(problem: Problem, found: Fitted, index: int, confidence: float) -> Interval:
+    """Return the interval of one parameter by the profile of the likelihood.
+
+    It holds all values for which the sum of squares, made as small as it can be by the other
+    parameters, exceeds the smallest one by no more than the quantile of chi-square with one
+    degree of freedom (Wilks' theorem).
+
+    Parameters
+    ----------
+    problem : Problem
+        The residuals.
+    found : Fitted
+        Their minimum.
+    index : int
+        Number of the parameter.
+    confidence : float
+        Such as 0.9.
+
+    Returns
+    -------
+    Interval
+        Within the bounds.
+    """
+    allowed = found.chi_square + float(chi2.ppf(confidence, 1)) * found.scale**2
+    walk = _Walk(problem, found, index, allowed)
+    low, low_known = walk.end(-1.0)
+    high, high_known = walk.end(1.0)
+    return Interval(low, high, low_known, high_known)
+
+
+class _Walk:
+    """Along one parameter, the others following."""
+
+    def __init__(self, problem: Problem, found: Fitted, index: int, allowed: float) -> None:
+        self.problem, self.index, self.allowed = problem, index, allowed
+        self.start = found.point
+        self.others = np.delete(found.point, index)
+        error = math.sqrt(found.covariance[index, index])
+        self.step = min(max(1.6 * error, 1e-6), 1.0)
+        self.near = 1e-3 * self.step
+        # A value is asked twice, and the way to it must not make a difference.
+        self.known = {float(found.point[index]): found.chi_square - allowed}
+
+    def excess(self, value: float) -> float:
+        """Return the profile of the sum of squares above what is allowed."""
+        if value not in self.known:
+            self.known[value] = self._excess(value)
+        return self.known[value]
+
+    def _excess(self, value: float) -> float:
+        free = np.delete(np.arange(self.start.size), self.index)
+
+        def residuals(others: Vector) -> Vector:
+            return self.problem.residuals(np.insert(others, self.index, value))
+
+        if free.size:
+            self.others = _minimum(
+                residuals, self.others, self.problem.low[free], self.problem.high[free]
+            )
+        left = residuals(self.others)
+        return float(left @ left) - self.allowed
+
+    def end(self, side: float) -> tuple[float, bool]:
+        """Return the end of the interval on one side, and whether it is not only a bound."""
+        self.others = np.delete(self.start, self.index)
+        bounds = self.problem.low if side < 0.0 else self.problem.high
+        bound, inside, step = float(bounds[self.index]), float(self.start[self.index]), self.step
+        for _ in range(_MOST_STEPS):
+            outside = side * min(side * (inside + side * step), side * bound)
+            try:
+                if self.excess(outside) > 0.0:
+                    return float(brentq(self.excess, inside, outside, xtol=self.near)), True
+            except WearsimError:
+                # The case cannot be run so far out.
+                step = 0.25 * step
+                continue
+            if outside == bound:
+                break
+            inside, step = outside, 2.0 * step
+        return inside if outside != bound else bound, False
+
+
+def _minimum(residuals: Residuals, start: Vector, low: Vector, high: Vector) -> Vector:
+    def jacobian(at: Vector) -> Vector:
+        return _jacobian(residuals, at, low, high)
+
+    # From next to a bound the steps of the trust region would be tiny.
+    margin = 1e-3 * (high - low)
+    inside = np.clip(start, low + margin, high - margin)
+    found = least_squares(
+        residuals, inside, jac=jacobian, bounds=(low, high),
+        x_scale=1.0, xtol=1e-5, ftol=1e-7, gtol=1e-6, max_nfev=100,
+    )  # fmt: skip
+    return np.asarray(found.x)
+
+
+def _jacobian(residuals: Residuals, at: Vector, low: Vector, high: Vector) -> Vector:
+    columns = []
+    for index in range(at.size):
+        ends = np.tile(at, (2, 1))
+        ends[0, index] = max(at[index] - _STEP, low[index])
+        ends[1, index] = min(at[index] + _STEP, high[index])
+        width = ends[1, index] - ends[0, index]
+        columns.append((residuals(ends[1]) - residuals(ends[0])) / width)
+    return np.column_stack(columns)
+
+
+def _covariance(jacobian: Vector) -> tuple[Vector, Vector]:
+    """Invert the information, directions without any of it taken as nearly infinite."""
+    _, size, directions = np.linalg.svd(jacobian, full_matrices=False)
+    floored = np.maximum(size, 1e-6 * max(float(size.max(initial=0.0)), 1e-12))
+    covariance = (directions.T / floored**2) @ directions
+    error = np.sqrt(np.diag(covariance))
+    return covariance, covariance / np.outer(error, error)

@@ -1,0 +1,161 @@
+"""The coefficients that are fitted, and the state of the drive that a set of them means."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.geometry.profile import Vector
+from wearsim.study.calibration.course import Blend, Courses
+from wearsim.study.calibration.observe import State
+
+JOINT = "joint.specific_wear_rate_mm2_per_N"
+EXPONENT = "wear.pressure_exponent"
+SLIP = "mechanism.roller_slip_fraction"
+
+SHAPES = {EXPONENT: (0.2, 5.0), SLIP: (1e-3, 1.0)}
+"""Keys that can be fitted besides the coefficients, and their bounds."""
+
+_WIDE = math.log(1e6)
+"""Logarithm of the factor within which coefficients are searched."""
+
+
+@dataclass(frozen=True, eq=False)
+class Parameters:
+    """The logarithms that are fitted.
+
+    The first one stands for the coefficient of the teeth where that is fitted; it is the
+    logarithm of the life of the teeth, which the data know far better than a coefficient whose
+    meaning changes with the others (physics: life times coefficient is constant).
+
+    Attributes
+    ----------
+    courses : Courses
+        Runs of the case.
+    coefficient : float
+        That of the teeth in the case.
+    joint : float
+        That of the joints in the case; nan where no chain wears.
+    elongation_rate : float
+        Of the chain with that [%/h]; nan where no chain wears.
+    teeth, chain : bool
+        Whether the coefficients of the teeth and of the joints are fitted.
+    shapes : mapping of str to float
+        Keys that are fitted besides, with their values in the case.
+    ratio : float
+        Coefficient of the joints over that of the teeth in the runs, as a factor of that in the
+        case.
+    """
+
+    courses: Courses
+    coefficient: float
+    joint: float
+    elongation_rate: float
+    teeth: bool
+    chain: bool
+    shapes: Mapping[str, float]
+    ratio: float
+
+    @property
+    def size(self) -> int:
+        """Number of the parameters."""
+        return self.teeth + self.chain + len(self.shapes)
+
+    @cached_property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Bounds of the logarithms."""
+        middle = self.start[0]
+        rates = [(middle - _WIDE, middle + _WIDE)] * self.teeth + [(-_WIDE, _WIDE)] * self.chain
+        shapes = [
+            (math.log(SHAPES[key][0] / value), math.log(SHAPES[key][1] / value))
+            for key, value in self.shapes.items()
+        ]
+        low, high = zip(*rates, *shapes, strict=True)
+        return np.array(low), np.array(high)
+
+    @property
+    def start(self) -> Vector:
+        """The logarithms of the case."""
+        point = np.zeros(self.size)
+        if self.teeth:
+            point[0] = math.log(self.course(point).hours)
+        return point
+
+    def course(self, point: Vector) -> Blend:
+        """Return the wear of the teeth that a set of logarithms needs.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms.
+
+        Returns
+        -------
+        Blend
+            With the coefficient of the case.
+        """
+        given = dict(self.shapes)
+        if self.ratio != 1.0:
+            given[JOINT] = self.ratio * self.joint
+        logs = point[self.teeth + self.chain :].tolist()
+        return self.courses.blend(given, dict(zip(self.shapes, logs, strict=True)))
+
+    def state(self, point: Vector) -> State:
+        """Return the drive that a set of logarithms means.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms.
+
+        Returns
+        -------
+        State
+            To hold readings against.
+        """
+        joints = math.exp(point[int(self.teeth)]) if self.chain else 1.0
+        rate = joints * self.elongation_rate
+        if not self.teeth:
+            return State(None, math.nan, rate)
+        return State(self.course(point), math.exp(point[0]), rate)
+
+    def to_coefficients(self, point: Vector) -> Vector:
+        """Return the logarithms of all values over those of the case.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms, the first one that of a life.
+
+        Returns
+        -------
+        numpy.ndarray
+            The same, the first one that of the coefficient.
+        """
+        if not self.teeth:
+            return point
+        return np.array([math.log(self.course(point).hours) - point[0], *point[1:]])
+
+    def from_coefficients(self, logs: Vector) -> Vector:
+        """Return what `to_coefficients` started from; it is its own inverse.
+
+        Parameters
+        ----------
+        logs : numpy.ndarray
+            Logarithms of all values over those of the case.
+
+        Returns
+        -------
+        numpy.ndarray
+            The same, the first one that of a life.
+        """
+        return self.to_coefficients(logs)
+
+    def bounds_of_coefficients(self) -> tuple[Vector, Vector]:
+        """Return bounds of the logarithms of all values over those of the case."""
+        low, high = (bound.copy() for bound in self.bounds)
+        if self.teeth:
+            low[0], high[0] = -2.0 * _WIDE, 2.0 * _WIDE
+        return low, high

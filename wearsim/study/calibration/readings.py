@@ -1,0 +1,232 @@
+"""What was measured in service, checked to the cell."""
+
+import csv
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wearsim.case.messages import Faults
+from wearsim.case.tables import read_columns
+from wearsim.catalogue.tables import nearest
+from wearsim.errors import CaseError, Fault
+from wearsim.extras import library
+from wearsim.geometry.profile import Vector
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DEEPEST, POINT, OVER_PINS = "max_depth_mm", "depth_mm", "over_pins_mm"
+ELONGATION, PROFILE = "elongation_percent", "profile"
+QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE)
+
+_REQUIRED = ("time_hours", "quantity", "error")
+_OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
+_LEAST_POINTS = 11
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A row of the table of measurements.
+
+    Attributes
+    ----------
+    row : int
+        Its line in the file.
+    hours : float
+        Running time since the part that was measured, sprocket or chain, was new [h].
+    quantity : str
+        One of `QUANTITIES`.
+    value : float
+        In the unit of the quantity; nan for a profile.
+    error : float
+        Standard deviation of the value, of a profile that of each point across it.
+    arc_length : float
+        Place of a depth along the new flank [mm]; nan for other quantities.
+    gap_kind : int
+        Number of the gap that was measured, from 1.
+    x, y : numpy.ndarray
+        Points of a profile [mm]; none for other quantities.
+    """
+
+    row: int
+    hours: float
+    quantity: str
+    value: float
+    error: float
+    arc_length: float
+    gap_kind: int
+    x: Vector
+    y: Vector
+
+
+def read_readings(path: Path) -> tuple[Reading, ...]:
+    """Read a table of measurements.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file with the columns time_hours, quantity, error and, as the quantities need
+        them, value, arc_length_mm, gap_kind, points_file.
+
+    Returns
+    -------
+    tuple of Reading
+        In the order of the file.
+
+    Raises
+    ------
+    CaseError
+        With every bad cell; or pandera is not installed.
+    """
+    table = _table(path)
+    faults = [*_bad_cells(table, _common(), path)]
+    for quantity, rows in table.groupby("quantity"):
+        if quantity in QUANTITIES:
+            faults += _bad_cells(rows, _of_quantity(str(quantity)), path)
+    if faults:
+        raise CaseError(sorted(faults, key=lambda fault: fault.line))
+    found = [_reading(int(str(row)), cells, path) for row, cells in table.iterrows()]
+    if not found:
+        raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
+    return tuple(found)
+
+
+def _table(path: Path) -> "pd.DataFrame":
+    """Read the cells as text, each row by its line in the file."""
+    import pandas as pd
+
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file)
+            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+    except (OSError, ValueError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
+    names = lines[0][1] if lines else []
+    faults = [
+        Fault(f"column {name!r} is missing{nearest(name, names)}", "", str(path), 1)
+        for name in _REQUIRED
+        if name not in names
+    ]
+    faults += [
+        Fault(f"unknown column {name!r}{nearest(name, [*_REQUIRED, *_OPTIONAL])}", "", str(path), 1)
+        for name in names
+        if name not in _REQUIRED + _OPTIONAL
+    ]
+    if len(set(names)) < len(names):
+        faults.append(Fault("every column may stand there once only", "", str(path), 1))
+    rows = [(number, cells) for number, cells in lines[1:] if any(cells)]
+    faults += [
+        Fault(f"needs {len(names)} values, has {len(cells)}", "", str(path), number)
+        for number, cells in rows
+        if len(cells) != len(names)
+    ]
+    if faults:
+        raise CaseError(faults)
+    table = pd.DataFrame(
+        [cells for _, cells in rows], columns=names, index=[number for number, _ in rows], dtype=str
+    )
+    return table.reindex(columns=[*_REQUIRED, *_OPTIONAL], fill_value="")
+
+
+def _bad_cells(table: "pd.DataFrame", schema: Any, path: Path) -> list[Fault]:
+    try:
+        schema.validate(table, lazy=True)
+    except library("pandera.errors", "study", "calibrate").SchemaErrors as errors:
+        return [
+            Fault(
+                f"{cell.check} (got {cell.failure_case!r})", cell.column, str(path), int(cell.index)
+            )
+            for cell in errors.failure_cases.itertuples()
+        ]
+    return []
+
+
+Holds = Callable[[str], bool]
+
+
+def _columns(rules: Mapping[str, tuple[Holds, str]]) -> Any:
+    pandera = library("pandera.pandas", "study", "calibrate")
+    return pandera.DataFrameSchema(
+        {
+            name: pandera.Column(str, pandera.Check(holds, element_wise=True, error=must))
+            for name, (holds, must) in rules.items()
+        }
+    )
+
+
+def _common() -> Any:
+    words = ", ".join(QUANTITIES)
+    return _columns(
+        {
+            "time_hours": (_above_0, "must be a number above 0"),
+            "error": (_above_0, "must be a number above 0, the standard deviation of the value"),
+            "quantity": (lambda text: text in QUANTITIES, f"must be one of {words}"),
+            "gap_kind": (
+                lambda text: text == "" or (text.isdecimal() and int(text) > 0),
+                "must be the number of a gap from 1, or empty",
+            ),
+        }
+    )
+
+
+def _of_quantity(quantity: str) -> Any:
+    empty = (lambda text: text == "", f"must be empty for {quantity}")
+    profile = quantity == PROFILE
+    return _columns(
+        {
+            "value": empty if profile else (_finite, "must be a number"),
+            "points_file": (bool, "must name a file with x_mm and y_mm") if profile else empty,
+            "arc_length_mm": (_not_negative, "must be a number of at least 0")
+            if quantity == POINT
+            else empty,
+        }
+    )
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _finite(text: str) -> bool:
+    return math.isfinite(_number(text))
+
+
+def _above_0(text: str) -> bool:
+    return _finite(text) and _number(text) > 0.0
+
+
+def _not_negative(text: str) -> bool:
+    return _finite(text) and _number(text) >= 0.0
+
+
+def _reading(row: int, cells: Any, path: Path) -> Reading:
+    import numpy as np
+
+    x = y = np.empty(0)
+    if cells["quantity"] == PROFILE:
+        faults = Faults(str(path), "", ())
+        columns = read_columns(
+            path.parent / cells["points_file"], ("x_mm", "y_mm"), (), "points_file", faults
+        )
+        faults.check()
+        x, y = columns["x_mm"], columns["y_mm"]
+        if x.size < _LEAST_POINTS:
+            text = f"{cells['points_file']} needs at least {_LEAST_POINTS} points, has {x.size}"
+            raise CaseError([Fault(text, "points_file", str(path), row)])
+    return Reading(
+        row=row,
+        hours=float(cells["time_hours"]),
+        quantity=cells["quantity"],
+        value=_number(cells["value"]),
+        error=float(cells["error"]),
+        arc_length=_number(cells["arc_length_mm"]),
+        gap_kind=int(cells["gap_kind"] or 1),
+        x=x,
+        y=y,
+    )
