@@ -1,6 +1,6 @@
 """Tutorial and how-tos run as they are printed, each in a folder, and answer what they show.
 
-A block ``toml`` that begins with ``# NAME`` is the file of that name. The blocks ``text``
+A block ``toml`` or ``csv`` that begins with ``# NAME`` is the file of that name. The blocks ``text``
 hold lines of the answer to the commands or the Python before them. A command that is refused
 says so behind it: ``# exit code 2``.
 """
@@ -68,7 +68,7 @@ def test_every_command_answers_as_printed(
             for line in text.splitlines():
                 assert " ".join(line.split()) in given, f"not in the answer: {line}\n{answer}"
                 checked += 1
-        elif file := re.match(r"# ([\w.]+\.toml)\n", text):
+        elif file := re.match(r"# ([\w.]+\.(?:toml|csv))\n", text):
             Path(file[1]).write_text(text, "utf-8")
     assert checked > 4
 

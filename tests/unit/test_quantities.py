@@ -20,6 +20,7 @@ from wearsim.case.tables import read_prescribed
 from wearsim.catalogue.tables import rows
 from wearsim.cli.main import wearsim_command
 from wearsim.quantities import Quantity, quantities
+from wearsim.report.calibrate import readings_table, values_table
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
 from wearsim.report.profile import profile_table
@@ -28,6 +29,8 @@ from wearsim.report.wheel_points import wheel_points
 from wearsim.report.wheel_shapes import wheel_shapes
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.simulation.loads import tooth_loads
+from wearsim.study.calibration.calibrate import calibrate
+from wearsim.study.calibration.readings import OPTIONAL, REQUIRED
 from wearsim.study.runner.shard import COLUMNS
 from wearsim.study.scatter import Scatter
 from wearsim.study.sensitivity import Effect
@@ -141,8 +144,12 @@ def study_columns():
     """Columns of the tables of studies."""
     scatter = Scatter("load.tension_N", Distribution(distribution="lognormal", sigma_ln=1), 1.0, "")
     effect = Effect(scatter, *[1.0] * 9)
+    cases = Path(__file__).parents[2] / "cases"
+    readings = cases / "studies" / "16b-20t-readings.csv"
+    found = calibrate(cases / "16b-20t-oiled.toml", readings)
     answer = Answer(None, 1.0, [effect], {scatter.key: 1.0}, ())
     yield from (*COLUMNS, *sensitivity_table(answer))
+    yield from (*REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

@@ -59,7 +59,7 @@ def calibrate(
 
         check_folder(out, force)
     from wearsim.report.calibrate import calibration_json, calibration_text, save_calibration
-    from wearsim.study.calibration.calibrate import Options
+    from wearsim.study.calibration.answer import Options
     from wearsim.study.calibration.calibrate import calibrate as calibrated
 
     options = Options(shapes, register, cutoff_mm, confidence)

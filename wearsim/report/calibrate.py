@@ -12,7 +12,7 @@ from wearsim.report.answer import grouped, numbered, row
 from wearsim.report.figures import save_figure
 from wearsim.report.study_files import plain
 from wearsim.result.folder import with_files
-from wearsim.study.calibration.calibrate import Calibration, Part, Value
+from wearsim.study.calibration.answer import Calibration, Part, Value
 from wearsim.study.calibration.fit import Interval
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from scipy.stats import norm
 
 from wearsim.report.figure_text import literal
-from wearsim.study.calibration.calibrate import Calibration
+from wearsim.study.calibration.answer import Calibration
 from wearsim.study.calibration.observe import Shown
 from wearsim.study.calibration.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE
 

@@ -3,19 +3,16 @@
 import math
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
+from wearsim.study.calibration.answer import Value
 from wearsim.study.calibration.fit import Fitted
 from wearsim.study.calibration.observe import Observation
 from wearsim.study.calibration.parameters import EXPONENT
 from wearsim.study.calibration.readings import PROFILE
-
-if TYPE_CHECKING:
-    from wearsim.study.calibration.calibrate import Value
 
 _TOGETHER = 0.95
 """Correlation above which two values are looked at together."""
@@ -27,7 +24,7 @@ _TOO_GOOD = 0.001
 
 
 def doubts(
-    case: Case, values: "Sequence[Value]", correlation: Vector, found: Fitted,
+    case: Case, values: Sequence[Value], correlation: Vector, found: Fitted,
     observations: Sequence[Observation], freedom: int,
 ) -> Iterator[str]:  # fmt: skip
     """Give what is doubtful about a fit.
@@ -69,7 +66,7 @@ def doubts(
     yield from case.warnings
 
 
-def _identifiability(values: "Sequence[Value]", correlation: Vector) -> Iterator[str]:
+def _identifiability(values: Sequence[Value], correlation: Vector) -> Iterator[str]:
     told = set()
     for (i, one), (j, other) in combinations(enumerate(values), 2):
         alike = abs(correlation[i, j])
@@ -91,7 +88,7 @@ def _identifiability(values: "Sequence[Value]", correlation: Vector) -> Iterator
             )
 
 
-def _loose(value: "Value") -> bool:
+def _loose(value: Value) -> bool:
     interval = value.interval
     return not interval.known or interval.high > _WIDE * interval.low
 

@@ -1,17 +1,13 @@
 """What coefficients say of every reading, over its error."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.registration import UNSEEN, Freedom, Registered, register
-from wearsim.geometry.surface_filter import filter_stations, gaussian_weights
-from wearsim.study.calibration.course import Blend, Course
-from wearsim.study.calibration.readings import DEEPEST, ELONGATION, POINT, PROFILE, Reading
+from wearsim.study.calibration.blend import Blend
+from wearsim.study.calibration.readings import DEEPEST, ELONGATION, POINT, Reading
 
 
 @dataclass(frozen=True)
@@ -79,52 +75,32 @@ class Observation(Protocol):
         """Points that could not be used."""
 
     def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1."""
+        """Return independent residuals of size 1.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        numpy.ndarray
+            Predicted less measured over the error.
+        """
 
     def shown(self, state: State) -> list[Shown]:
-        """Return the values beside their predictions."""
+        """Return the values beside their predictions.
 
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
 
-def observation(
-    reading: Reading,
-    new: Course | None,
-    freedom: Freedom,
-    cutoff: float,
-    state: State | None = None,
-) -> "Observation":
-    """Return a reading as something that a state can be held against.
-
-    Parameters
-    ----------
-    reading : Reading
-        The reading.
-    new : Course or None
-        Any run of the case, for its new flank; None where none is measured.
-    freedom : str
-        How a profile may be moved.
-    cutoff : float
-        Cut-off wavelength of the filter of profiles [mm].
-    state : State, optional
-        What is known of the wear, to register a profile by.
-
-    Returns
-    -------
-    Observation
-        Of one value, or of a smoothed profile.
-
-    Raises
-    ------
-    GeometryError
-        A profile does not lie on the flank.
-    """
-    if reading.quantity != PROFILE:
-        return Gauge(reading)
-    assert new is not None
-    expected = None
-    if state is not None and state.course is not None:
-        expected = state.course.recess(reading.hours / state.life, reading.gap_kind)
-    registered = register(new.nominal, reading.x, reading.y, freedom, expected)
-    return Scan(reading, registered, cutoff)
+        Returns
+        -------
+        list of Shown
+            One, or one for each smoothed value.
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +126,18 @@ class Gauge:
         return 0
 
     def predicted(self, state: State) -> float:
-        """Return what the reading should be, in its unit."""
+        """Return what the reading should be, in its unit.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        float
+            In the unit of the quantity.
+        """
         reading, course = self.reading, state.course
         if reading.quantity == ELONGATION:
             return state.elongation_rate * reading.hours
@@ -163,11 +150,33 @@ class Gauge:
         return course.history(reading.quantity, 0.0) - course.history(reading.quantity, part)
 
     def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1."""
+        """Return independent residuals of size 1.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        numpy.ndarray
+            Predicted less measured over the error.
+        """
         return np.array([(self.predicted(state) - self.reading.value) / self.reading.error])
 
     def shown(self, state: State) -> list[Shown]:
-        """Return the value beside its prediction."""
+        """Return the value beside its prediction.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        list of Shown
+            One.
+        """
         reading, predicted = self.reading, self.predicted(state)
         return [
             Shown(
@@ -175,90 +184,3 @@ class Gauge:
                 predicted, reading.error, (predicted - reading.value) / reading.error,
             )
         ]  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False)
-class Scan:
-    """A measured profile, registered and smoothed; the model is smoothed and moved alike.
-
-    The smoothed values v = W p of points p with independent errors sigma have the covariance
-    sigma^2 W W^T = L L^T: residuals are L^-1 (W p_model - v), less what a movement of the
-    points could explain.
-
-    Attributes
-    ----------
-    reading : Reading
-        The reading.
-    registered : Registered
-        Its points on the new flank.
-    cutoff : float
-        Cut-off wavelength [mm].
-    """
-
-    reading: Reading
-    registered: Registered
-    cutoff: float
-
-    @cached_property
-    def stations(self) -> Vector:
-        """Places of the smoothed values [mm]."""
-        return filter_stations(self.registered.arc_length, self.cutoff)
-
-    @property
-    def freedom(self) -> int:
-        """Independent values less what registration takes."""
-        return int(self.stations.size - self._explained.shape[1])
-
-    @property
-    def left_out(self) -> int:
-        """Points beyond the ends of the flank."""
-        return self.registered.left_out
-
-    @cached_property
-    def _weights(self) -> Vector:
-        return gaussian_weights(self.registered.arc_length, self.stations, self.cutoff)
-
-    @cached_property
-    def _errors(self) -> Vector:
-        """Standard deviations of the smoothed values [mm]."""
-        return np.asarray(self.reading.error * np.sqrt((self._weights**2).sum(axis=1)))
-
-    @cached_property
-    def _whiten(self) -> Callable[[Vector], Vector]:
-        covariance = self.reading.error**2 * self._weights @ self._weights.T
-        inverse = np.linalg.inv(np.linalg.cholesky(covariance))
-        return lambda values: np.asarray(inverse @ values)
-
-    @cached_property
-    def _explained(self) -> Vector:
-        """Orthonormal residuals that movements cause."""
-        moves = self._whiten(self._weights @ self.registered.moves)
-        ways, size, _ = np.linalg.svd(moves, full_matrices=False)
-        return np.asarray(ways[:, size > UNSEEN * size.max(initial=0.0)])
-
-    def _smoothed(self, state: State) -> tuple[Vector, Vector]:
-        """Measured and predicted recess at the stations [mm]."""
-        assert state.course is not None
-        at = state.course.recess(self.reading.hours / state.life, self.reading.gap_kind)
-        predicted = np.interp(self.registered.arc_length, state.course.new.chords, at)
-        return self._weights @ self.registered.recess, self._weights @ predicted
-
-    def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1."""
-        measured, predicted = self._smoothed(state)
-        whole = self._whiten(predicted - measured)
-        return np.asarray(whole - self._explained @ (self._explained.T @ whole))
-
-    def shown(self, state: State) -> list[Shown]:
-        """Return the smoothed values, moved as fits best, beside their predictions."""
-        measured, predicted = self._smoothed(state)
-        moves = self._weights @ self.registered.moves
-        moved = np.linalg.lstsq(
-            self._whiten(moves), self._whiten(predicted - measured), rcond=None
-        )[0]
-        reading, columns = self.reading, (self.stations, measured + moves @ moved, predicted)
-        rows = zip(*columns, self._errors, self.residuals(state), strict=True)
-        return [
-            Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row))
-            for row in rows
-        ]

@@ -7,8 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibration.course import Blend, Courses
+from wearsim.study.calibration.blend import Blend, Courses
 from wearsim.study.calibration.observe import State
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"
@@ -159,3 +160,22 @@ class Parameters:
         if self.teeth:
             low[0], high[0] = -2.0 * _WIDE, 2.0 * _WIDE
         return low, high
+
+
+def shape_values(case: Case) -> dict[str, float]:
+    """Return the values of the keys that can be fitted besides the coefficients.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    dict
+        By key; those that the case does not have are left out.
+    """
+    found = {
+        key: case.inputs.get(key.partition(".")[0], {}).get(key.partition(".")[2]) for key in SHAPES
+    }
+    return {key: float(value) for key, value in found.items() if value is not None}

@@ -21,8 +21,8 @@ DEEPEST, POINT, OVER_PINS = "max_depth_mm", "depth_mm", "over_pins_mm"
 ELONGATION, PROFILE = "elongation_percent", "profile"
 QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE)
 
-_REQUIRED = ("time_hours", "quantity", "error")
-_OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
+REQUIRED = ("time_hours", "quantity", "error")
+OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
 _LEAST_POINTS = 11
 
 
@@ -68,7 +68,7 @@ def read_readings(path: Path) -> tuple[Reading, ...]:
     ----------
     path : pathlib.Path
         CSV file with the columns time_hours, quantity, error and, as the quantities need
-        them, value, arc_length_mm, gap_kind, points_file.
+        them, value, arc_length_mm, gap_kind, points_file; lines that begin with # are left out.
 
     Returns
     -------
@@ -100,23 +100,27 @@ def _table(path: Path) -> "pd.DataFrame":
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(file)
-            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+            lines = [
+                (reader.line_num, [cell.strip() for cell in line])
+                for line in reader
+                if line and not line[0].startswith("#")
+            ]
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
-    names = lines[0][1] if lines else []
+    head, names = lines[0] if lines else (1, [])
     faults = [
-        Fault(f"column {name!r} is missing{nearest(name, names)}", "", str(path), 1)
-        for name in _REQUIRED
+        Fault(f"column {name!r} is missing{nearest(name, names)}", "", str(path), head)
+        for name in REQUIRED
         if name not in names
     ]
     faults += [
-        Fault(f"unknown column {name!r}{nearest(name, [*_REQUIRED, *_OPTIONAL])}", "", str(path), 1)
+        Fault(f"unknown column {name!r}{nearest(name, [*REQUIRED, *OPTIONAL])}", "", str(path), 1)
         for name in names
-        if name not in _REQUIRED + _OPTIONAL
+        if name not in REQUIRED + OPTIONAL
     ]
     if len(set(names)) < len(names):
-        faults.append(Fault("every column may stand there once only", "", str(path), 1))
+        faults.append(Fault("every column may stand there once only", "", str(path), head))
     rows = [(number, cells) for number, cells in lines[1:] if any(cells)]
     faults += [
         Fault(f"needs {len(names)} values, has {len(cells)}", "", str(path), number)
@@ -128,7 +132,7 @@ def _table(path: Path) -> "pd.DataFrame":
     table = pd.DataFrame(
         [cells for _, cells in rows], columns=names, index=[number for number, _ in rows], dtype=str
     )
-    return table.reindex(columns=[*_REQUIRED, *_OPTIONAL], fill_value="")
+    return table.reindex(columns=[*REQUIRED, *OPTIONAL], fill_value="")
 
 
 def _bad_cells(table: "pd.DataFrame", schema: Any, path: Path) -> list[Fault]:
