@@ -9,7 +9,6 @@ import click
 from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import NOT_MET, finite, overrides, print_json, standard, warn, working
 from wearsim.cli.study import Place, exit_code, place_options, run
-from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
     from wearsim.report.uncertainty import Answer
@@ -62,9 +61,6 @@ def uncertainty(
     if cross_check:
         check_installed(("reliability",), "crosscheck", "--cross-check")
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    if require_hours is not None and study.scattered.case.fatigue is not None:
-        text = "--require-hours asks of fatigue too, which studies leave out: remove one of them"
-        raise CaseError([Fault(text, "fatigue", str(case))])
     told = {
         "study": "uncertainty",
         "case": study.scattered.case.name,

@@ -15,7 +15,6 @@ from wearsim.report.cross_check import cross_check_json, cross_check_lines
 from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.cross_check import CrossCheck
 from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
-from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.uncertainty import UncertaintyStudy
 
 SHARES = (0.1, 0.5, 0.9)
@@ -143,7 +142,7 @@ def warnings_of(answer: Answer) -> list[str]:
         Failed samples, percentiles beyond the horizon, unbalanced points, fits that differ from
         those of another library, and how often the samples warn of what.
     """
-    found = [WITHOUT_FATIGUE] if answer.study.scattered.case.fatigue is not None else []
+    found = []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
     if failed:
         found.append(
