@@ -1,5 +1,6 @@
 """``wearsim life`` with ``[fatigue]``: contact fatigue beside the wear, and which governs."""
 
+import csv
 import json
 from pathlib import Path
 
@@ -120,7 +121,28 @@ def test_with_and_without_side_by_side(asked, cli, drive, tmp_path):
     assert asked("--out", tmp_path / "run").code == 0
     done = cli("compare", tmp_path / "run", drive("plain"), "--out", tmp_path / "both")
     assert done.code == 0
-    assert (tmp_path / "both" / "summary.csv").exists()
+    found = json.loads(asked("--json").out)
+    with (tmp_path / "both" / "summary.csv").open() as file:
+        run, plain = csv.DictReader(file)
+    assert run["governing_life"] == "wear"
+    assert float(run["governing_life_hours"]) == found["life_hours"]
+    assert (plain["governing_life"], plain["governing_life_hours"]) == ("", "")
+    head, _, *rows = [line for line in done.out.splitlines() if line.startswith("|")]
+    assert head.endswith("| governs |")
+    wear, fatigue = (grouped(found[f"{name}life_hours"]) for name in ("", "sprocket_fatigue_"))
+    assert f"| wear, {wear} h (contact fatigue of the sprocket {fatigue} h) |" in rows[0]
+    assert rows[1].endswith("| - |")
+
+
+def test_fatigue_that_governs_is_compared(cli, drive, tmp_path):
+    options = ("--set", HARD, *MILD)
+    done = cli("compare", drive(), "--out", tmp_path / "out", *options)
+    found = json.loads(cli("life", drive(), "--json", *options).out)
+    with (tmp_path / "out" / "summary.csv").open() as file:
+        (row,) = csv.DictReader(file)
+    assert row["governing_life"] == "sprocket_fatigue"
+    assert float(row["governing_life_hours"]) == found["sprocket_fatigue_life_hours"]
+    assert "| contact fatigue of the sprocket, 7 958 h (wear " in done.out
 
 
 def test_assumptions_tell_what_it_rests_on(cli, drive):

@@ -199,11 +199,3 @@ def test_dollars_are_no_formulas(cli, sweep, tmp_path):
     path = sweep(text, STUDY.replace("Test sweep", "cost $x_{$"))
     assert cli("sweep", path, "--out", out).code == 0
     assert "cost $x_{$" in (out / "parallel.svg").read_text(encoding="utf-8")
-
-
-def test_fatigue_is_not_passed_over(cli, sweep, tmp_path):
-    path = sweep(GRID)
-    more = '[fatigue.sprocket]\ntreatment = "improved"\nhardness_HB = 250\n'
-    with (tmp_path / "drive.toml").open("a") as file:
-        file.write(more)
-    assert "contact fatigue is left out of studies" in cli("sweep", path).err

@@ -207,16 +207,6 @@ def test_joints_of_a_wrap_scatter_too(cli, case):
     assert found["p10_hours"] < found["p50_hours"]
 
 
-def test_contact_fatigue_is_not_passed_over(cli, case):
-    path = case('[fatigue.sprocket]\ntreatment = "improved"\nhardness_HB = 250\n')
-    done = cli("uncertainty", path, "--samples", 16)
-    assert done.code == 0
-    assert "warning: contact fatigue is left out of studies" in done.out
-    done = cli("uncertainty", path, "--samples", 16, "--require-hours", 1)
-    assert done.code == 2
-    assert "--require-hours asks of fatigue too" in done.err
-
-
 @pytest.mark.parametrize("hours", [1300, 2500, 3000])
 def test_required_hours_at_the_horizon(cli, case, hours):
     path = case()

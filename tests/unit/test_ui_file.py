@@ -26,6 +26,26 @@ def test_line_ends_and_mark_of_windows(tmp_path):
     assert path.read_bytes() == b"a = 3\r\nb = 2\r\n"
 
 
+@pytest.mark.parametrize("mark", [b"", b"\xef\xbb\xbf"])
+@pytest.mark.parametrize("end", [b"\n", b"\r\n"])
+@pytest.mark.parametrize("taken", [None, b"x = 1\n", b"\xef\xbb\xbfx = 1\r\n"])
+def test_another_name_makes_no_other_file(tmp_path, mark, end, taken):
+    """Saved and saved as, then saved again: the same bytes, whatever the new name held before."""
+    path, other = tmp_path / "a.toml", tmp_path / "b.toml"
+    path.write_bytes(mark + b"a = 1" + end + b"b = 2" + end)
+    if taken is not None:
+        other.write_bytes(taken)
+    file = read_file(path)
+    renamed = file.renamed(other)
+    assert renamed.changed == (taken is not None)
+    saved = renamed.saved(file.text)
+    assert other.read_bytes() == b"a = 1" + end + b"b = 2" + end
+    assert (saved.path, saved.changed) == (other, False)
+    file.saved("a = 3\nb = 2\n")
+    saved.saved("a = 3\nb = 2\n")
+    assert other.read_bytes() == path.read_bytes() == b"a = 3" + end + b"b = 2" + end
+
+
 @pytest.mark.parametrize("other", [b"x", None])
 def test_a_change_on_disk_is_seen(tmp_path, other):
     path = tmp_path / "a.toml"

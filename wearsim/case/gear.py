@@ -66,15 +66,16 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
     if tables.gear.nodes is None:
         case.take("gear.nodes", nodes, "default")
     torque = 1000.0 * tables.load.torque_N_m
-    pair = resolve_teeth(case, tables.gear, nodes, torque, modulus)
+    teeth = resolve_teeth(case, tables.gear, nodes, torque, modulus)
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:
         case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
     stiffness = _stiffness(case, tables, modulus)
     run = run_input(case, tables.run, TOLERANCE)
     faults.check()
-    assert pair is not None
+    assert teeth is not None
+    pair, mesh = teeth
     line_load = torque / tables.gear.face_width_mm
-    case.warnings += _third_pair(pair.mesh(nodes), line_load, stiffness)
+    case.warnings += _third_pair(mesh, line_load, stiffness)
     limit = tables.stop.wheel_critical_depth_mm
     if limit is None:
         limit = tables.stop.critical_depth_mm

@@ -8,13 +8,13 @@ from wearsim.case.resolution import Record
 from wearsim.case.schema.gear import GearTable
 from wearsim.errors import GeometryError
 from wearsim.geometry.involute import InvolutePair
-from wearsim.geometry.mesh import ToothPair, check_contact_ratio
+from wearsim.geometry.mesh import Mesh, ToothPair, check_contact_ratio
 from wearsim.geometry.plane_gearing import PitchCircles
 
 
 def resolve_teeth(
     case: Record, table: GearTable, nodes: int, torque: float, modulus: float
-) -> ToothPair | None:
+) -> tuple[ToothPair, Mesh] | None:
     """Complete the teeth and check that they mesh.
 
     Parameters
@@ -32,19 +32,21 @@ def resolve_teeth(
 
     Returns
     -------
-    ToothPair or None
-        None where something is wrong.
+    tuple of ToothPair and Mesh, or None
+        The pair and how it meshes on so many points; None where something is wrong.
     """
     try:
         if table.profile == "involute":
-            return _involute(case, table)
+            involute = _involute(case, table)
+            return involute, involute.mesh(nodes)
         form = _convex_concave if table.profile == "convex_concave" else _prescribed_stress
         pair = form(case, table, torque, modulus)
-        check_contact_ratio(pair.mesh(nodes).contact_ratio)
+        mesh = pair.mesh(nodes)
+        check_contact_ratio(mesh.contact_ratio)
     except GeometryError as error:
         case.faults.add("gear", str(error).removeprefix("gear pair: "))
         return None
-    return pair
+    return pair, mesh
 
 
 def _taken(case: Record, table: GearTable, key: str, default: float, why: str = "default") -> float:

@@ -106,7 +106,7 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
 
     columns = (
         SpinnerColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TimeRemainingColumn(),
     )

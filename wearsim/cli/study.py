@@ -249,20 +249,7 @@ def _counting(text: str) -> "Iterator[Told]":
     if quiet or not sys.stderr.isatty():
         yield lambda done, count: None
         return
-    from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TaskProgressColumn,
-        TextColumn,
-        TimeRemainingColumn,
-    )
+    from wearsim.cli.counting import counting
 
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-        TaskProgressColumn(show_speed=True), TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(text, total=None)
-        yield lambda done, count: bar.update(task, completed=done, total=count)
+    with counting(text) as told:
+        yield told

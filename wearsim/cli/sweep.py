@@ -27,10 +27,6 @@ def sweep(study: Path, as_json: bool, place: Place, settings: tuple[str, ...]) -
 
     loaded = load_sweep(study, settings)
     told = {"study": "sweep", "title": loaded.title, "case": loaded.design.name}
-    if "fatigue" in loaded.design.tables:
-        from wearsim.study.scatter import WITHOUT_FATIGUE
-
-        warn(f"warning: {WITHOUT_FATIGUE}")
     table = run(loaded.design, place, told, f"sweeping {loaded.title}")
     if table is None:
         return 0

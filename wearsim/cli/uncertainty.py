@@ -1,14 +1,14 @@
 """``wearsim uncertainty``: how sure a life is."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import NOT_MET, finite, overrides, print_json, standard, warn
+from wearsim.cli.standard import NOT_MET, finite, overrides, print_json, standard, warn, working
 from wearsim.cli.study import Place, exit_code, place_options, run
-from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
     from wearsim.report.uncertainty import Answer
@@ -35,13 +35,17 @@ _ROUNDING = 1e-9
     "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
     callback=finite, help="Exit with 4 where P10 is shorter; raises the horizon to at least H.",
 )  # fmt: skip
+@click.option(
+    "--cross-check", is_flag=True,
+    help="Repeat the fits by the library reliability (pip install 'wearsim[crosscheck]').",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @place_options
 @overrides
 @standard
 def uncertainty(
     case: Path, samples: int, seed: int, method: "Method", require_hours: float | None,
-    as_json: bool, place: Place, settings: tuple[str, ...],
+    cross_check: bool, as_json: bool, place: Place, settings: tuple[str, ...],
 ) -> int:  # fmt: skip
     """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
 
@@ -51,12 +55,12 @@ def uncertainty(
     With --out, DIR holds cases.csv, convergence.csv, summary.md, pictures, and what is finished:
     run again, the same command goes on.
     """
+    from wearsim.extras import check_installed
     from wearsim.study.uncertainty import load_uncertainty
 
+    if cross_check:
+        check_installed(("reliability",), "crosscheck", "--cross-check")
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    if require_hours is not None and study.scattered.case.fatigue is not None:
-        text = "--require-hours asks of fatigue too, which studies leave out: remove one of them"
-        raise CaseError([Fault(text, "fatigue", str(case))])
     told = {
         "study": "uncertainty",
         "case": study.scattered.case.name,
@@ -75,6 +79,8 @@ def uncertainty(
     )
 
     code, answer = exit_code(table), Answer(study, table)
+    if cross_check:
+        answer = _cross_checked(answer)
     if as_json:
         print_json(uncertainty_json(answer), case, warnings_of(answer))
     else:
@@ -84,6 +90,14 @@ def uncertainty(
         warn(f"written to {place.out}")
     missed = _missed(answer, require_hours)
     return code or missed
+
+
+def _cross_checked(answer: "Answer") -> "Answer":
+    # The library takes two seconds to load.
+    from wearsim.study.cross_check import cross_check
+
+    with working("repeating the fits by reliability"):
+        return replace(answer, crossed=cross_check(answer.hours, answer.reached, answer.fits))
 
 
 def _missed(answer: "Answer", require_hours: float | None) -> int:

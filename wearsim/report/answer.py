@@ -146,7 +146,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
         ("Life", _life(result)),
         (BAND, _band(result)),
         *_service(result),
-        *_governing(result),
+        *((("Governs", governing_text(result)),) if result.fatigue else ()),
         *_parts(result),
         ("Worn most", _worst(result)),
         ("Removed", _removed(result)),
@@ -161,10 +161,19 @@ def _removed(result: WearResult) -> str:
     )
 
 
-def _governing(result: WearResult) -> list[tuple[str, str]]:
-    """Which of wear and contact fatigue comes first, and the others."""
-    if not result.fatigue:
-        return []
+def governing_text(result: WearResult) -> str:
+    """Return which of wear and contact fatigue comes first, and the others.
+
+    Parameters
+    ----------
+    result : WearResult
+        Of a case with contact fatigue.
+
+    Returns
+    -------
+    str
+        Such as ``wear, 254 h (contact fatigue of the sprocket never)``.
+    """
     lives = {
         "wear": hours(result.life),
         **{
@@ -175,10 +184,10 @@ def _governing(result: WearResult) -> list[tuple[str, str]]:
     names = dict(zip(("wear", *result.fatigue), lives, strict=True))
     if result.governing is None:
         known = ", ".join(f"{name} {life}" for name, life in lives.items())
-        return [("Governs", f"nothing within {grouped(result.life.hours_run)} h: {known}")]
+        return f"nothing within {grouped(result.life.hours_run)} h: {known}"
     first = names[result.governing]
     others = ", ".join(f"{name} {life}" for name, life in lives.items() if name != first)
-    return [("Governs", f"{first}, {lives[first]} ({others})")]
+    return f"{first}, {lives[first]} ({others})"
 
 
 def _endured(life: Life | LowerBound) -> str:

@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from wearsim.case.model import Case
 from wearsim.report.answer import grouped
 from wearsim.report.study_files import plain, save_figures, save_texts
-from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.sensitivity import HIGH, LOW, Effect, SensitivityStudy
+
+_NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
     tuple of str
         Indices that are not much larger than their errors, and what is left out.
     """
-    found = (WITHOUT_FATIGUE,) if case.fatigue is not None else ()
+    found = (_NOT_DOUBLED,) if case.fatigue is not None else ()
     loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
     if not loose:
         return found
@@ -133,9 +134,10 @@ def sensitivity_text(answer: Answer) -> str:
             f"{effect.interaction:.3f}"
         )
     lines += ["", "what would double the life, the others as they are:"]
+    none = "not looked for" if scattered.case.fatigue is not None else "no value that can run"
     for effect in answer.effects:
         value = answer.doubled[effect.scatter.key]
-        shown = "no value that can run" if math.isnan(value) else f"{value:.4g}"
+        shown = none if math.isnan(value) else f"{value:.4g}"
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]

@@ -11,9 +11,10 @@ import pandas as pd
 
 from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
+from wearsim.report.cross_check import cross_check_json, cross_check_lines
 from wearsim.report.study_files import plain, save_figures, save_texts
+from wearsim.study.cross_check import CrossCheck
 from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
-from wearsim.study.scatter import WITHOUT_FATIGUE
 from wearsim.study.uncertainty import UncertaintyStudy
 
 SHARES = (0.1, 0.5, 0.9)
@@ -32,10 +33,13 @@ class Answer:
         What was asked.
     table : pandas.DataFrame
         A row for each sample, of `run_study`.
+    crossed : CrossCheck, optional
+        The fits as another library repeats them, where that was asked.
     """
 
     study: UncertaintyStudy
     table: pd.DataFrame
+    crossed: CrossCheck | None = None
 
     @cached_property
     def sound(self) -> pd.DataFrame:
@@ -102,6 +106,8 @@ def uncertainty_text(answer: Answer) -> str:
             f"{fit.name:<12} {_parameters(fit)}, B10 {grouped(fit.b10)} h, ln likelihood "
             f"{fit.log_likelihood:.1f}"
         )
+    if answer.crossed is not None:
+        lines += cross_check_lines(answer.crossed)
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
@@ -133,10 +139,10 @@ def warnings_of(answer: Answer) -> list[str]:
     Returns
     -------
     list of str
-        Failed samples, percentiles beyond the horizon, unbalanced points, and how often the
-        samples warn of what.
+        Failed samples, percentiles beyond the horizon, unbalanced points, fits that differ from
+        those of another library, and how often the samples warn of what.
     """
-    found = [WITHOUT_FATIGUE] if answer.study.scattered.case.fatigue is not None else []
+    found = []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
     if failed:
         found.append(
@@ -150,6 +156,8 @@ def warnings_of(answer: Answer) -> list[str]:
         found.append(
             f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
         )
+    if answer.crossed is not None:
+        found += answer.crossed.doubts
     return found + _of_samples(answer.sound["warnings"])
 
 
@@ -203,6 +211,8 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
          "log_likelihood": f.log_likelihood}
         for f in answer.fits
     ]  # fmt: skip
+    if answer.crossed is not None:
+        content["cross_check"] = cross_check_json(answer.crossed)
     content["assumptions"] = [
         *study.scattered.assumptions,
         _OF_INTERVALS,

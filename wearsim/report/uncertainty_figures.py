@@ -53,7 +53,8 @@ def _lives(answer: "Answer") -> Figure:
                 found.hours, place, xerr=error, fmt="o", color="tab:red", capsize=4, zorder=3,
                 label="P10, P50, P90 and their intervals" if found.share == 0.5 else None,
             )  # fmt: skip
-    panel.set_xscale("log")
+    if lives[0] > 0.0:
+        panel.set_xscale("log")
     panel.yaxis.set_major_locator(FixedLocator([float(stats.norm.ppf(q)) for q in _TICKS]))
     panel.yaxis.set_major_formatter(FixedFormatter([f"{100 * q:g}" for q in _TICKS]))
     panel.yaxis.set_minor_locator(NullLocator())

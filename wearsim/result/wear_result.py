@@ -124,6 +124,11 @@ class WearResult:
         """``wear`` or the name of a life by contact fatigue, as `first_life` gives it."""
         return first_life(self.life, self.fatigue)
 
+    @property
+    def earliest_life(self) -> Life | LowerBound:
+        """The life that governs, by wear or by contact fatigue; a bound where none ends."""
+        return self.fatigue.get(self.governing or "", self.life)
+
     @cached_property
     def history(self) -> pd.DataFrame:
         """The run over time, a row for every snapshot."""
@@ -182,11 +187,9 @@ class WearResult:
     def _governing_life(self) -> dict[str, Any]:
         if not self.fatigue:
             return {}
-        name = self.governing
-        lives = {"wear": self.life, **self.fatigue}
         return {
-            "governing_life": name,
-            "governing_life_hours": lives[name].hours if name is not None else None,
+            "governing_life": self.governing,
+            "governing_life_hours": _hours(self.earliest_life),
         }
 
     def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:

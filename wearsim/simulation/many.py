@@ -35,9 +35,10 @@ class CaseLife:
     case : str
         Name of the case.
     life : Life or LowerBound
-        As `simulate` gives it, to the bit.
+        As `simulate` gives it, to the bit; with contact fatigue its `earliest_life`.
     stop : str
-        Key of the limit that was met, ``horizon_hours`` where none was.
+        Key of the limit that was met, ``horizon_hours`` where none was; the name of a life by
+        contact fatigue that ends before, such as ``sprocket_fatigue``.
     numerical_error : float
         Relative error of the life by its steps; that of the grid is not estimated.
     warnings : tuple of str
@@ -91,8 +92,8 @@ def simulate_many(
     Cases on a strand or under a table of loads whose only limit is the critical depth run
     in compiled batches on all threads; of those that differ only in the wear coefficient
     one runs, as their lives times coefficient are the same. All others run one by one.
-    Contact fatigue is not part of it. Neither cases nor results are kept: memory does not grow
-    with their number.
+    So do those with contact fatigue, whose lives end by that or by wear, whichever is first.
+    Neither cases nor results are kept: memory does not grow with their number.
 
     Parameters
     ----------
@@ -141,7 +142,8 @@ _Batch = tuple[list[list[_Job]], "Future[list[Worn | None]]"]
 
 def _job(case: Case) -> _Job | None:
     """Return the job of a case; None where it runs alone, to its error if it has one."""
-    if isinstance(case.drive, WrapDrive) or case.run.method != "advance":
+    alone = isinstance(case.drive, WrapDrive) or case.fatigue is not None
+    if alone or case.run.method != "advance":
         return None
     try:
         mechanism = pointwise_mechanism(case)
@@ -218,4 +220,6 @@ def _alone(case: Case) -> CaseLife | WearsimError:
         result = simulate(case)
     except WearsimError as error:
         return error
-    return CaseLife(case.name, result.life, result.stop, result.numerical_error, result.warnings)
+    by_fatigue = result.governing in result.fatigue
+    stop = str(result.governing) if by_fatigue else result.stop
+    return CaseLife(case.name, result.earliest_life, stop, result.numerical_error, result.warnings)

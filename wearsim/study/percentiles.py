@@ -108,7 +108,7 @@ def fits(lives: Vector, reached: Flags) -> list[Fit]:
     lives : numpy.ndarray
         Hours of the lives, or how long they are at least, shape (n,).
     reached : numpy.ndarray of bool
-        Whether they are lives; at least two that differ, else there is no fit.
+        Whether they are lives; at least two that differ, and none of 0 h, else there is no fit.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def fits(lives: Vector, reached: Flags) -> list[Fit]:
         The better one first; both leave the origin at 0.
     """
     seen = lives[reached]
-    if seen.size < 2 or np.ptp(seen) <= 1e-9 * seen.max():
+    if seen.size < 2 or np.ptp(seen) <= 1e-9 * seen.max() or seen.min() == 0.0:
         return []
     unit = float(np.median(seen))
     data = stats.CensoredData(uncensored=seen / unit, right=lives[~reached] / unit)

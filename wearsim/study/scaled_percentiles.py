@@ -13,8 +13,9 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     """Return the hours that parts of all lives do not exceed, where they follow without samples.
 
     That is so where by [uncertainty] only the wear coefficient scatters, every limit is one of the
-    teeth (no wrap, whose chain wears by another coefficient), and the coefficient does not
-    change as the drive runs in: the percentile p of the life is L k / k_(1-p).
+    teeth (no wrap, whose chain wears by another coefficient), contact fatigue is not asked for,
+    and the coefficient does not change as the drive runs in: the percentile p of the life is
+    L k / k_(1-p).
 
     Parameters
     ----------
@@ -32,7 +33,8 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     """
     table = result.inputs.get("uncertainty") or {}
     steady = not isinstance(case.drive, WrapDrive) and case.wear.running_in_factor == 1.0
-    if list(table) != [coefficient_key(case)] or not steady or not isinstance(result.life, Life):
+    alone = list(table) == [coefficient_key(case)] and not result.fatigue
+    if not alone or not steady or not isinstance(result.life, Life):
         return []
     (entry,) = table.values()
     value = case.wear.coefficient

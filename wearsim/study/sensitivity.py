@@ -193,13 +193,16 @@ def doubling(scattered: Scattered) -> dict[str, float]:
     Returns
     -------
     dict
-        By key; nan where no value that can run does it.
+        By key; nan where no value that can run does it, and for a case with contact fatigue, whose
+        life may change by leaps.
 
     Raises
     ------
     WearsimError
         The case has no life to be doubled.
     """
+    if scattered.case.fatigue is not None:
+        return dict.fromkeys(scattered.keys, math.nan)
     hours = simulate(_case_with(scattered, "", math.nan)).life.hours
     found = {}
     for scatter in scattered.scatters:
@@ -236,4 +239,10 @@ def _check(table: pd.DataFrame) -> None:
         raise StudyError(
             f"{bounds} of {len(table)} cases met no limit within run.horizon_hours, and indices need "
             "lives: raise it"
+        )
+    none = int((table["life_hours"] == 0.0).sum())
+    if none:
+        raise StudyError(
+            f"{none} of {len(table)} cases live 0 h by contact fatigue, and indices are of the logarithm "
+            "of the life: narrow the distributions or take a better material"
         )

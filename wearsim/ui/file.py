@@ -1,6 +1,6 @@
 """The file of a case: read, compared with what is on disk, written."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from wearsim.errors import CaseError, Fault, OutputError
@@ -17,10 +17,13 @@ class CaseFile:
         Its place, there or not.
     content : bytes or None
         None where it was not there.
+    ends : str
+        What ends its lines when it is written.
     """
 
     path: Path
     content: bytes | None
+    ends: str = "\n"
 
     @property
     def text(self) -> str:
@@ -34,6 +37,21 @@ class CaseFile:
         """Whether the disk holds something else by now."""
         return _content(self.path) != self.content
 
+    def renamed(self, path: Path) -> "CaseFile":
+        """Return a file of another name that is to be written with the same line ends.
+
+        Parameters
+        ----------
+        path : pathlib.Path
+            Its place, taken or not.
+
+        Returns
+        -------
+        CaseFile
+            One that was not there, so that one that is there has changed.
+        """
+        return replace(self, path=path, content=None)
+
     def saved(self, text: str) -> "CaseFile":
         """Write the file, whatever the disk holds.
 
@@ -45,18 +63,17 @@ class CaseFile:
         Returns
         -------
         CaseFile
-            As it is on disk now; a file with the line ends of Windows keeps them.
+            As it is on disk now; line ends of Windows are kept, a mark before the text is not.
 
         Raises
         ------
         OutputError
             It cannot be written.
         """
-        ends = "\r\n" if b"\r\n" in (self.content or b"") else "\n"
-        content = text.replace("\r\n", "\n").replace("\n", ends).encode("utf-8", "replace")
+        content = text.replace("\r\n", "\n").replace("\n", self.ends).encode("utf-8", "replace")
         # A link stays one: what it leads to is replaced.
         write_file(self.path.resolve(), content, force=True)
-        return CaseFile(self.path, content)
+        return replace(self, content=content)
 
 
 def read_file(path: Path) -> CaseFile:
@@ -78,7 +95,8 @@ def read_file(path: Path) -> CaseFile:
         It is not there or holds no UTF-8 text.
     """
     try:
-        file = CaseFile(path, path.read_bytes())
+        content = path.read_bytes()
+        file = CaseFile(path, content, "\r\n" if b"\r\n" in content else "\n")
         _ = file.text
     except OSError as error:
         message = f"must be a readable file: {error.strerror}"

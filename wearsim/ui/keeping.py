@@ -11,7 +11,7 @@ from wearsim.report.export import export
 from wearsim.report.wheel_shapes import State
 from wearsim.result import WearResult
 from wearsim.ui.dialogs import ask_export, ask_name, choose
-from wearsim.ui.file import CaseFile, named_beside, new_file, read_file
+from wearsim.ui.file import CaseFile, named_beside, read_file
 from wearsim.ui.threads import in_thread
 
 _FORMATS = ("dxf", "svg", "csv")
@@ -78,11 +78,11 @@ class Keeper:
         except WearsimError as error:
             ui.notify(str(error), type="negative", multi_line=True)
             return
-        file = self.file if _same(place, self.file) else new_file(place)
+        file = self.file if _same(place, self.file) else self.file.renamed(place)
         if file.changed:
             if await choose(f"{place} is there already.", ("Replace it", "Cancel")) != "Replace it":
                 return
-            file = CaseFile(place, None)
+            file = self.file.renamed(place)
         self._write(file)
 
     async def export(self) -> None:

@@ -17,8 +17,9 @@ from wearsim.errors import CaseError, Fault
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import FILE_KEYS
 
-FEW, MANY = 2, 250
-"""Cases of a shard: of wraps, which take seconds each, and of all others."""
+FEW, SOME, MANY = 2, 25, 250
+"""Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
+and of all others."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,10 @@ class Design:
         """Cases that are run and stored together."""
         differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
         indices = range(len(self.rows) if differs else 1)
-        return FEW if any(_wraps(self.tables_of(index)) for index in indices) else MANY
+        if any(_wraps(self.tables_of(index)) for index in indices):
+            return FEW
+        tables = {*self.tables, *(key.partition(".")[0] for key in self.keys)}
+        return SOME if "fatigue" in tables else MANY
 
 
 def _wraps(tables: Mapping[str, Any]) -> bool:

@@ -123,11 +123,12 @@ class Cluster:
     def open(self) -> Iterator[tuple[Executor, int]]:
         """Give an executor and the number of its workers."""
         dask = library("distributed", "dask", "--scheduler")
-        security = (
-            dask.Security(require_encryption=True, **self.security) if self.security else None
-        )
         place = self.address or str(self.scheduler_file)
-        _reach(self.address or _address(place), place)
+        address = self.address or _address(place)
+        _reach(address, place)
+        encrypted = {"require_encryption": True} if self.security else {}
+        security = dask.Security(**encrypted, **self.security)
+        _check_security(security, address, place)
         try:
             client = dask.Client(
                 self.address,
@@ -164,6 +165,27 @@ def _reach(address: str, place: str) -> None:
         socket.create_connection((match[1], int(match[2])), timeout=_PATIENCE).close()
     except (OSError, OverflowError) as error:
         raise StudyError(f"{place}: must be a Dask scheduler that answers: {error}") from None
+
+
+def _check_security(security: Any, address: str, place: str) -> None:
+    """Find out whether TLS is given where the scheduler has it, of which a client makes no clean end."""
+    try:
+        found = security.get_connection_args("client")
+    except (OSError, ValueError) as error:
+        raise StudyError(
+            f"{place}: must be reached with certificates and a key that belong together: {error}"
+        ) from None
+    has_tls = address.startswith("tls://")
+    if has_tls and found.get("ssl_context") is None:
+        raise StudyError(
+            f"{place}: must be reached by TLS, as its address is {address}: give --tls-ca-file, "
+            "--tls-cert and --tls-key"
+        )
+    if not has_tls and found.get("require_encryption"):
+        raise StudyError(
+            f"{place}: must be a scheduler with TLS (tls://HOST:PORT), but its address is {address}: "
+            "start it with TLS, or leave the --tls options out"
+        )
 
 
 def _checked(client: Any, dask: Any, place: str) -> int:
