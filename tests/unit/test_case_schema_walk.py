@@ -26,6 +26,18 @@ WITHOUT_EFFECT = {
     "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.start_date": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    **{
+        f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
+        for key in (
+            "objectives",
+            "parameters",
+            *(
+                f"limits.{name}.{end}"
+                for name in ("life_hours", "mass_kg", "peak_pressure_MPa")
+                for end in ("low", "high")
+            ),
+        )
+    },
     "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
 }
 
