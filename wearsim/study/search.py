@@ -9,6 +9,7 @@ from scipy.optimize import differential_evolution
 
 from wearsim.extras import library
 from wearsim.geometry.profile import Vector
+from wearsim.study.local_model import proposals
 from wearsim.study.optimise import MAXIMISED, Candidate, OptimiseStudy, Trials, front
 
 _BROKEN, _FAILED = 1e3, 1e6
@@ -22,6 +23,9 @@ _SAME = 1e-5
 
 _FIRST_STEP, _LAST_STEP = 0.02, 2e-5
 """Steps of the pattern as parts of the ranges."""
+
+_TRUSTED, _MARGINS = 0.25, (0.0, 3e-4)
+"""Part of the ranges in which a model is trusted, and distances from the limits that it keeps."""
 
 _FRONT_RESERVE = 0.5
 """Part of all trials that is kept to refine a front."""
@@ -37,9 +41,9 @@ _MOST_IDLE = 5
 def search(study: OptimiseStudy, trials: Trials) -> None:
     """Try designs until the best are found or no trial is left.
 
-    One objective: differential evolution in generations, then a pattern of random directions
-    around the best. Several: NSGA-II, then random steps around the front. Designs that break
-    limits come after all that do not, by how far; those that fail come last.
+    One objective: differential evolution in generations, then steps to the optimum of local
+    models and along random directions. Several: NSGA-II, then random steps around the front.
+    Designs that break limits come after all that do not, by how far; those that fail come last.
 
     Parameters
     ----------
@@ -127,11 +131,11 @@ def _evolve(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
 
 def _reserve(study: OptimiseStudy) -> int:
     """Trials kept for the pattern and the generation that may be under way."""
-    return generation_size(study) + study.evaluations // 5
+    return generation_size(study) + study.evaluations // 3
 
 
 def _poll(study: OptimiseStudy, trials: Trials) -> None:
-    """Look around the best design along random directions, in steps that get smaller."""
+    """Look where models have the best design, and around the best so far in smaller and smaller steps."""
     rng = np.random.default_rng((study.seed, 1))
     free = np.flatnonzero(~study.space.whole)
     step = _FIRST_STEP
@@ -139,7 +143,10 @@ def _poll(study: OptimiseStudy, trials: Trials) -> None:
     while step > _LAST_STEP and trials.left > 0 and not best.error:
         middle = study.space.place(best.values)
         assert middle is not None
-        places = _around(middle, free, step, rng) + _neighbours(study, middle)
+        places = proposals(
+            study, list(trials.found.values()), best, (_TRUSTED, 4.0 * step), _MARGINS
+        )
+        places += _around(middle, free, step, rng) + _neighbours(study, middle)
         tried = trials.at([study.space.row(place) for place in places])
         ahead = min(tried, key=lambda one: _cost(study, one))
         if ahead is not None and _cost(study, ahead) < _cost(study, best):
