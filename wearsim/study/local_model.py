@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import combinations_with_replacement
+from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
@@ -121,11 +122,12 @@ def _solved(
     ends = [
         (max(-1.0, -part / radius), min(1.0, (1.0 - part) / radius)) for part in middle.tolist()
     ]
-    constraints = {"type": "ineq", "fun": room}
-    result = minimize(
+    # Its types take neither numpy's numbers nor a list of constraints that is empty.
+    solve: Any = minimize
+    result = solve(
         lambda offset: float(sign * logs(offset)[sought]), np.zeros(len(middle)), method="SLSQP",
-        bounds=ends, constraints=[constraints] if study.limits else [],
+        bounds=ends, constraints=[{"type": "ineq", "fun": room}] if study.limits else [],
         options={"maxiter": _STEPS},
     )  # fmt: skip
     low, high = np.array(ends).T
-    return np.clip(np.nan_to_num(result.x), low, high)
+    return np.asarray(np.clip(np.nan_to_num(result.x), low, high))
