@@ -14,6 +14,9 @@ from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.optimise import MAXIMISED, Candidate, Outcome, commonest_reason, margins
 from wearsim.study.runner.store import DESIGN_FILES, DESIGNS
 
+_SAME = 1e-6
+"""Relative scatter of a measure that is none."""
+
 _MOST_SHOWN = 20
 """Designs of a front in the text; the files hold all."""
 
@@ -75,6 +78,13 @@ def warnings_of(outcome: Outcome) -> tuple[str, ...]:
                 found.append(
                     f"{parameter.key} of {which} lies on its {end} end: a wider range may give better ones"
                 )
+    for name in study.objectives:
+        values = [one.measures[name] for one in outcome.candidates if one.feasible]
+        if len(values) > 1 and max(values) - min(values) <= _SAME * max(values):
+            found.append(
+                f"no parameter changes {name}: what governs it lies elsewhere (wearsim life tells what "
+                "ends the life)"
+            )
     if "life_hours" in study.objectives and not all(one.reached for one in outcome.front):
         found.append(
             "lives beyond run.horizon_hours count as lives up to it, and which of them is longest is not "

@@ -26,7 +26,9 @@ def proposals(
     """Return points at which models of the measures have their best feasible design.
 
     Logarithms of measures are quadratic in the parameters, or linear where too few designs are
-    near, by least squares: lives, masses and pressures go with powers of most of them.
+    near, by least squares: lives, masses and pressures go with powers of most of them. For the
+    largest radius and margin there is also a point with each parameter in turn as it is: designs
+    that fail have no measures, so that a model may lead into them.
 
     Parameters
     ----------
@@ -44,18 +46,21 @@ def proposals(
     Returns
     -------
     list of numpy.ndarray
-        Points of the unit cube, one for each radius and margin; none where no model can be made.
+        Points of the unit cube; none where no model can be made.
     """
     middle, free = study.space.place(best.values), np.flatnonzero(~study.space.whole)
     if middle is None or not free.size or best.error:
         return []
     near = _alike(study, tried, best)
+    asked = [(radius, margin, -1) for radius in radii for margin in margins]
+    asked += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
+    models = {radius: _model(study, near, middle[free], free, radius) for radius in radii}
     found = []
-    for radius in radii:
-        model = _model(study, near, middle[free], free, radius)
-        for margin in margins if model is not None else ():
+    for radius, margin, kept in asked:
+        model = models[radius]
+        if model is not None:
             place = middle.copy()
-            place[free] += radius * _solved(study, model, (middle[free], radius), margin)
+            place[free] += radius * _solved(study, model, (middle[free], radius), margin, kept)
             found.append(np.clip(place, 0.0, 1.0))
     return found
 
@@ -100,9 +105,9 @@ def _terms(offsets: Vector, degree: int) -> Vector:
 
 
 def _solved(
-    study: OptimiseStudy, model: Vector, trusted: tuple[Vector, float], margin: float
+    study: OptimiseStudy, model: Vector, trusted: tuple[Vector, float], margin: float, kept: int
 ) -> Vector:
-    """Offset over the radius at which the model is best."""
+    """Offset over the radius at which the model is best; one parameter may keep its value."""
     middle, radius = trusted
     degree = 1 if len(model) == 1 + len(middle) else 2
     sought = study.measures.index(study.objectives[0])
@@ -122,6 +127,8 @@ def _solved(
     ends = [
         (max(-1.0, -part / radius), min(1.0, (1.0 - part) / radius)) for part in middle.tolist()
     ]
+    if kept >= 0:
+        ends[kept] = (0.0, 0.0)
     # Its types take neither numpy's numbers nor a list of constraints that is empty.
     solve: Any = minimize
     result = solve(

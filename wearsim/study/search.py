@@ -24,6 +24,9 @@ _SAME = 1e-5
 _FIRST_STEP, _LAST_STEP = 0.02, 2e-5
 """Steps of the pattern as parts of the ranges."""
 
+_GAIN = 1e-4
+"""Gain in the logarithm of the objective from first to last step after which all begins again."""
+
 _TRUSTED, _MARGINS = 0.25, (0.0, 3e-4)
 """Part of the ranges in which a model is trusted, and distances from the limits that it keeps."""
 
@@ -140,7 +143,12 @@ def _poll(study: OptimiseStudy, trials: Trials) -> None:
     free = np.flatnonzero(~study.space.whole)
     step = _FIRST_STEP
     best = min(trials.found.values(), key=lambda one: (_cost(study, one), one.number))
-    while step > _LAST_STEP and trials.left > 0 and not best.error:
+    before = _cost(study, best)
+    while trials.left > 0 and not best.error:
+        if step <= _LAST_STEP:
+            if before - _cost(study, best) < _GAIN:
+                return
+            step, before = _FIRST_STEP, _cost(study, best)
         middle = study.space.place(best.values)
         assert middle is not None
         places = proposals(
