@@ -30,11 +30,11 @@ from wearsim.report.wheel_points import wheel_points
 from wearsim.report.wheel_shapes import wheel_shapes
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.simulation.loads import tooth_loads
-from wearsim.study.optimise import Candidate, Outcome
 from wearsim.study.runner.shard import COLUMNS
 from wearsim.study.scatter import Scatter
 from wearsim.study.search_space import SearchSpace
 from wearsim.study.sensitivity import Effect
+from wearsim.study.trials import Candidate, Outcome
 
 CASE = {
     "format_version": 1,

@@ -5,6 +5,7 @@ import os
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -108,6 +109,11 @@ def test_death_of_workers_loses_and_repeats_nothing(cases):
 def test_study_ends_when_all_workers_die(cases):
     with pytest.raises(StudyError, match="workers died 3 times"):
         run_study(cases, Dying(most=99))
+
+
+def test_dates_of_a_case_have_a_hash():
+    hashes = [content_hash({"start_date": date(2026, 1, day)}) for day in (1, 2)]
+    assert hashes[0] != hashes[1]
 
 
 def test_key_that_is_none_is_named():

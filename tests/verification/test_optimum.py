@@ -21,10 +21,11 @@ from wearsim.errors import WearsimError
 from wearsim.result import Life
 from wearsim.simulation.new_flank import new_peak_pressure
 from wearsim.sizing.blank import blank_mass
-from wearsim.study.optimise import Candidate, OptimiseStudy, Trials, front, load_optimise
+from wearsim.study.optimise import OptimiseStudy, load_optimise
 from wearsim.study.runner.run import run_study
 from wearsim.study.runner.workers import Threads
 from wearsim.study.search import search
+from wearsim.study.trials import Candidate, Trials, front
 
 WIDTH = 17.0
 CASE: dict[str, Any] = {

@@ -39,7 +39,8 @@ def optimise(
     With --out, DIR holds candidates.csv, front.csv, summary.md, pictures, each of the best
     designs as a case in designs, and what is finished: run again, the same command goes on.
     """
-    from wearsim.study.optimise import Outcome, Trials, check_feasible, front, load_optimise
+    from wearsim.study.optimise import load_optimise
+    from wearsim.study.trials import Outcome, Trials, check_feasible, front
 
     study = load_optimise(case, settings, evaluations, seed)
     if len(study.objectives) > 1:

@@ -11,8 +11,8 @@ from wearsim.output import write_file
 from wearsim.report.answer import grouped
 from wearsim.report.optimise_figures import optimise_figures
 from wearsim.report.study_files import plain, save_figures, save_texts
-from wearsim.study.optimise import MAXIMISED, Candidate, Outcome, commonest_reason, margins
 from wearsim.study.runner.store import DESIGN_FILES, DESIGNS
+from wearsim.study.trials import MAXIMISED, Candidate, Outcome, commonest_reason, margins
 
 _SAME = 1e-6
 """Relative scatter of a measure that is none."""

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from wearsim.report.sweep_figures import axis_label, scaled_heights
-from wearsim.study.optimise import MAXIMISED, Candidate, Outcome
+from wearsim.study.trials import MAXIMISED, Candidate, Outcome
 
 _MOST_LINES = 500
 

@@ -5,10 +5,14 @@ from itertools import combinations_with_replacement
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from wearsim.geometry.profile import Vector
-from wearsim.study.optimise import MAXIMISED, Candidate, OptimiseStudy
+from wearsim.study.optimise import OptimiseStudy
+from wearsim.study.trials import MAXIMISED, Candidate
+
+Places = NDArray[np.signedinteger[Any]]
 
 _PER_TERM = 2
 """Designs nearest to the best that a model is fitted to, for each of its terms."""
@@ -80,7 +84,7 @@ def _alike(
 
 
 def _model(
-    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Vector,
+    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Places,
     radius: float,
 ) -> Vector | None:  # fmt: skip
     """Coefficients of each measure, shape (terms, measures)."""

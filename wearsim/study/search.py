@@ -9,8 +9,9 @@ from scipy.optimize import differential_evolution
 
 from wearsim.extras import library
 from wearsim.geometry.profile import Vector
-from wearsim.study.local_model import proposals
-from wearsim.study.optimise import MAXIMISED, Candidate, OptimiseStudy, Trials, front
+from wearsim.study.local_model import Places, proposals
+from wearsim.study.optimise import OptimiseStudy
+from wearsim.study.trials import MAXIMISED, Candidate, Trials, front
 
 _BROKEN, _FAILED = 1e3, 1e6
 """Costs above all of feasible designs: of those that break a limit, and of those that fail."""
@@ -66,7 +67,8 @@ def search(study: OptimiseStudy, trials: Trials) -> None:
         _evolve_front(study, trials, points)
         _refine_front(study, trials, size)
         return
-    _evolve(study, trials, points)
+    if trials.left >= _reserve(study):
+        _evolve(study, trials, points)
     _poll(study, trials)
 
 
@@ -163,9 +165,7 @@ def _poll(study: OptimiseStudy, trials: Trials) -> None:
             step *= 0.5
 
 
-def _around(
-    middle: Vector, free: "np.ndarray[Any, Any]", step: float, rng: np.random.Generator
-) -> list[Vector]:
+def _around(middle: Vector, free: Places, step: float, rng: np.random.Generator) -> list[Vector]:
     if not free.size:
         return []
     basis, _ = np.linalg.qr(rng.standard_normal((free.size, free.size)))
