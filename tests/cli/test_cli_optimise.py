@@ -36,6 +36,12 @@ def case(drive):
     return write
 
 
+@pytest.fixture
+def without_pictures(monkeypatch):
+    """Function that leaves out the pictures from then on, which take longer than the search."""
+    return lambda: monkeypatch.setattr("wearsim.report.optimise.save_figures", lambda *_: None)
+
+
 def answer(cli, *arguments, evaluations=20):
     done = cli("optimise", *arguments, "--evaluations", evaluations, "--json")
     assert done.code == 0, done.err
@@ -84,9 +90,9 @@ def test_seed_evaluations_and_setting(cli, case):
 
 
 def test_workers_make_no_difference(cli, case):
-    base = answer(cli, case())
-    assert answer(cli, case(), "--threads", 2) == base
-    assert answer(cli, case(), "--jobs", 1) == base
+    base = answer(cli, case(), evaluations=12)
+    assert answer(cli, case(), "--threads", 2, evaluations=12) == base
+    assert answer(cli, case(), "--jobs", 1, evaluations=12) == base
 
 
 @pytest.mark.parametrize(
@@ -105,14 +111,14 @@ def test_workers_make_no_difference(cli, case):
 )  # fmt: skip
 def test_objectives_and_limits(cli, case, objective, limits, kept):
     path = case(table(WIDTH, f'"{objective}"', limits))
-    (best,) = answer(cli, path, evaluations=40)["designs"]
+    (best,) = answer(cli, path, evaluations=30)["designs"]
     assert best["feasible"]
     assert kept(best), best
 
 
 def test_limit_beyond_the_horizon_raises_it(cli, case):
     path = case(table(WIDTH, '"mass_kg"', "life_hours = {low = 200.0}"))
-    (best,) = answer(cli, path, "--set", "run.horizon_hours=50", evaluations=40)["designs"]
+    (best,) = answer(cli, path, "--set", "run.horizon_hours=50", evaluations=30)["designs"]
     assert best["life_hours"] == pytest.approx(200.0, rel=0.01)
 
 
@@ -134,13 +140,14 @@ def test_lists_of_values(cli, case):
     assert "sprocket.teeth of the best design lies on its high end" in " ".join(content["warnings"])
 
 
-def test_front(cli, case, tmp_path):
+def test_front(cli, case, tmp_path, without_pictures):
     pytest.importorskip("optuna", reason="optuna is not installed")
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
     path, out = case(table(objectives='"life_hours", "mass_kg"', limits="")), tmp_path / "out"
     done = cli("optimise", path, "--evaluations", 60, "--out", out)
     assert done.code == 0, done.err
     assert "longest life_hours, least mass_kg" in done.out
+    without_pictures()
     assert cli("optimise", path, "--evaluations", 60, "--out", out).out == done.out
     with (out / "front.csv").open(encoding="utf-8") as file:
         rows = [(float(row["life_hours"]), float(row["mass_kg"])) for row in csv.DictReader(file)]
@@ -171,8 +178,11 @@ def test_several_objectives_without_optuna(cli, case, monkeypatch):
     assert "pip install 'wearsim[optimise]'" in done.err
 
 
-def test_interrupted_search_goes_on_and_runs_nothing_twice(cli, case, tmp_path, monkeypatch):
+def test_interrupted_search_goes_on_and_runs_nothing_twice(
+    cli, case, tmp_path, monkeypatch, without_pictures
+):
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    without_pictures()
     whole = cli("optimise", case(), "--evaluations", 25)
     out, ran, real = tmp_path / "out", [], run_module.run_shard
 
@@ -250,8 +260,9 @@ def test_wrap_between_the_forms_of_iso_606(cli, tmp_path):
     assert best["inputs"]["sprocket.seat_radius_mm"] > 4.39
 
 
-def test_files_of_a_case_go_with_its_designs(cli, tmp_path):
+def test_files_of_a_case_go_with_its_designs(cli, tmp_path, without_pictures):
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    without_pictures()
     for name in ("hertz-arc-prescribed.toml", "hertz-arc-prescribed.csv"):
         (tmp_path / name).write_bytes((CASES / name).read_bytes())
     path, out = tmp_path / "hertz-arc-prescribed.toml", tmp_path / "out"

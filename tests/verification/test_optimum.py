@@ -125,7 +125,7 @@ def test_longest_life_between_two_limits_of_wear(searched: Searched) -> None:
         bounds=(low, high), method="bounded", options={"xatol": 1e-4},
     )  # fmt: skip
     assert low + 0.1 < exact.x < high - 0.1
-    _, (best,) = searched(["life_hours"], {START: {"low": low, "high": high}}, {}, 60, stop)
+    _, (best,) = searched(["life_hours"], {START: {"low": low, "high": high}}, {}, 45, stop)
     assert best.measures["life_hours"] == pytest.approx(-exact.fun, rel=2e-3)
     assert best.measures["life_hours"] <= -exact.fun * 1.002
     assert best.values[0] == pytest.approx(exact.x, abs=0.01 * (high - low))
@@ -134,15 +134,15 @@ def test_longest_life_between_two_limits_of_wear(searched: Searched) -> None:
 def test_two_parameters_against_a_scan(searched: Searched) -> None:
     """Width and offset of the lightest sprocket of a life: m* = L* min over h of m0(h)/L0(h)."""
     required = 2000.0
-    offsets = np.linspace(5.4, 6.4, 21)
+    offsets = np.linspace(5.4, 6.4, 11)
     found = []
     for offset in offsets:
         case = case_of(evolute_offset_mm=offset)
         found.append(required * blank_mass(case) / life_of(case))
     parameters = {OFFSET: {"low": 5.4, "high": 6.4}, FACE: {"low": 5.0, "high": 17.0}}
-    _, (best,) = searched(["mass_kg"], parameters, {"life_hours": {"low": required}}, 200)
+    _, (best,) = searched(["mass_kg"], parameters, {"life_hours": {"low": required}}, 120)
     assert best.measures["mass_kg"] == pytest.approx(min(found), rel=0.01)
-    assert best.values[0] == pytest.approx(offsets[int(np.argmin(found))], abs=0.06)
+    assert best.values[0] == pytest.approx(offsets[int(np.argmin(found))], abs=0.1)
 
 
 def test_front_against_a_grid(searched: Searched) -> None:

@@ -1,20 +1,18 @@
-"""The search for the best designs: differential evolution and a pattern, or NSGA-II."""
+"""The search for the best design: differential evolution, local models and a pattern."""
 
-import warnings
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from scipy.optimize import differential_evolution
 
-from wearsim.extras import library
 from wearsim.geometry.profile import Vector
 from wearsim.study.local_model import Places, proposals
 from wearsim.study.optimise import OptimiseStudy
-from wearsim.study.trials import MAXIMISED, Candidate, Trials, front
+from wearsim.study.search_front import evolve_front, refine_front
+from wearsim.study.trials import FAILED, Candidate, Trials
 
-_BROKEN, _FAILED = 1e3, 1e6
-"""Costs above all of feasible designs: of those that break a limit, and of those that fail."""
+_BROKEN = 1e3
+"""Cost above those of all feasible designs."""
 
 _PER_PARAMETER, _LEAST, _MOST = 10, 12, 60
 """Designs of a generation."""
@@ -31,22 +29,12 @@ _GAIN = 1e-4
 _TRUSTED, _MARGINS = 0.25, (0.0, 3e-4)
 """Part of the ranges in which a model is trusted, and distances from the limits that it keeps."""
 
-_FRONT_RESERVE = 0.5
-"""Part of all trials that is kept to refine a front."""
-
-_FIRST_FRONT_STEP, _GAINED, _JUMP = 0.1, 0.3, 0.2
-"""First step around designs of a front; the part of new ones that must join it to keep the step; the
-part of values of lists that are drawn anew."""
-
-_MOST_IDLE = 5
-"""Generations in a row without a new design after which there are none."""
-
 
 def search(study: OptimiseStudy, trials: Trials) -> None:
     """Try designs until the best are found or no trial is left.
 
     One objective: differential evolution in generations, then steps to the optimum of local
-    models and along random directions. Several: NSGA-II, then random steps around the front.
+    models and along random directions. Several: NSGA-II, then the same around designs of the front.
     Designs that break limits come after all that do not, by how far; those that fail come last.
 
     Parameters
@@ -64,8 +52,8 @@ def search(study: OptimiseStudy, trials: Trials) -> None:
     size = generation_size(study)
     points = _start(study, trials, size)
     if len(study.objectives) > 1:
-        _evolve_front(study, trials, points)
-        _refine_front(study, trials, size)
+        evolve_front(study, trials, points)
+        refine_front(study, trials, size)
         return
     if trials.left >= _reserve(study):
         _evolve(study, trials, points)
@@ -106,7 +94,7 @@ def _start(study: OptimiseStudy, trials: Trials, size: int) -> Vector:
 
 def _cost(study: OptimiseStudy, candidate: Candidate | None) -> float:
     if candidate is None or candidate.error:
-        return _FAILED
+        return FAILED
     if not candidate.feasible:
         return _BROKEN + candidate.violation
     return candidate.cost(study.objectives[0])
@@ -186,106 +174,3 @@ def _neighbours(study: OptimiseStudy, middle: Vector) -> list[Vector]:
             place[at] = np.clip(place[at] + way / parameter.high, 0.0, 1.0)
             places.append(place)
     return places
-
-
-def _evolve_front(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
-    optuna = library("optuna", "optimise", "several objectives")
-    optuna.logging.set_verbosity(optuna.logging.WARNING)
-    directions = ["maximize" if name in MAXIMISED else "minimize" for name in study.objectives]
-    evolution = optuna.create_study(
-        directions=directions, sampler=_sampler(optuna, len(points), study.seed)
-    )
-    kinds = _distributions(optuna, study)
-    for point in points:
-        evolution.enqueue_trial(dict(zip(kinds, _params(study, point), strict=True)))
-    idle = 0
-    while trials.left > _FRONT_RESERVE * study.evaluations and idle < _MOST_IDLE:
-        before = trials.left
-        asked = [evolution.ask(kinds) for _ in points]
-        rows = [_row(study, list(trial.params.values())) for trial in asked]
-        for trial, one in zip(asked, trials.at(rows), strict=True):
-            _constrain(trial, _FAILED if one is None or one.error else one.violation)
-            evolution.tell(trial, _values(study, one))
-        idle = idle + 1 if trials.left == before else 0
-
-
-def _sampler(optuna: Any, size: int, seed: int) -> Any:
-    """NSGA-II with constraints, of optuna 4 by a function, which optuna 5 has given up."""
-    has_own = hasattr(optuna.trial.Trial, "set_constraint")
-    constraints = {} if has_own else {"constraints_func": _broken}
-    with warnings.catch_warnings():
-        # Constraints and this crossover are marked as experimental.
-        warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        crossover = optuna.samplers.nsgaii.VSBXCrossover()
-        return optuna.samplers.NSGAIISampler(
-            population_size=size, crossover=crossover, seed=seed, **constraints
-        )
-
-
-def _constrain(trial: Any, broken: float) -> None:
-    if hasattr(trial, "set_constraint"):
-        trial.set_constraint("broken", broken)
-    else:
-        trial.set_user_attr("broken", broken)
-
-
-def _broken(trial: Any) -> Sequence[float]:
-    return (trial.user_attrs["broken"],)
-
-
-def _refine_front(study: OptimiseStudy, trials: Trials, size: int) -> None:
-    """Look around designs of the front in random directions, in steps that get smaller."""
-    rng = np.random.default_rng((study.seed, 2))
-    whole, step, idle = study.space.whole, _FIRST_FRONT_STEP, 0
-    while trials.left > 0 and idle < _MOST_IDLE:
-        before = trials.left
-        best = front(list(trials.found.values()), study.objectives)
-        if not best:
-            return
-        chosen = [best[at] for at in np.linspace(0, len(best) - 1, size).round().astype(int)]
-        rows = []
-        for one in chosen:
-            place = study.space.place(one.values)
-            assert place is not None
-            moved = np.clip(place + step * rng.standard_normal(place.size), 0.0, 1.0)
-            jump = whole & (rng.random(place.size) < _JUMP)
-            moved[whole] = place[whole]
-            moved[jump] = rng.random(int(jump.sum()))
-            rows.append(study.space.row(moved))
-        known = {one.number for one in best}
-        trials.at(rows)
-        better = front(list(trials.found.values()), study.objectives)
-        gained = sum(one.number not in known for one in better)
-        step = max(step * (1.0 if gained > _GAINED * size else 0.7), _LAST_STEP)
-        idle = idle + 1 if trials.left == before else 0
-
-
-def _distributions(optuna: Any, study: OptimiseStudy) -> dict[str, Any]:
-    kinds = optuna.distributions
-    return {
-        parameter.key: kinds.IntDistribution(0, len(parameter.choices) - 1)
-        if parameter.choices
-        else kinds.FloatDistribution(0.0, 1.0)
-        for parameter in study.space.parameters
-    }
-
-
-def _params(study: OptimiseStudy, point: Vector) -> list[float | int]:
-    return [
-        round(float(part) * parameter.high) if parameter.choices else float(part)
-        for parameter, part in zip(study.space.parameters, point, strict=True)
-    ]
-
-
-def _row(study: OptimiseStudy, params: list[float | int]) -> tuple[Any, ...]:
-    pairs = zip(study.space.parameters, params, strict=True)
-    return study.space.row(
-        [at / parameter.high if parameter.choices else at for parameter, at in pairs]
-    )
-
-
-def _values(study: OptimiseStudy, candidate: Candidate | None) -> list[float]:
-    """Objectives; of a design that failed numbers that never count, as none is worse."""
-    if candidate is None or candidate.error:
-        return [1e-9 if name in MAXIMISED else 1e9 for name in study.objectives]
-    return [candidate.measures[name] for name in study.objectives]

@@ -27,6 +27,9 @@ _OF_THE_CASE: dict[str, Callable[[Case], float]] = {
 }
 """Measures that take no run."""
 
+FAILED = 1e6
+"""Cost of a design that fails, above all others."""
+
 Run = Callable[[Design], pd.DataFrame]
 
 
