@@ -15,7 +15,9 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.case.model import WrapDrive
 from wearsim.catalogue.tables import chains
+from wearsim.errors import CaseError
 from wearsim.geometry.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import lowest_centre
@@ -42,6 +44,43 @@ FORMS: dict[str, Form] = {
     "gost591 displaced": lambda p, d, z, seat: gost591_gap(p, d, z, True, seat),
 }
 SEATS = ["pitch_circle", "root_diameter"]
+
+
+def between_forms(form: str) -> dict[str, float]:
+    """The three numbers of a form of ISO 606 as the standard gives them, d1 = 8.51 mm, z = 19."""
+    least = form == "min"
+    return {
+        "seat_radius_mm": 0.505 * 8.51 + (0.0 if least else 0.069 * math.cbrt(8.51)),
+        "flank_radius_mm": 0.12 * 8.51 * (19 + 2) if least else 0.008 * 8.51 * (19**2 + 180),
+        "seating_angle_deg": (140.0 if least else 120.0) - 90.0 / 19,
+    }
+
+
+def iso606(**sprocket: object) -> wearsim.Case:
+    return wearsim.load_case({**CASE, "sprocket": {**CASE["sprocket"], **sprocket}})
+
+
+@pytest.mark.parametrize("form", ["min", "max"])
+def test_limits_of_iso_606_are_its_forms(form: str) -> None:
+    """Exactly; and a millionth beyond a limit it is refused, with both limits."""
+    exact, given = iso606(form=form).drive, iso606(**between_forms(form)).drive
+    assert isinstance(exact, WrapDrive)
+    assert isinstance(given, WrapDrive)
+    assert np.array_equal(given.outline.x, exact.outline.x)
+    assert np.array_equal(given.outline.y, exact.outline.y)
+    for key, value in between_forms(form).items():
+        low, high = sorted((between_forms("min")[key], between_forms("max")[key]))
+        beyond = value * (1.0 + (5e-6 if value == high else -5e-6))
+        with pytest.raises(CaseError, match=f"{low:.7g} and {high:.7g} for rollers of 8.51 mm"):
+            iso606(**{**between_forms(form), key: beyond})
+
+
+def test_a_number_left_out_is_that_of_the_minimum_form() -> None:
+    case = iso606(seat_radius_mm=4.35)
+    wanted = {**between_forms("min"), "seat_radius_mm": 4.35}
+    assert {key: case.inputs["sprocket"][key] for key in wanted} == pytest.approx(wanted)
+    assert "sprocket.flank_radius_mm = 21.4452 (minimum form of ISO 606)" in case.assumptions
+    assert "form" not in case.inputs["sprocket"]
 
 
 def points_of(gap: Gap, count: int = 121) -> np.ndarray:

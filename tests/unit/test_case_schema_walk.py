@@ -26,6 +26,18 @@ WITHOUT_EFFECT = {
     "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.start_date": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    **{
+        f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
+        for key in (
+            "objectives",
+            "parameters",
+            *(
+                f"limits.{name}.{end}"
+                for name in ("life_hours", "mass_kg", "peak_pressure_MPa")
+                for end in ("low", "high")
+            ),
+        )
+    },
     "sprocket.back_flank": "the back flank carries no load; it only limits the tooth",
 }
 
@@ -96,6 +108,20 @@ BASES = {
     "layers": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, **LAYERS}),
     "wrap layers": edited(WRAP, wear={**WRAP["wear"], **LAYERS, "case_depth_mm": 0.002}),
     "gost": edited(WRAP, sprocket={"teeth": 13, "profile": "gost591", "nodes": 101}),
+    "between forms": edited(
+        WRAP,
+        sprocket={
+            "teeth": 13,
+            "profile": "iso606",
+            "seat_radius_mm": 4.35,
+            "flank_radius_mm": 18.0,
+            "seating_angle_deg": 125.0,
+            "nodes": 101,
+        },
+    ),
+    "max form": edited(
+        WRAP, sprocket={"teeth": 13, "profile": "iso606", "form": "max", "nodes": 101}
+    ),
     "drawing": edited(
         WRAP,
         sprocket={
@@ -305,6 +331,22 @@ CHANGES = {
     "sprocket.form": [
         ("wrap", "max"),
         ("gost", "max", "sprocket.form"),
+    ],
+    "sprocket.seat_radius_mm": [
+        ("between forms", 4.4),
+        ("between forms", 4.6, "sprocket.seat_radius_mm"),
+        ("gost", 4.4, "sprocket.seat_radius_mm"),
+        ("max form", 4.4, "sprocket.seat_radius_mm"),
+    ],
+    "sprocket.flank_radius_mm": [
+        ("between forms", 17.0),
+        ("between forms", 15.0, "sprocket.flank_radius_mm"),
+        ("max form", 17.0, "sprocket.flank_radius_mm"),
+    ],
+    "sprocket.seating_angle_deg": [
+        ("between forms", 120.0),
+        ("between forms", 134.0, "sprocket.seating_angle_deg"),
+        ("max form", 120.0, "sprocket.seating_angle_deg"),
     ],
     "sprocket.displaced": [
         ("gost", True),

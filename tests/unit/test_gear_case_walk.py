@@ -20,6 +20,18 @@ WITHOUT_EFFECT = {
     "title": "only shown",
     "mechanism.kind": "one value",
     "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    **{
+        f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
+        for key in (
+            "objectives",
+            "parameters",
+            *(
+                f"limits.{name}.{end}"
+                for name in ("life_hours", "mass_kg", "peak_pressure_MPa")
+                for end in ("low", "high")
+            ),
+        )
+    },
 }
 
 GEARS: dict[str, Any] = {

@@ -5,6 +5,7 @@ import json
 import typing
 from importlib.resources import files
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -23,6 +24,7 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.calibrate import readings_table, values_table
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json
+from wearsim.report.optimise import candidates_table
 from wearsim.report.profile import profile_table
 from wearsim.report.sensitivity import Answer, sensitivity_table
 from wearsim.report.wheel_points import wheel_points
@@ -33,7 +35,9 @@ from wearsim.study.calibration.calibrate import calibrate
 from wearsim.study.calibration.readings import OPTIONAL, REQUIRED
 from wearsim.study.runner.shard import COLUMNS
 from wearsim.study.scatter import Scatter
+from wearsim.study.search_space import SearchSpace
 from wearsim.study.sensitivity import Effect
+from wearsim.study.trials import Candidate, Outcome
 
 CASE = {
     "format_version": 1,
@@ -150,6 +154,10 @@ def study_columns():
     answer = Answer(None, 1.0, [effect], {scatter.key: 1.0}, ())
     yield from (*COLUMNS, *sensitivity_table(answer))
     yield from (*REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
+    measures = {"life_hours": 1.0, "mass_kg": 1.0}
+    one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "")
+    study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
+    yield from candidates_table(Outcome(study, one, (one,), (one,)), [one])
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

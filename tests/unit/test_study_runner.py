@@ -5,6 +5,7 @@ import os
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from wearsim.study.runner import run as run_module
 from wearsim.study.runner.design import Engine, content_hash, design, replaced
 from wearsim.study.runner.run import run_study
 from wearsim.study.runner.shard import run_shard, shards
-from wearsim.study.runner.workers import Threads
+from wearsim.study.runner.workers import KeptOpen, Threads
 
 CASE = {
     "format_version": 1,
@@ -95,10 +96,11 @@ class Dying:
     losses = (ConnectionError,)
 
     def __init__(self, most):
-        self.most, self.deaths, self.shards = most, 0, []
+        self.most, self.deaths, self.opened, self.shards = most, 0, 0, []
 
     @contextmanager
     def open(self):
+        self.opened += 1
         yield self, 2
 
     def submit(self, function, shard):
@@ -119,9 +121,26 @@ def test_death_of_workers_loses_and_repeats_nothing(cases):
     assert sorted(workers.shards) == [0, 3, 6, 9]
 
 
+def test_workers_stay_open_until_one_dies(cases):
+    workers = Dying(most=2)
+    kept = KeptOpen(workers)
+    assert same(run_study(cases, kept), run_study(cases, Threads(1)))
+    assert (workers.deaths, workers.opened) == (2, 2)
+    assert same(run_study(cases, kept), run_study(cases, Threads(1)))
+    assert workers.opened == 2
+    kept.close()
+    assert same(run_study(cases, kept), run_study(cases, Threads(1)))
+    assert workers.opened == 3
+
+
 def test_study_ends_when_all_workers_die(cases):
     with pytest.raises(StudyError, match="workers died 3 times"):
         run_study(cases, Dying(most=99))
+
+
+def test_dates_of_a_case_have_a_hash():
+    hashes = [content_hash({"start_date": date(2026, 1, day)}) for day in (1, 2)]
+    assert hashes[0] != hashes[1]
 
 
 def test_key_that_is_none_is_named():

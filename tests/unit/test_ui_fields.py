@@ -38,6 +38,9 @@ def test_lists_of_tables_have_as_many_as_there_are():
 def test_kinds_of_fields():
     fields = {field.key: field for table in form_fields({}).values() for field in table}
     assert fields["sprocket.form"].choices == ("min", "max")
+    assert fields["optimise.objectives"].choices == ()
+    assert not fields["optimise.objectives"].is_text
+    assert not [key for key in fields if key.startswith(("uncertainty", "optimise.parameters"))]
     assert fields["sprocket.displaced"].choices == ("true", "false")
     assert not fields["sprocket.displaced"].is_text
     assert fields["load.regime"].is_text and "0" in fields["load.regime"].choices

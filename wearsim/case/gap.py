@@ -2,12 +2,14 @@
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from wearsim.case.flank import POINTS_NOISE, evolute_tooth
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import SprocketTable
+from wearsim.case.schema.sprocket import BETWEEN_FORMS
 from wearsim.case.tables import read_points
 from wearsim.catalogue.tables import Chain, chains
 from wearsim.errors import GeometryError
@@ -21,7 +23,7 @@ from wearsim.geometry.gap_points import (
     lowest_centre,
 )
 from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import gap_form, iso606_gap
+from wearsim.geometry.iso606 import GapForm, gap_form, iso606_gap
 from wearsim.geometry.profile import Profile, Vector
 
 OUTLINE_NODES = 601
@@ -34,6 +36,12 @@ _SAME_SEAT = 0.01
 
 _ENOUGH_POINTS = 70
 """Points of a gap from which on the joints of a standard's arcs are found within 0.001 mm."""
+
+_FORMS: tuple[Literal["min", "max"], ...] = ("min", "max")
+"""Of ISO 606: with the least and the most room for the roller."""
+
+_ROUNDED = 1e-6
+"""Part by which a given number may be beyond a limit, as both are printed with seven digits."""
 
 _SERIES = {
     "iso606": ("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H"),
@@ -110,11 +118,7 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
             case.take("sprocket.displaced", False, "default")
         gap = gost591_gap(*common, table.displaced or False, seat, table.tip_diameter_mm)
     else:
-        form = table.form
-        if form is None:
-            form = "min"
-            case.take("sprocket.form", form, "default")
-        gap = iso606_gap(*common, form, seat, table.tip_diameter_mm)
+        gap = iso606_gap(*common, _iso606_form(case, table, chain), seat, table.tip_diameter_mm)
     if table.tip_diameter_mm is None:
         case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "the standard's")
     elif gap.truncated:
@@ -123,6 +127,36 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
             f"sprocket.tip_diameter_mm = {table.tip_diameter_mm:g}: cut off there"
         )
     return gap
+
+
+def _iso606_form(
+    case: Resolution, table: SprocketTable, chain: Chain
+) -> Literal["min", "max"] | GapForm:
+    """Form of the gap: one of the two of ISO 606, or by what is given between them."""
+    given = {key: getattr(table, key) for key in BETWEEN_FORMS}
+    if all(value is None for value in given.values()):
+        if table.form is None:
+            case.take("sprocket.form", "min", "default")
+        return table.form or "min"
+    least, most = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
+    for key, value in given.items():
+        low, high = sorted((least[key], most[key]))
+        if value is None:
+            case.take(f"sprocket.{key}", least[key], "minimum form of ISO 606")
+        elif not low * (1.0 - _ROUNDED) <= value <= high * (1.0 + _ROUNDED):
+            case.faults.add(
+                f"sprocket.{key}",
+                f"must lie between the two forms of ISO 606, {low:.7g} and {high:.7g} for rollers of "
+                f"{chain.roller_diameter:g} mm and {table.teeth} teeth (got {value:g})",
+            )
+    radius, flank, angle = (given[key] or least[key] for key in BETWEEN_FORMS)
+    return GapForm(flank, radius, math.radians(angle))
+
+
+def _lengths(form: GapForm) -> dict[str, float]:
+    """The numbers of a form by their keys."""
+    lengths = form.seat_radius, form.flank_radius, math.degrees(form.seating_angle)
+    return dict(zip(BETWEEN_FORMS, lengths, strict=True))
 
 
 def _pitch_radius(table: SprocketTable, chain: Chain) -> float:

@@ -36,7 +36,7 @@ def schema_of(tables: Mapping[str, Any]) -> type[Table]:
 
 
 def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
-    """Give every key of a schema.
+    """Give every key of a schema but those of tables by the dotted names of other keys.
 
     Parameters
     ----------
@@ -60,6 +60,8 @@ def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, F
     (True, True)
     """
     for name, field in model.model_fields.items():
+        if any(get_origin(part) is dict for part in parts(field.annotation)):
+            continue
         tables = list(tables_in(field.annotation))
         many = "[]" if any(get_origin(part) is list for part in parts(field.annotation)) else ""
         for table in tables:

@@ -81,11 +81,14 @@ class Material:
         E [MPa].
     poissons_ratio : float
         Poisson's ratio.
+    density : float
+        Mass over volume [kg/m3].
     """
 
     name: str
     youngs_modulus: float
     poissons_ratio: float
+    density: float
 
 
 @dataclass(frozen=True)
@@ -272,7 +275,10 @@ def materials() -> dict[str, Material]:
     """
     return {
         row["name"]: Material(
-            row["name"], float(row["youngs_modulus_MPa"]), float(row["poissons_ratio"])
+            row["name"],
+            float(row["youngs_modulus_MPa"]),
+            float(row["poissons_ratio"]),
+            float(row["density_kg_per_m3"]),
         )
         for row in rows("materials")
     }

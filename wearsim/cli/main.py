@@ -27,6 +27,7 @@ from wearsim.cli.life import life
 from wearsim.cli.list import list_table
 from wearsim.cli.loads import loads
 from wearsim.cli.maintain import maintain
+from wearsim.cli.optimise import optimise
 from wearsim.cli.profile import profile
 from wearsim.cli.remaining import remaining
 from wearsim.cli.report import report
@@ -54,6 +55,7 @@ How long will this sprocket live?
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
   wearsim calibrate drive.toml readings.csv         coefficients and hours left
   wearsim uncertainty drive.toml     what 9 of 10, half, 1 of 10 drives exceed
+  wearsim optimise drive.toml        the best profile by its table [optimise]
 
 \b
 Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
@@ -85,6 +87,7 @@ for _command in (
     uncertainty,
     sensitivity,
     calibrate,
+    optimise,
     strength,
     stiffness_spectrum,
     wave_drive,

@@ -3,7 +3,7 @@
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from wearsim.study.runner.design import Design
     from wearsim.study.runner.run import Told
+    from wearsim.study.runner.store import Store
     from wearsim.study.runner.workers import Workers
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -159,7 +160,7 @@ def run(
         A row for each case; None for a dry run.
     """
     from wearsim.study.runner.run import run_study
-    from wearsim.study.runner.store import check_store, open_store
+    from wearsim.study.runner.store import check_store
 
     workers = place.workers()
     if place.dry_run:
@@ -167,14 +168,66 @@ def run(
             check_store(place.out, design, told, place.force)
         _show_plan(design, place)
         return None
-    if place.out is not None:
-        from wearsim.extras import library
+    store = _store(design, place, told)
+    with _interrupted(place), _counting(text) as count:
+        return run_study(design, workers, store, count)
 
-        library("pyarrow", "study", "--out")
-    store = None if place.out is None else open_store(place.out, design, told, place.force)
+
+@contextmanager
+def in_batches(
+    design: "Design", place: Place, told: Mapping[str, Any], text: str, most: int
+) -> "Iterator[Callable[[Design], pd.DataFrame]]":
+    """Run cases of a study batch by batch, where each depends on the ones before.
+
+    Parameters
+    ----------
+    design : Design
+        What all batches have in common; its hash and ``told`` are those of the study.
+    place : Place
+        Where they run.
+    told : mapping
+        What the manifest of the folder tells of the study.
+    text : str
+        What is shown beside the bar.
+    most : int
+        Cases of all batches at most.
+
+    Yields
+    ------
+    callable
+        Runs a batch and returns a row for each case.
+    """
+    from wearsim.study.runner.run import run_study
+    from wearsim.study.runner.workers import KeptOpen
+
+    workers, done = KeptOpen(place.workers()), 0
+    store = _store(design, place, told)
+    with _interrupted(place), closing(workers), _counting(text) as count:
+
+        def run_batch(part: "Design") -> "pd.DataFrame":
+            nonlocal done
+            table = run_study(part, workers, store, lambda now, _: count(done + now, most))
+            done += len(part.rows)
+            return table
+
+        yield run_batch
+
+
+def _store(design: "Design", place: Place, told: Mapping[str, Any]) -> "Store | None":
+    if place.out is None:
+        return None
+    from wearsim.extras import library
+    from wearsim.study.runner.store import open_store
+
+    library("pyarrow", "study", "--out")
+    return open_store(place.out, design, told, place.force)
+
+
+@contextmanager
+def _interrupted(place: Place) -> "Iterator[None]":
+    """End on Ctrl-C, and say how to go on."""
     try:
-        with _counting(text) as count:
-            return run_study(design, workers, store, count)
+        yield
     except KeyboardInterrupt:
         kept = "nothing is kept without --out"
         if place.out is not None:
@@ -215,7 +268,7 @@ def exit_code(table: "pd.DataFrame") -> int:
 
 
 def _show_plan(design: "Design", place: Place) -> None:
-    from wearsim.study.runner.shard import Shard, run_shard, shards
+    from wearsim.study.runner.shard import shards
     from wearsim.study.runner.store import Store
 
     waiting, shard_count = 0, 0
@@ -224,16 +277,34 @@ def _show_plan(design: "Design", place: Place) -> None:
         shard_count += 1
         if store is None or not store.path(shard).exists():
             waiting += shard.count
+    seconds, count = timed(design)
+    click.echo(f"cases        {len(design.rows)}, of which {waiting} are to be run")
+    click.echo(f"time         about {seconds * waiting:.3g} s in one thread, from {count} cases")
+    if place.out is not None:
+        click.echo(f"files        {shard_count} in {place.out / 'shards'}, and tables beside it")
+
+
+def timed(design: "Design") -> tuple[float, int]:
+    """Return the time that a case takes.
+
+    Parameters
+    ----------
+    design : Design
+        Cases.
+
+    Returns
+    -------
+    tuple of float and int
+        Seconds in one thread, and from how many cases.
+    """
+    from wearsim.study.runner.shard import Shard, run_shard, shards
+
     first = next(shards(design))
     some = Shard(0, first.design.part(0, min(_TIMED, first.count)), first.engine)
     run_shard(Shard(0, first.design.part(0, 1), first.engine))
     start = time.perf_counter()
     run_shard(some)
-    seconds = (time.perf_counter() - start) / some.count * waiting
-    click.echo(f"cases        {len(design.rows)}, of which {waiting} are to be run")
-    click.echo(f"time         about {seconds:.3g} s in one thread, from {some.count} cases")
-    if place.out is not None:
-        click.echo(f"files        {shard_count} in {place.out / 'shards'}, and tables beside it")
+    return (time.perf_counter() - start) / some.count, some.count
 
 
 _TIMED = 4

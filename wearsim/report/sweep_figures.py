@@ -60,7 +60,24 @@ def _is_whole(column: "pd.Series[Any]") -> bool:
     return all(isinstance(value, int) for value in column)
 
 
-def _label(key: str) -> str:
+def axis_label(key: str) -> str:
+    """Return the name of a key above its scale.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key, or a column.
+
+    Returns
+    -------
+    str
+        With its unit apart.
+
+    Examples
+    --------
+    >>> axis_label("load.tension_N")
+    'load.tension, N'
+    """
     quantity = quantities().get(key.rpartition(".")[2])
     unit = quantity.unit if quantity else ""
     return f"{key.rpartition('_')[0]}, {unit}" if unit else key
@@ -78,7 +95,9 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     for number, (values, group) in enumerate(groups):
         group = group[group["error"] == ""].sort_values(key)
         shown = ", ".join(
-            f"{_label(key)} {value:.4g}" if isinstance(value, float) else f"{_label(key)} {value}"
+            f"{axis_label(key)} {value:.4g}"
+            if isinstance(value, float)
+            else f"{axis_label(key)} {value}"
             for key, value in zip(others, values, strict=True)
         )
         colour = f"C{number}"
@@ -94,7 +113,7 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
         panel.plot(bound[key], _hours(bound), "^", color=colour, markersize=9)
     if (table["life_hours"].isna() & (table["error"] == "")).any():
         panel.plot([], [], "^", color="0.4", label="limit not reached: at least")
-    panel.set_xlabel(_label(key))
+    panel.set_xlabel(axis_label(key))
     panel.set_ylabel("life, h")
     panel.set_ylim(bottom=0.0)
     panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
@@ -122,8 +141,8 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
                 color="white" if dark else "black",
             )  # fmt: skip
     figure.colorbar(image, label="life, h")
-    panel.set_xlabel(_label(across))
-    panel.set_ylabel(_label(up))
+    panel.set_xlabel(axis_label(across))
+    panel.set_ylabel(axis_label(up))
     return figure
 
 
@@ -144,11 +163,13 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
     panel = figure.subplots()
     norm = _scale(table)
-    heights = np.column_stack([_heights(panel, at, rows[key]) for at, key in enumerate(columns)])
+    heights = np.column_stack(
+        [scaled_heights(panel, at, rows[key]) for at, key in enumerate(columns)]
+    )
     colours = mpl.colormaps["viridis"](norm(rows["life"].to_numpy()))
     for line, colour in zip(heights, colours, strict=True):
         panel.plot(np.arange(len(columns)), line, color=colour, alpha=0.6, linewidth=1.0)
-    labels = [_label(key).replace(".", ".\n", 1) for key in keys] + ["life, h"]
+    labels = [axis_label(key).replace(".", ".\n", 1) for key in keys] + ["life, h"]
     panel.set_xticks(np.arange(len(columns)), labels, fontsize=8)
     panel.set_yticks([])
     panel.set_ylim(-0.05, 1.05)
@@ -158,8 +179,23 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     return figure
 
 
-def _heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
-    """Draw one scale and return where the values lie on it."""
+def scaled_heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
+    """Draw one scale of parallel coordinates.
+
+    Parameters
+    ----------
+    panel : matplotlib.axes.Axes
+        Where it is drawn.
+    at : int
+        Its place.
+    values : pandas.Series
+        Numbers or words.
+
+    Returns
+    -------
+    numpy.ndarray
+        Where the values lie on it, from 0 to 1.
+    """
     panel.axvline(at, color="0.3", linewidth=1.0)
     if _is_numeric(values):
         low, high = float(values.min()), float(values.max())

@@ -8,10 +8,9 @@ import numpy as np
 
 from wearsim.case.model import Case, GearDrive, PrescribedDrive, StrandDrive, WrapDrive
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.profile import Profile, Vector
-from wearsim.geometry.stretch import along_gap, along_points, arc_through
-from wearsim.geometry.tooth import Tooth
-from wearsim.geometry.wheel import Chain, Space, ring, to_circle, worn_gap, worn_space
+from wearsim.geometry.blank import gap_space, tooth_space
+from wearsim.geometry.profile import Vector
+from wearsim.geometry.wheel import Chain, Space, ring, worn_gap, worn_space
 from wearsim.report.flank_view import flanks
 from wearsim.result import WearResult
 
@@ -119,7 +118,7 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
 
 def _strand_shape(case: Case, drive: StrandDrive, result: WearResult | None) -> WheelShape:
     tooth = drive.tooth
-    new = _strand_space(tooth)
+    new = tooth_space(tooth)
     every = math.gcd(tooth.teeth, case.engaged_every)
     worn: tuple[Space, ...] = ()
     if result is not None:
@@ -146,28 +145,11 @@ def _alike(every: int) -> tuple[str, ...]:
     return ("all teeth worn alike",)
 
 
-def _strand_space(tooth: Tooth) -> Space:
-    seat = tooth.seat[::-1]
-    back = to_circle(_points(tooth.back_flank)[::-1], tooth.tip_radius)[::-1]
-    return Space(
-        (
-            along_points("back_flank", back),
-            arc_through("root", seat[0], seat[len(seat) // 2], seat[-1]),
-        ),
-        (along_points("flank", _points(tooth.flank)),),
-    )
-
-
-def _points(profile: Profile) -> Vector:
-    return np.column_stack([profile.x, profile.y])
-
-
 def _wrap_shape(case: Case, drive: WrapDrive, result: WearResult | None) -> WheelShape:
+    new = gap_space(drive.outline, drive.gap)
     if drive.gap is not None:
-        new = Space((along_gap(drive.gap),), ())
         notes = [f"{drive.gap.form}: arcs and lines of the standard, exactly"]
     else:
-        new = Space((along_points("gap", _points(drive.outline)),), ())
         notes = ["the gap as the case gives it, by points; tips are arcs about the axis"]
     worn: tuple[Space, ...] = ()
     most_worn = 0

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -119,14 +119,15 @@ def _field(key: str, info: FieldInfo) -> Field:
     name = key.rpartition(".")[2]
     quantity = quantities()[name]
     kinds = list(parts(info.annotation))
+    one_word = () if any(get_origin(kind) is list for kind in kinds) else words(info)
     default = None if info.is_required() else info.get_default(call_default_factory=True)
     return Field(
         key=key,
         unit=quantity.unit,
         meaning=quantity.meaning,
-        choices=words(info),
+        choices=one_word,
         proposals=_proposals(key),
-        is_text=str in kinds or (bool(words(info)) and bool not in kinds),
+        is_text=str in kinds or (bool(one_word) and bool not in kinds),
         required=info.is_required(),
         default="" if default in (None, "") else _word(default),
     )

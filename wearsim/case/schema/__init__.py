@@ -12,6 +12,7 @@ from wearsim.case.schema.load import LoadTable
 from wearsim.case.schema.maintenance import MaintenanceTable
 from wearsim.case.schema.material import MaterialsTable, MaterialTable
 from wearsim.case.schema.mechanism import MechanismTable
+from wearsim.case.schema.optimise import OptimiseTable
 from wearsim.case.schema.run import RunTable
 from wearsim.case.schema.service import ServiceTable
 from wearsim.case.schema.sprocket import SprocketTable
@@ -60,3 +61,4 @@ class CaseTables(Table):
     maintenance: MaintenanceTable | None = None
     service: ServiceTable | None = None
     uncertainty: Uncertainty | None = None
+    optimise: OptimiseTable | None = None

@@ -7,6 +7,7 @@ from pydantic import Field
 from wearsim.case.schema.calculation import CalculationTables
 from wearsim.case.schema.fatigue import FatigueTable, FlankMaterialTable
 from wearsim.case.schema.material import MaterialTable
+from wearsim.case.schema.optimise import OptimiseTable
 from wearsim.case.schema.run import RunTable
 from wearsim.case.schema.stop import Depth
 from wearsim.case.schema.synthesis import stress_conflicts
@@ -167,3 +168,4 @@ class GearTables(CalculationTables):
     stop: GearStopTable
     run: RunTable = RunTable()
     uncertainty: Uncertainty | None = None
+    optimise: OptimiseTable | None = None

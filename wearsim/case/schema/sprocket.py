@@ -9,8 +9,12 @@ from wearsim.case.units import NotNegative, Positive
 
 STANDARD_FORMS = ("iso606", "ansi_b29", "gost591")
 
+BETWEEN_FORMS = ("seat_radius_mm", "flank_radius_mm", "seating_angle_deg")
+"""What ISO 606 leaves free between its minimum and its maximum form."""
+
 _BELONGS_TO = {
     "form": ("iso606",),
+    **dict.fromkeys(BETWEEN_FORMS, ("iso606",)),
     "displaced": ("gost591",),
     "seat_centre": STANDARD_FORMS,
     "tip_diameter_mm": STANDARD_FORMS,
@@ -33,6 +37,9 @@ class SprocketTable(Table):
     role: Literal["driver", "driven"] | None = None
     engaged_every: Annotated[int, Field(ge=1, le=4)] = 1
     form: Literal["min", "max"] | None = None
+    seat_radius_mm: Positive | None = None
+    flank_radius_mm: Positive | None = None
+    seating_angle_deg: Positive | None = None
     displaced: bool | None = None
     seat_centre: Literal["pitch_circle", "root_diameter"] | None = None
     tip_diameter_mm: Positive | None = None
@@ -58,5 +65,10 @@ class SprocketTable(Table):
             (key, f"profile = {self.profile!r} needs this key")
             for key in ("points_file", "dxf_file")
             if self.profile in _BELONGS_TO[key] and getattr(self, key) is None
+        ]
+        found += [
+            (key, f"form = {self.form!r} gives this already: remove one of both")
+            for key in BETWEEN_FORMS
+            if self.form is not None and getattr(self, key) is not None
         ]
         return found

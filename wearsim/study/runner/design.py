@@ -155,7 +155,8 @@ def content_hash(content: Mapping[str, Any]) -> str:
     >>> content_hash({"a": 1, "b": 2.0}) == content_hash({"b": 2.0, "a": 1})
     True
     """
-    text = json.dumps(content, sort_keys=True, separators=(",", ":"))
+    # Dates of TOML are the only values that JSON does not know.
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"), default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 

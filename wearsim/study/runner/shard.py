@@ -96,10 +96,7 @@ def run_shard(shard: Shard) -> Rows:
             f"a worker has wearsim {engine().version} (kernels {engine().kernels}), the study "
             f"{shard.engine.version} ({shard.engine.kernels}): install the same on all"
         )
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in shard.design.files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        loaded = [_loaded(shard.design, index, folder) for index in range(shard.count)]
+    loaded = loaded_cases(shard.design)
     lives = simulate_many((case for case in loaded if isinstance(case, Case)), threads=1)
     rows: Rows = {name: [] for name in COLUMNS}
     for index, case in enumerate(loaded):
@@ -108,6 +105,25 @@ def run_shard(shard: Shard) -> Rows:
         for name, value in zip(COLUMNS, (shard.first + index, *_row(found), digest), strict=True):
             rows[name].append(value)
     return rows
+
+
+def loaded_cases(design: Design) -> list[Case | WearsimError]:
+    """Return the cases of a study, or of a part of it.
+
+    Parameters
+    ----------
+    design : Design
+        The cases.
+
+    Returns
+    -------
+    list of Case or WearsimError
+        What is wrong with a case in its place.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in design.files.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+        return [_loaded(design, index, folder) for index in range(len(design.rows))]
 
 
 def _loaded(design: Design, index: int, folder: str) -> Case | WearsimError:

@@ -16,12 +16,15 @@ from wearsim.study.runner.shard import COLUMNS, Rows, Shard
 
 MANIFEST = "study.json"
 _SHARDS = "shards"
-_FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado")
+_FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado", "front")
 _WRITTEN = (
-    "cases.csv", "summary.md", "convergence.csv", "sensitivity.csv",
+    "cases.csv", "summary.md", "convergence.csv", "sensitivity.csv", "candidates.csv", "front.csv",
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
 )  # fmt: skip
 """Tables and pictures of studies."""
+
+DESIGNS, DESIGN_FILES = "designs", "[0-9]*.toml"
+"""Folder of the best designs, and their files in it."""
 
 _HASH = b"rows_sha256"
 _TEXTS = ("stop", "warnings", "error", "case_sha256")
@@ -213,5 +216,7 @@ def _clear(folder: Path) -> None:
     try:
         for name in _WRITTEN:
             (folder / name).unlink(missing_ok=True)
+        for path in (folder / DESIGNS).glob(DESIGN_FILES):
+            path.unlink()
     except OSError as error:
         raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None

@@ -5,8 +5,14 @@ import re
 import signal
 import socket
 from collections.abc import Iterator
-from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import contextmanager
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -141,6 +147,68 @@ class Cluster:
             raise StudyError(f"{place}: must be a Dask scheduler that answers: {error}") from None
         with client:
             yield client.get_executor(pure=False), _checked(client, dask, place)
+
+
+class KeptOpen:
+    """Workers that stay open from one batch of cases to the next, until one of them dies.
+
+    Parameters
+    ----------
+    workers : Workers
+        Where the cases run.
+    """
+
+    def __init__(self, workers: Workers) -> None:
+        self._workers, self._stack = workers, ExitStack()
+        self._opened: tuple[Executor, int] | None = None
+        self._lost = False
+
+    @property
+    def losses(self) -> tuple[type[BaseException], ...]:
+        """What a future raises whose worker has died."""
+        return self._workers.losses
+
+    @contextmanager
+    def open(self) -> Iterator[tuple["KeptOpen", int]]:
+        """Give these workers and their number, anew where one has died."""
+        if self._lost:
+            self.close()
+        if self._opened is None:
+            self._opened = self._stack.enter_context(self._workers.open())
+        yield self, self._opened[1]
+
+    def submit(self, function: Any, *arguments: Any) -> "Future[Any]":
+        """Return the future of a call.
+
+        Parameters
+        ----------
+        function : callable
+            What is called.
+        *arguments : object
+            What it is called with.
+
+        Returns
+        -------
+        concurrent.futures.Future
+            Of a worker.
+        """
+        assert self._opened is not None
+        try:
+            future = self._opened[0].submit(function, *arguments)
+        except self.losses as error:
+            future = Future()
+            future.set_exception(error)
+        future.add_done_callback(self._look)
+        return future
+
+    def close(self) -> None:
+        """Let the workers go."""
+        self._opened, self._lost = None, False
+        self._stack.close()
+
+    def _look(self, future: "Future[Any]") -> None:
+        if not future.cancelled() and isinstance(future.exception(), self.losses):
+            self._lost = True
 
 
 def _address(place: str) -> str:

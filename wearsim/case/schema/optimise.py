@@ -1,0 +1,82 @@
+"""The table [optimise]: what may change of a case, what is sought, and within what limits."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, field_validator
+
+from wearsim.case.schema.dotted import dotted
+from wearsim.case.schema.table import Table
+
+Finite = Annotated[int | float, Field(allow_inf_nan=False)]
+Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
+
+Measure = Literal["life_hours", "mass_kg", "peak_pressure_MPa"]
+
+
+class ParameterRange(Table):
+    """Ends between which a key may lie, both allowed."""
+
+    low: Finite
+    high: Finite
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.low < self.high:
+            return []
+        return [("high", f"must be above low = {self.low:g} (got {self.high:g})")]
+
+
+Choice = bool | Finite | str
+Choices = Annotated[list[Choice], Field(min_length=2)]
+
+
+class MeasureLimit(Table):
+    """Ends that a design must keep to."""
+
+    low: Above0 | None = None
+    high: Above0 | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.low is None and self.high is None:
+            return [("high", "a limit needs low, high or both")]
+        if self.low is not None and self.high is not None and not self.low < self.high:
+            return [("high", f"must be above low = {self.low:g} (got {self.high:g})")]
+        return []
+
+
+class LimitsTable(Table):
+    """What a design must keep to beside what `check` finds."""
+
+    life_hours: MeasureLimit | None = None
+    mass_kg: MeasureLimit | None = None
+    peak_pressure_MPa: MeasureLimit | None = None
+
+
+def _life() -> list[Measure]:
+    return ["life_hours"]
+
+
+class OptimiseTable(Table):
+    """Objectives, parameters by the dotted names of their keys, and limits."""
+
+    objectives: list[Measure] = Field(default_factory=_life, min_length=1)
+    parameters: Annotated[dict[str, ParameterRange | Choices], Field(min_length=1)]
+    limits: LimitsTable = LimitsTable()
+
+    @field_validator("parameters", mode="before")
+    @classmethod
+    def _flat(cls, value: Any) -> Any:
+        return dotted(value, "low")
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = []
+        if len(set(self.objectives)) < len(self.objectives):
+            found.append(("objectives", "every objective once, but one is given twice: remove it"))
+        found += [
+            (f"parameters.{key}", "every value once, but one is given twice: remove it")
+            for key, values in self.parameters.items()
+            if isinstance(values, list) and len({repr(value) for value in values}) < len(values)
+        ]
+        return found

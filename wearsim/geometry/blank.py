@@ -1,0 +1,89 @@
+"""The wheel that a sprocket is cut from one plate as: its spaces, and the area that they leave."""
+
+import numpy as np
+
+from wearsim.geometry.gap import Gap
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.stretch import along_gap, along_points, arc_through
+from wearsim.geometry.tooth import Tooth
+from wearsim.geometry.wheel import Space, ring, to_circle
+
+
+def tooth_space(tooth: Tooth) -> Space:
+    """Return the space beside a tooth around a working flank.
+
+    Parameters
+    ----------
+    tooth : Tooth
+        The tooth.
+
+    Returns
+    -------
+    Space
+        Back flank and root on its right, the working flank on its left.
+
+    Raises
+    ------
+    GeometryError
+        No seat clears the roller.
+    """
+    seat = tooth.seat[::-1]
+    back = to_circle(_points(tooth.back_flank)[::-1], tooth.tip_radius)[::-1]
+    return Space(
+        (
+            along_points("back_flank", back),
+            arc_through("root", seat[0], seat[len(seat) // 2], seat[-1]),
+        ),
+        (along_points("flank", _points(tooth.flank)),),
+    )
+
+
+def gap_space(outline: Profile, gap: Gap | None) -> Space:
+    """Return the space of a whole gap.
+
+    Parameters
+    ----------
+    outline : Profile
+        Its points from the right tip through the seat to the left one.
+    gap : Gap or None
+        Its exact arcs, where it is a standard's.
+
+    Returns
+    -------
+    Space
+        One stretch, the arcs where there are any.
+    """
+    stretch = along_points("gap", _points(outline)) if gap is None else along_gap(gap)
+    return Space((stretch,), ())
+
+
+def blank_area(space: Space, teeth: int) -> float:
+    """Return the area of a wheel of equal spaces, without a bore.
+
+    Parameters
+    ----------
+    space : Space
+        The space between two teeth.
+    teeth : int
+        Number of them.
+
+    Returns
+    -------
+    float
+        Area [mm2].
+
+    Examples
+    --------
+    Four notches from corner to corner of a square of 2 mm take trapezia of 0.75 mm2 from it:
+
+    >>> from wearsim.geometry.stretch import Stretch
+    >>> notch = np.array([[1.0, 1.0], [0.5, 0.5], [-0.5, 0.5], [-1.0, 1.0]])
+    >>> round(blank_area(Space((Stretch("gap", notch, np.zeros(3)),), ()), 4), 12)
+    1.0
+    """
+    (chain,) = ring((space,) * teeth)
+    return chain.outline.area
+
+
+def _points(profile: Profile) -> Vector:
+    return np.column_stack([profile.x, profile.y])

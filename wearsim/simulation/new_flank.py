@@ -1,0 +1,44 @@
+"""The highest pressure on the flanks of a case while they are new."""
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.contact.hertz import peak_pressure
+
+
+def new_peak_pressure(case: Case) -> float:
+    """Return the highest pressure of a case on its new flanks, without a run.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+
+    Returns
+    -------
+    float
+        Of the heaviest block of its duty, by Hertz's theory, in a seat by that of conforming
+        contact [MPa]; that which `simulate` gives as ``initial_peak_pressure``.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps.
+    ConvergenceError
+        A pressure cannot be found.
+    """
+    # Kernels compile where their module is imported for the first time: only those needed.
+    if isinstance(case.drive, WrapDrive):
+        from wearsim.simulation.law import wear_law
+        from wearsim.simulation.wrap import wrap_contact
+        from wearsim.wear.bodies import highest_load
+
+        law = wear_law(case.wear, case.wear.coefficient)
+        return highest_load(wrap_contact(case, case.drive), law, None)[0]
+    from wearsim.simulation.pointwise import pointwise_mechanism
+
+    contact = pointwise_mechanism(case).contact
+    flank = contact.profile
+    touch = contact.engage(flank.x.copy(), flank.y.copy(), np.zeros(flank.x.size))
+    relative = np.maximum(touch.relative_curvature, 0.0)
+    return float(peak_pressure(touch.load_per_width, relative, contact.modulus).max())
