@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from wearsim.case.schema.dotted import CHOSEN
 from wearsim.errors import CaseError, Fault
 
 _MARK = "\x00wearsim\x00"
@@ -70,7 +71,9 @@ class Faults:
         names = known_keys(model)
         for entry in error.errors(include_url=False):
             key = ".".join(
-                str(part + 1 if isinstance(part, int) else part) for part in entry["loc"]
+                str(part + 1 if isinstance(part, int) else part)
+                for part in entry["loc"]
+                if part not in CHOSEN
             )
             if entry["type"] == "conflicts":
                 for name, message in entry["ctx"]["faults"]:

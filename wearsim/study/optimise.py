@@ -12,7 +12,7 @@ from wearsim.case.schema.optimise import MeasureLimit, OptimiseTable
 from wearsim.errors import CaseError, Fault
 from wearsim.sizing.blank import blank_mass, mass_assumption
 from wearsim.study.runner.design import Design, design, replaced
-from wearsim.study.scatter import WITHOUT_FATIGUE
+from wearsim.study.scatter import WITH_FATIGUE
 from wearsim.study.search_space import SearchSpace, search_space
 
 
@@ -79,7 +79,7 @@ class OptimiseStudy:
                 "wear changes it"
             )
         if self.case.fatigue is not None:
-            found.append(WITHOUT_FATIGUE)
+            found.append(WITH_FATIGUE)
         return tuple(found)
 
 

@@ -22,7 +22,7 @@ PUBLISHED_SIGMA = 0.5
 as +-40 to 60 % (Podra and Andersson 1999)."""
 
 
-_WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
+WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,7 @@ def load_scattered(
                 "published coefficients (default; [uncertainty] gives another)"
             )
     if case.fatigue is not None:
-        assumptions.append(_WITH_FATIGUE)
+        assumptions.append(WITH_FATIGUE)
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())

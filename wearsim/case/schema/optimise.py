@@ -1,10 +1,10 @@
 """The table [optimise]: what may change of a case, what is sought, and within what limits."""
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, field_validator
 
-from wearsim.case.schema.dotted import dotted
+from wearsim.case.schema.dotted import dotted, list_or
 from wearsim.case.schema.table import Table
 
 Finite = Annotated[int | float, Field(allow_inf_nan=False)]
@@ -28,6 +28,12 @@ class ParameterRange(Table):
 
 Choice = bool | Finite | str
 Choices = Annotated[list[Choice], Field(min_length=2)]
+
+
+if TYPE_CHECKING:
+    _Parameter = ParameterRange | list[Choice]
+else:
+    _Parameter = list_or(ParameterRange, Choices)
 
 
 class MeasureLimit(Table):
@@ -61,7 +67,7 @@ class OptimiseTable(Table):
     """Objectives, parameters by the dotted names of their keys, and limits."""
 
     objectives: list[Measure] = Field(default_factory=_life, min_length=1)
-    parameters: Annotated[dict[str, ParameterRange | Choices], Field(min_length=1)]
+    parameters: Annotated[dict[str, _Parameter], Field(min_length=1)]
     limits: LimitsTable = LimitsTable()
 
     @field_validator("parameters", mode="before")

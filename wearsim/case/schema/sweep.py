@@ -1,11 +1,11 @@
 """The input file of a sweep."""
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, PositiveInt, field_validator
 
 from wearsim.case.schema.calculation import CalculationTables
-from wearsim.case.schema.dotted import dotted
+from wearsim.case.schema.dotted import dotted, list_or
 from wearsim.case.schema.table import Table
 
 Number = Annotated[int | float, Field(allow_inf_nan=False)]
@@ -32,11 +32,17 @@ class Range(Table):
         return []
 
 
+if TYPE_CHECKING:
+    _Axis = Range | list[Value]
+else:
+    _Axis = list_or(Range, Values)
+
+
 class SweepTables(CalculationTables):
     """A sweep: a case, and values for its keys by dotted names."""
 
     case: str
-    grid: dict[str, Range | Values] = Field(default_factory=dict)
+    grid: dict[str, _Axis] = Field(default_factory=dict)
     zip: list[dict[str, Values]] = Field(default_factory=list)
     design: list[dict[str, Value]] = Field(default_factory=list)
 
@@ -48,7 +54,7 @@ class SweepTables(CalculationTables):
     @field_validator("zip", "design", mode="before")
     @classmethod
     def _many(cls, value: Any) -> Any:
-        return [dotted(entry, "from") for entry in value] if isinstance(value, list) else value
+        return [dotted(entry) for entry in value] if isinstance(value, list) else value
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""
