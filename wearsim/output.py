@@ -35,14 +35,14 @@ def check_free(path: Path, force: bool) -> None:
 _FIGURES = (
     *("flanks", "along_flank", "depth_over_hours", "maintenance"),
     *("wave_drive", "strength", "face_load", "stiffness_spectrum", "convex_concave"),
-    *("hertz_check", "readings", "residuals"),
+    *("hertz_check", "fit", "residuals"),
     *("line_of_action", "indices", "field_great_radii", "field_small_radii", "field_directions"),
 )
 _TABLES = (
     *("history", "flank", "summary", "policies", "tooth_counts"),
     *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
     *("lines", "statics", "flanks", "rack", "rollers", "indices", "line_of_action"),
-    *("readings", "values"),
+    *("fit", "fitted_values"),
     *("pinion_profile", "wheel_profile", "stress_fields", "direction_fields"),
     *(
         "combinations",

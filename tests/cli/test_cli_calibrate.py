@@ -150,17 +150,22 @@ def test_folder_holds_tables_pictures_and_the_calibrated_case(cli, case, table, 
     assert done.code == 0
     assert f"written to {out}" in done.err
     assert {entry.name for entry in out.iterdir()} == {
-        "readings.csv", "values.csv", "summary.md", "calibrated.toml", "readings.png", "readings.svg",
+        "fit.csv", "fitted_values.csv", "summary.md", "calibrated.toml", "fit.png", "fit.svg",
         "residuals.png", "residuals.svg",
     }  # fmt: skip
-    rows = pd.read_csv(out / "readings.csv")
+    rows = pd.read_csv(out / "fit.csv")
     expected = (rows["predicted"] - rows["value"]) / rows["error"]
     assert rows["standard_residual"].to_numpy() == pytest.approx(expected.to_numpy(), abs=1e-9)
     assert rows["reading_row"].tolist() == [2, 3]
-    value = pd.read_csv(out / "values.csv")["value"][0]
+    value = pd.read_csv(out / "fitted_values.csv")["value"][0]
+    fitted = pd.read_csv(out / "fitted_values.csv").iloc[0]
     wear = tomllib.loads((out / "calibrated.toml").read_text())["wear"]
-    assert wear == {"specific_wear_rate_mm2_per_N": value}
-    assert cli("life", out / "calibrated.toml").code == 0
+    band = max(fitted["high"] / fitted["value"], fitted["value"] / fitted["low"])
+    assert wear == {"specific_wear_rate_mm2_per_N": value, "band_factor": pytest.approx(band)}
+    told = answer(cli, path, readings)["parts"][0]
+    life = json.loads(cli("life", out / "calibrated.toml", "--json").out)
+    assert life["life_hours"] == pytest.approx(told["life_hours"], rel=1e-6)
+    assert life["life_hours_low"] == pytest.approx(told["life_hours_low"], rel=1e-2)
     assert cli("calibrate", path, readings, "--out", out).code == 2
     assert cli("calibrate", path, readings, "--out", out, "--force").code == 0
 
@@ -177,9 +182,18 @@ def test_shipped_readings_give_what_they_were_made_with(cli):
 
 
 BAD = [
-    ("0,max_depth_mm,0.01,0.001,", ":2: time_hours: must be a number above 0 (got '0')"),
-    ("1,max_depth_mm,abc,0.001,", ":2: value: must be a number (got 'abc')"),
-    ("1,max_depth_mm,nan,0.001,", ":2: value: must be a number (got 'nan')"),
+    ("0,max_depth_mm,0.01,0.001,", ":2: time_hours: must be a number above 0, from 1e-06 to"),
+    ("1,max_depth_mm,abc,0.001,", ":2: value: must be a number of at most 1e+06 (got 'abc')"),
+    ("1,max_depth_mm,nan,0.001,", ":2: value: must be a number of at most 1e+06 (got 'nan')"),
+    ("1,max_depth_mm,0.0_5,0.001,", ":2: value: must be a number of at most 1e+06 (got '0.0_5')"),
+    ("1e300,max_depth_mm,0.01,0.001,", ":2: time_hours: must be a number above 0, from 1e-06 to"),
+    (
+        "400,max_depth_mm,0.01,1e-320,",
+        ":2: error: must be a number above 0, the standard deviation",
+    ),
+    ("400,max_depth_mm,-0.05,0.004,", ":2: value must not be more than 3 errors below 0, is -0.05"),
+    ("400,max_depth_mm,0.4,0.004,", ":2: value must lie within the limit of the case, a depth of"),
+    ("400,max_depth_mm,0.0,0.004,", "must show wear, but go with none: the life is at least"),
     ("1,max_depth_mm,0.01,-1,", ":2: error: must be a number above 0, the standard deviation"),
     ("1,depth,0.01,0.001,", ":2: quantity: must be one of max_depth_mm, depth_mm"),
     ("1,depth_mm,0.01,0.001,", ":2: arc_length_mm: must be a number of at least 0 (got '')"),
@@ -188,7 +202,7 @@ BAD = [
     ("1,elongation_percent,0.5,0.1,", ":2: elongation_percent needs a chain that wraps"),
     ("1,over_pins_mm,0.5,0.1,", ":2: over_pins_mm needs a chain that wraps"),
     ("1,max_depth_mm,0.01", ":2: needs 5 values, has 3"),
-    ("1e9,max_depth_mm,0.01,0.001,\n1,max_depth_mm,0.01,0.001,", "must lie within the limit"),
+    ("1000,max_depth_mm,0.0253,0.0001,", "must not lie more than a quarter of the life beyond"),
 ]
 
 
@@ -213,6 +227,7 @@ def test_all_bad_cells_are_told_in_one_pass(cli, case, table):
         ("time_hours,quantity,value", "column 'error' is missing"),
         (f"{HEAD},depht", "unknown column 'depht'"),
         (f"{HEAD},error", "every column may stand there once only"),
+        (HEAD.replace(",", ";"), "cells must be separated by commas, with points in numbers"),
     ],
 )
 def test_bad_headers_are_told(cli, case, table, head, message):
@@ -224,10 +239,10 @@ def test_bad_headers_are_told(cli, case, table, head, message):
 def test_scans_that_cannot_be_read_are_told(cli, case, table, tmp_path):
     row, head = "1,profile,,0.01,,scan.csv", f"{HEAD},points_file"
     for text, message in (
-        (None, "the file must be readable CSV"),
-        ("x_mm,y_mm\n1,2\n", "needs at least 11 points, has 1"),
-        ("x_mm,y_mm\n" + "".join(f"500,{i}\n" for i in range(20)), "must lie on the profile"),
-        ("x_mm,y_mm\n1,b\n", "scan.csv:2: y_mm must be a finite number"),
+        (None, "readings.csv:2: points_file: the file must be readable CSV"),
+        ("x_mm,y_mm\n1,2\n", ":2: points_file: scan.csv needs at least 11 points, has 1"),
+        ("x_mm,y_mm\n" + "".join(f"500,{i}\n" for i in range(20)), ":2: registration: at least 11"),
+        ("x_mm,y_mm\n1,b\n", ":2: points_file: scan.csv:2: y_mm must be a finite number"),
     ):
         if text is not None:
             (tmp_path / "scan.csv").write_text(text)
@@ -278,3 +293,45 @@ def test_without_pandera_it_says_what_to_install(cli, case, table, monkeypatch):
     done = cli("calibrate", case[0], table("1,max_depth_mm,0.01,0.001,"))
     assert done.code == 2
     assert "pip install 'wearsim[study]'" in done.err
+
+
+def test_the_folder_of_the_inputs_is_not_replaced(cli, case, table, tmp_path):
+    path, model = case
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    readings = table(depth(model, 0.4, 9.0)).rename(inner / "fit.csv")
+    done = cli("calibrate", path, readings, "--out", inner, "--force")
+    assert done.code == 2
+    assert "must not be the folder of" in done.err
+    assert readings.read_text().startswith(HEAD)
+
+
+def test_movement_of_profiles_is_told(cli, case, table, tmp_path):
+    path, model = case
+    readings = table(scanned(tmp_path, model, 0.8, 2e-3, 0.0), head=f"{HEAD},points_file")
+    (moved,) = answer(cli, path, readings)["moves"]
+    assert moved["turn_rad"] == pytest.approx(-2e-3, abs=1e-4)
+    assert (moved["reading_row"], moved["shift_x_mm"], moved["shift_y_mm"]) == (2, 0.0, 0.0)
+    assert "profile of line 2 by -0.002 rad" in " ".join(
+        cli("calibrate", path, readings).out.split()
+    )
+
+
+def test_profiles_need_a_flank(cli, tmp_path):
+    (tmp_path / "readings.csv").write_text(
+        "time_hours,quantity,error,points_file\n100,profile,0.01,scan.csv\n"
+    )
+    np.savetxt(
+        tmp_path / "scan.csv", np.ones((12, 2)), delimiter=",", header="x_mm,y_mm", comments=""
+    )
+    case = SHIPPED / "hertz-arc-prescribed.toml"
+    done = cli("calibrate", case, tmp_path / "readings.csv")
+    assert done.code == 2
+    assert ":2: a table of loads has no flank to lay a profile on" in done.err
+
+
+def test_life_that_is_used_up_leaves_nothing(cli, case, table):
+    path, model = case
+    (part,) = answer(cli, path, table(depth(model, 1.0, 9.0), depth(model, 0.5, 9.0)))["parts"]
+    assert part["remaining_hours"] == pytest.approx(0.0, abs=1e-3 * model.hours)
+    assert part["remaining_hours_low"] == 0.0

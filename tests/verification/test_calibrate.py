@@ -12,6 +12,7 @@ import pytest
 import tomlkit
 
 import wearsim
+from wearsim.errors import CaseError
 from wearsim.geometry.profile import Profile
 from wearsim.study.calibration import blend
 from wearsim.study.calibration import calibrate as calibrations
@@ -73,11 +74,11 @@ def readings(rows, scans=()):
     """Readings from rows of (hours, quantity, value, error, place), and of scans."""
     none = np.empty(0)
     found = [
-        Reading(row, hours, quantity, value, error, place, 1, none, none)
+        Reading(row, hours, quantity, value, error, place, None, none, none)
         for row, (hours, quantity, value, error, place) in enumerate(rows, start=2)
     ]
     found += [
-        Reading(row, hours, "profile", np.nan, error, np.nan, 1, x, y)
+        Reading(row, hours, "profile", np.nan, error, np.nan, None, x, y)
         for row, (hours, error, x, y) in enumerate(scans, start=2)
     ]
     return tuple(found)
@@ -291,3 +292,69 @@ def test_values_that_were_fitted_give_the_life_that_was_told(tmp_path):
     found = bench.fit(rows, Options(shapes=("wear.pressure_exponent",)))
     again = wearsim.simulate(wearsim.load_case(dict(found.tables)))
     assert again.life.hours == pytest.approx(found.parts[0].life, rel=2e-3)
+
+
+KINDS = {
+    **WRAP,
+    "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 51},
+    "drive": {"mate_teeth": 40, "links": 100},
+}
+
+
+def test_gaps_of_two_kinds_are_told_apart(tmp_path):
+    model = course(KINDS)
+    assert model.kinds == 2
+    deepest = [model.deepest(0.4, kind) for kind in (1, 2)]
+    assert max(deepest) == pytest.approx(model.history("max_depth_mm", 0.4), rel=1e-2)
+    bench = Bench(tmp_path, KINDS)
+    head = "time_hours,quantity,value,error,gap_kind"
+    for kind in (1, 2, ""):
+        value = deepest[kind - 1] if kind else max(deepest)
+        path = tmp_path / "kinds.csv"
+        path.write_text(f"{head}\n{0.4 * model.hours},max_depth_mm,{value},1e-5,{kind}\n")
+        found = calibrate(bench.case, path)
+        assert found.values[0].value == pytest.approx(1e-9, rel=0.02), kind
+    with pytest.raises(CaseError, match="gap_kind is needed, as the gaps of this drive wear in 2"):
+        bench.fit([(1.0, "depth_mm", 0.01, 0.01, 1.0)])
+
+
+def test_told_life_is_that_of_the_case_that_was_fitted(tmp_path):
+    """The joints wear three times as fast as the case says, so that the ratio must be followed."""
+    truth = {**WRAP, "joint": {"specific_wear_rate_mm2_per_N": 4.5e-8}}
+    result = wearsim.simulate(wearsim.load_case(copy.deepcopy(truth)))
+    model = courses.Course(result)
+    rows = [(part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 1e-4, None)
+            for part in (0.4, 0.8)]  # fmt: skip
+    rows.append((0.5 * result.parts["chain"].hours, "elongation_percent", 1.5, 1e-3, None))
+    found = Bench(tmp_path, WRAP).fit(rows)
+    assert found.values[0].value == pytest.approx(1e-9, rel=0.01)
+    again = wearsim.simulate(wearsim.load_case(dict(found.tables)))
+    assert again.parts["sprocket"].hours == pytest.approx(found.parts[0].life, rel=5e-3)
+    assert again.parts["chain"].hours == pytest.approx(found.parts[1].life, rel=1e-6)
+
+
+@pytest.mark.parametrize("start", [(3.5, 2e-18), (4.8, 1e-13), (1.0, 1e-9)])
+def test_the_answer_does_not_depend_on_the_start(tmp_path, start):
+    truth, rng = course(POWER), np.random.default_rng(6)
+    rows = depths(truth, (1.0, 7.0, 13.0), (0.3, 0.6, 0.9), 0.002, rng)
+    exponent, coefficient = start
+    wear = {"law": "power", "coefficient": coefficient, "pressure_exponent": exponent}
+    bench = Bench(tmp_path, {**POWER, "wear": wear})
+    options = Options(shapes=("wear.pressure_exponent",), confidence=0.99)
+    found, known = bench.fit(rows, options), Bench(tmp_path, POWER).fit(rows, options)
+    assert found.values[1].value == pytest.approx(known.values[1].value, abs=2e-3)
+    assert found.parts[0].life == pytest.approx(known.parts[0].life, rel=2e-4)
+    assert inside(found.values[1].interval, 0.7)
+    assert inside(found.parts[0].interval, truth.hours)
+    assert found.values[1].interval.known
+    assert not any("band" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize("slip", [0.98, 0.1, 1e-4])
+def test_slip_is_searched_up_to_its_ends(tmp_path, slip):
+    truth = course(STRAND)
+    rows = depths(truth, (4.0, 9.0), (0.3, 0.9), 0.001, np.random.default_rng(7))
+    bench = Bench(tmp_path, {**STRAND, "mechanism": {"roller_slip_fraction": slip}})
+    found = bench.fit(rows, Options(shapes=("mechanism.roller_slip_fraction",)))
+    assert found.parts[0].life == pytest.approx(truth.hours, rel=0.02)
+    assert any("apart" in text for text in found.warnings)

@@ -48,7 +48,7 @@ def calibrate(
 
     A row of the table is a reading: time_hours, quantity (max_depth_mm, depth_mm at
     arc_length_mm, over_pins_mm, elongation_percent, or profile with a points_file), value and
-    error, its standard deviation. The folder holds readings.csv, values.csv, summary.md,
+    error, its standard deviation. The folder holds fit.csv, fitted_values.csv, summary.md,
     pictures, and the case with what was fitted. Needs pandera (pip install 'wearsim[study]').
     """
     from wearsim.extras import check_installed
@@ -58,6 +58,7 @@ def calibrate(
         from wearsim.output import check_folder
 
         check_folder(out, force)
+        _check_apart(out, (case, measurements))
     from wearsim.report.calibrate import calibration_json, calibration_text, save_calibration
     from wearsim.study.calibration.answer import Options
     from wearsim.study.calibration.calibrate import calibrate as calibrated
@@ -72,3 +73,12 @@ def calibrate(
     if out is not None:
         save_calibration(found, out, force)
         warn(f"written to {out}")
+
+
+def _check_apart(out: Path, inputs: tuple[Path, ...]) -> None:
+    """Raise where the folder to be replaced holds what is read."""
+    for path in inputs:
+        if path.resolve().is_relative_to(out.resolve()):
+            raise click.UsageError(
+                f"--out {out} must not be the folder of {path}: choose another place"
+            )

@@ -125,7 +125,8 @@ def register(
         if on.sum() < 11:
             raise GeometryError(
                 f"registration: at least 11 points must lie on the profile of the case, {on.sum()} do: "
-                "give them in the frame of profile_points (axis at 0, gap on +y), in mm"
+                "give them as `wearsim profile` does, in mm, axis at 0, gap on +y, mirrored if the other "
+                "flank was measured"
             )
         slope = np.interp(places, chords, slopes)
         moves = _moves(nominal, places, at_x, at_y, slope)[:, : _WAYS[freedom]]

@@ -32,11 +32,9 @@ def calibration_text(found: Calibration) -> str:
     share = f"{100 * found.options.confidence:g} %"
     rows = []
     for part in found.parts:
-        low, high = part.band
-        left = Interval(low, high, part.interval.low_known, part.interval.high_known)
         rows += [
             ("Remaining", f"{_hours(part.remaining)} of the {part.name} after {_hours(part.hours)}   "
-             f"({share}: {_ends(left, grouped)} h)"),
+             f"({share}: {_ends(part.band, grouped)} h)"),
             ("Life", f"{_hours(part.life)} of the {part.name} in all   "
              f"({share}: {_ends(part.interval, grouped)} h)"),
         ]  # fmt: skip
@@ -54,6 +52,10 @@ def calibration_text(found: Calibration) -> str:
             "Fit",
             f"{found.readings} readings, chi-square {found.chi_square:.4g} with {found.freedom} degrees "
             f"of freedom{widened}",
+        ),
+        *(
+            ("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
+            for line, turn, x, y in found.moves
         ),
         ("Assumes", numbered(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
@@ -83,6 +85,10 @@ def calibration_json(found: Calibration) -> dict[str, Any]:
             {name: plain(value) for name, value in _value(one).items()} for one in found.values
         ],
         "parts": [_part(part) for part in found.parts],
+        "moves": [
+            dict(zip(("reading_row", "turn_rad", "shift_x_mm", "shift_y_mm"), one, strict=True))
+            for one in found.moves
+        ],
         "readings": found.readings,
         "chi_square": found.chi_square,
         "degrees_of_freedom": found.freedom,
@@ -157,8 +163,8 @@ def save_calibration(found: Calibration, folder: Path, force: bool) -> None:
     from wearsim.report.calibrate_figures import calibration_figures
 
     with new_folder(folder, force) as place:
-        readings_table(found).to_csv(place / "readings.csv", index=False)
-        values_table(found).to_csv(place / "values.csv", index=False)
+        readings_table(found).to_csv(place / "fit.csv", index=False)
+        values_table(found).to_csv(place / "fitted_values.csv", index=False)
         summary = f"```\n{calibration_text(found)}\n```\n"
         (place / "summary.md").write_text(summary, encoding="utf-8")
         (place / "calibrated.toml").write_text(_case(found), encoding="utf-8")
@@ -191,8 +197,7 @@ def _value(one: Value) -> Mapping[str, Any]:
 
 
 def _part(part: Part) -> Mapping[str, Any]:
-    low, high = part.band
-    life = _known(part.interval)
+    left, life = _known(part.band), _known(part.interval)
     return {
         "part": part.name,
         "reading_hours": part.hours,
@@ -200,8 +205,8 @@ def _part(part: Part) -> Mapping[str, Any]:
         "life_hours_low": life["low"],
         "life_hours_high": life["high"],
         "remaining_hours": part.remaining,
-        "remaining_hours_low": low if part.interval.low_known else None,
-        "remaining_hours_high": high if part.interval.high_known else None,
+        "remaining_hours_low": left["low"],
+        "remaining_hours_high": left["high"],
     }
 
 

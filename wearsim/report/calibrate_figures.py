@@ -34,10 +34,10 @@ def calibration_figures(found: Calibration) -> dict[str, Figure]:
     Returns
     -------
     dict
-        ``readings``: values with their errors beside the fit, a panel a quantity;
+        ``fit``: values with their errors beside the fit, a panel a quantity;
         ``residuals`` over hours and against the normal distribution.
     """
-    figures = {"readings": _readings(found), "residuals": _residuals(found)}
+    figures = {"fit": _readings(found), "residuals": _residuals(found)}
     for figure in figures.values():
         figure.suptitle(literal(found.case.title), fontsize=10)
     return figures

@@ -374,7 +374,7 @@ def _tables(
     history = {
         "cycles": run.cycles,
         "time_hours": run.cycles / case.cycles_per_hour,
-        "max_depth_mm": run.depth.max(axis=1),
+        "max_depth_mm": run.all_depth.max(axis=(1, 2)),
         "elongation_percent": 100.0 * run.elongation,
         "roller_wear_mm": run.roller_wear,
         "chain": run.chains,

@@ -76,12 +76,21 @@ class Part:
     @property
     def remaining(self) -> float:
         """Hours that are left, 0 where the limit is passed."""
-        return max(self.life - self.hours, 0.0)
+        return self._left(self.life)
 
     @property
-    def band(self) -> tuple[float, float]:
-        """Hours that are left at both ends of the interval."""
-        return max(self.interval.low - self.hours, 0.0), max(self.interval.high - self.hours, 0.0)
+    def band(self) -> Interval:
+        """Hours that are left at both ends of the interval; fewer than none cannot be."""
+        low, high = self._left(self.interval.low), self._left(self.interval.high)
+        return Interval(low, high, self.interval.low_known or low == 0.0, self.interval.high_known)
+
+    def _left(self, life: float) -> float:
+        left = life - self.hours
+        return left if left > _NOTHING * self.hours else 0.0
+
+
+_NOTHING = 1e-6
+"""Part of the hours run that counts as none left."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +115,8 @@ class Calibration:
         What the stated errors were multiplied by.
     readings : int
         Their number.
+    moves : tuple of (int, float, float, float)
+        Line of every profile, and how it was moved: turn [rad], shifts along x and y [mm].
     shown : tuple of Shown
         Every value beside its prediction.
     runs : int
@@ -124,6 +135,7 @@ class Calibration:
     freedom: int
     scale: float
     readings: int
+    moves: tuple[tuple[int, float, float, float], ...]
     shown: tuple[Shown, ...]
     runs: int
     tables: Mapping[str, Any]

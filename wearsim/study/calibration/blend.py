@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.load import load_case
+from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.simulation import simulate
 from wearsim.study.calibration.course import Course
@@ -38,6 +39,23 @@ class Blend:
     def new(self) -> Course:
         """One of them, for all that does not depend on the wear."""
         return self.shares[0][1]
+
+    def deepest(self, part: float, kind: int) -> float:
+        """Return the depth of the deepest point of a gap.
+
+        Parameters
+        ----------
+        part : float
+            Time as a part of the life.
+        kind : int
+            Number of the gap from 1.
+
+        Returns
+        -------
+        float
+            Depth [mm].
+        """
+        return math.fsum(share * one.deepest(part, kind) for share, one in self.shares)
 
     def depth_at(self, part: float, arc_length: float, kind: int) -> float:
         """Return the depth of a point.
@@ -93,6 +111,38 @@ class Blend:
         return math.fsum(share * one.history(quantity, part) for share, one in self.shares)
 
 
+@dataclass(frozen=True)
+class Log:
+    """The logarithm of a factor on a value, with the ends of it that are allowed.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The logarithm, from low to high.
+    """
+
+    value: float
+    low: float
+    high: float
+
+    def nodes(self) -> list[tuple[float, float]]:
+        """Return the logarithms that are run beside it, with their shares.
+
+        Returns
+        -------
+        list of (float, float)
+            Shares of sum 1 and multiples of the spacing, or ends.
+        """
+        below = math.floor(self.value / _SPACING)
+        ends = [max(_SPACING * below, self.low), min(_SPACING * (below + 1), self.high)]
+        if self.value <= ends[0]:
+            return [(1.0, ends[0])]
+        if self.value >= ends[1]:
+            return [(1.0, ends[1])]
+        share = (self.value - ends[0]) / (ends[1] - ends[0])
+        return [(1.0 - share, ends[0]), (share, ends[1])]
+
+
 class Courses:
     """Courses by the values of keys, run where they are needed.
 
@@ -114,15 +164,20 @@ class Courses:
         """Runs so far."""
         return len(self._found)
 
-    def blend(self, given: Mapping[str, float], logs: Mapping[str, float]) -> Blend:
+    @property
+    def numerical_error(self) -> float:
+        """The largest of the runs."""
+        return max((one.result.numerical_error for one in self._found.values()), default=0.0)
+
+    def blend(self, given: Mapping[str, float], logs: Mapping[str, Log]) -> Blend:
         """Return the course with other values of some keys.
 
         Parameters
         ----------
         given : mapping of str to float
             Values by dotted key.
-        logs : mapping of str to float
-            Logarithms of factors on some of them.
+        logs : mapping of str to Log
+            Factors on some of them.
 
         Returns
         -------
@@ -136,13 +191,10 @@ class Courses:
         """
         corners: list[tuple[float, dict[str, float]]] = [(1.0, dict(given))]
         for key, log in logs.items():
-            below = math.floor(log / _SPACING)
-            share = log / _SPACING - below
-            steps = [(1.0 - share, below), (share, below + 1)] if share else [(1.0, below)]
             corners = [
-                (part * weight, {**values, key: given[key] * math.exp(_SPACING * step)})
+                (part * share, {**values, key: given[key] * math.exp(node)})
                 for part, values in corners
-                for weight, step in steps
+                for share, node in log.nodes()
             ]
         return Blend(tuple((share, self._at(values)) for share, values in corners))
 
@@ -152,5 +204,11 @@ class Courses:
             tables = self._tables
             for name, value in key:
                 tables = replaced(tables, name.split("."), value)
-            self._found[key] = Course(simulate(load_case(tables)))
+            course = Course(simulate(load_case(tables)))
+            if not course.reached:
+                raise ConvergenceError(
+                    f"calibrate: the limit must be reached for a life to be scaled, but is not in "
+                    f"{course.hours:.3g} h: check the wear coefficient and the limits of [stop]"
+                )
+            self._found[key] = course
         return self._found[key]

@@ -56,6 +56,23 @@ class Course:
         x, y = self._outlines
         return Profile(x[0, 0], y[0, 0])
 
+    def deepest(self, part: float, kind: int) -> float:
+        """Return the depth of the deepest point of a gap.
+
+        Parameters
+        ----------
+        part : float
+            Time as a part of the life; beyond 1 the last rate goes on.
+        kind : int
+            Number of the gap from 1.
+
+        Returns
+        -------
+        float
+            Depth [mm].
+        """
+        return _on_line(part * self.hours, self._times, self._depth[:, kind - 1].max(axis=1))
+
     def depth_at(self, part: float, arc_length: float, kind: int) -> float:
         """Return the depth of a point.
 

@@ -8,11 +8,10 @@ from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibration.answer import Value
+from wearsim.study.calibration.answer import Part, Value
 from wearsim.study.calibration.fit import Fitted
 from wearsim.study.calibration.observe import Observation
-from wearsim.study.calibration.parameters import EXPONENT
-from wearsim.study.calibration.readings import PROFILE
+from wearsim.study.calibration.parameters import EXPONENT, SHAPES
 
 _TOGETHER = 0.95
 """Correlation above which two values are looked at together."""
@@ -21,6 +20,9 @@ _WIDE = 2.0
 """Ratio of the ends of an interval above which a value counts as not determined."""
 
 _TOO_GOOD = 0.001
+
+_MANY = 0.25
+"""Part of the points of a profile above which it matters that they are left out."""
 
 
 def doubts(
@@ -51,16 +53,19 @@ def doubts(
     """
     yield from _identifiability(values, correlation)
     yield from _residuals(found, freedom)
-    if values[0].key.startswith("wear."):
+    if values[0].key.startswith("wear.") and not any(one.key in SHAPES for one in values):
         factor = values[0].value / values[0].given
         if not case.wear.low <= factor <= case.wear.high:
             yield (
                 f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its "
                 f"band of {case.wear.low:.3g} to {case.wear.high:.3g}: check the readings and the load"
             )
-    left_out = sum(one.left_out for one in observations if one.reading.quantity == PROFILE)
-    if left_out:
-        yield f"{left_out} measured points lie beyond the ends of the flank and are left out"
+    for one in observations:
+        if one.left_out > _MANY * one.reading.x.size:
+            yield (
+                f"line {one.reading.row}: {one.left_out} of {one.reading.x.size} points lie beyond the "
+                "ends of the flank and are left out: check that the profile is that of this flank"
+            )
     if case.fatigue is not None:
         yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it before)"
     yield from case.warnings
@@ -96,6 +101,8 @@ def _loose(value: Value) -> bool:
 def _residuals(found: Fitted, freedom: int) -> Iterator[str]:
     if freedom == 0:
         yield "there are as many fitted values as readings: nothing is left to check the fit by"
+        if found.chi_square > 1.0:
+            yield "and no values meet the readings: check them"
         return
     if found.scale > 1.0:
         yield (
@@ -108,3 +115,32 @@ def _residuals(found: Fitted, freedom: int) -> Iterator[str]:
             f"the readings are only {size:.2g} times as far from the fit as their errors say: the errors "
             "are stated too large, or the readings are not independent"
         )
+
+
+def of_runs(settled: bool, numerical_error: float, parts: Sequence[Part]) -> Iterator[str]:
+    """Give what is doubtful about the runs that readings were held against.
+
+    Parameters
+    ----------
+    settled : bool
+        Whether registration and the ratio of both coefficients go with the fit.
+    numerical_error : float
+        The largest of the runs.
+    parts : sequence of Part
+        Whose lives the intervals are of.
+
+    Yields
+    ------
+    str
+        What is wrong and what to do.
+    """
+    if not settled:
+        yield "the fit has not settled: its runs or the registration still change with it"
+    for part in parts:
+        half = 0.5 * math.log(part.interval.high / part.interval.low)
+        if part.name != "chain" and numerical_error > half:
+            yield (
+                f"the numerical error of the runs, {numerical_error:.1g}, is larger than the interval of "
+                f"the {part.name}'s life, +-{100 * half:.1g} %: use more nodes and phases, a smaller "
+                "run.life_tolerance"
+            )

@@ -13,26 +13,29 @@ from wearsim.geometry.profile import Vector
 from wearsim.simulation.wrap import wrap_contact
 from wearsim.study.calibration.answer import Calibration, Options, Part, Value
 from wearsim.study.calibration.blend import Courses
-from wearsim.study.calibration.course import Course
-from wearsim.study.calibration.doubts import doubts
+from wearsim.study.calibration.checks import faults_of
+from wearsim.study.calibration.doubts import doubts, of_runs
 from wearsim.study.calibration.fit import Fitted, Problem, fit, profile_interval, stated_at
 from wearsim.study.calibration.observe import Observation, State
 from wearsim.study.calibration.parameters import JOINT, Parameters, shape_values
-from wearsim.study.calibration.readings import ELONGATION, OVER_PINS, POINT, PROFILE, Reading
-from wearsim.study.calibration.scan import observation
+from wearsim.study.calibration.readings import ELONGATION, PROFILE, Reading
+from wearsim.study.calibration.scan import Scan, observation
 from wearsim.study.runner.design import replaced
 from wearsim.study.scatter import coefficient_key
 
-_LONG = 1e4
-"""What the horizon of the case is multiplied by: the limit must be reached, as all times are scaled."""
+_FOREVER = 1e15
+"""Horizon of the runs [h]: the limit must be reached, as all times are scaled."""
 
-BEYOND = 0.25
-"""Part of its life by which a reading may lie beyond the limit; the last rate goes on so far."""
-
-_SAME_RATIO = 0.05
+_SAME_RATIO = 2e-3
 """Relative change of the ratio of both coefficients that a run is not repeated for."""
 
-_SETTLED, _MOST_ROUNDS = 1e-4, 10
+_SETTLED, _MOST_ROUNDS = 1e-4, 20
+
+_ENOUGH = 2.0
+"""Horizon of the calibrated case over its life, at least."""
+
+_AT_END = 0.1
+"""How near the logarithm of a life may come to an end of those that are searched."""
 
 _TRIED = 45
 """Lives that the search starts from, about a factor of 2 apart."""
@@ -69,17 +72,17 @@ class Fitting:
         chain = any(reading.quantity == ELONGATION for reading in readings)
         joint, rate, self.chain_hours = _joints(case)
         self.parameters = Parameters(
-            courses=Courses(
-                replaced(tables, ("run", "horizon_hours"), _LONG * case.run.horizon_hours)
-            ),
+            courses=Courses(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
             coefficient=case.wear.coefficient,
             joint=joint,
             elongation_rate=rate,
             teeth=any(reading.quantity != ELONGATION for reading in readings),
             chain=chain,
             shapes={key: shape_values(case)[key] for key in options.shapes},
+            last=self._last(teeth=True),
             ratio=1.0,
         )
+        self.settled = True
         self.observations = self._observed(None)
         self.freedom = sum(one.freedom for one in self.observations) - self.parameters.size
         if self.freedom < 0:
@@ -109,46 +112,45 @@ class Fitting:
         values, correlation = self._values(found)
         state = self.parameters.state(found.point)
         shown = tuple(row for one in self.observations for row in one.shown(state))
+        parts = self._parts(found, values)
         return Calibration(
             case=self.case,
             options=self.options,
             values=values,
-            parts=self._parts(found, values),
+            parts=parts,
             chi_square=found.chi_square,
             freedom=self.freedom,
             scale=found.scale,
             readings=len(self.readings),
+            moves=tuple(one.moved for one in self.observations if isinstance(one, Scan)),
             shown=shown,
             runs=self.parameters.courses.runs,
-            tables=self._fitted_tables(values),
+            tables=self._fitted_tables(values, parts),
             assumptions=self._assumptions(),
-            warnings=tuple(doubts(self.case, values, correlation, found, self.observations, self.freedom)),
-        )  # fmt: skip
+            warnings=(
+                *doubts(self.case, values, correlation, found, self.observations, self.freedom),
+                *of_runs(self.settled, self.parameters.courses.numerical_error, parts),
+            ),
+        )
 
     def _observed(self, state: State | None) -> list[Observation]:
         """Return the readings, profiles registered by what is known of the wear."""
-        options, new = self.options, self._new()
+        options, parameters = self.options, self.parameters
+        new = parameters.course(np.zeros(parameters.size)).new if parameters.teeth else None
         found, faults = [], []
         for reading in self.readings:
+            wrong = []
+            if new is not None and reading.quantity != ELONGATION:
+                wrong = faults_of(reading, new)
             try:
-                if new is not None:
-                    _check_place(reading, new)
-                found.append(observation(reading, new, options.freedom, options.cutoff, state))
+                if not wrong:
+                    found.append(observation(reading, new, options.freedom, options.cutoff, state))
             except GeometryError as error:
-                faults.append(Fault(str(error), "", self.file, reading.row))
+                wrong.append(str(error))
+            faults += [Fault(text, "", self.file, reading.row) for text in wrong]
         if faults:
             raise CaseError(faults)
         return found
-
-    def _new(self) -> Course | None:
-        """Return a run of the case as it is; None where no reading is of the teeth."""
-        if not self.parameters.teeth:
-            return None
-        new = self.parameters.course(np.zeros(self.parameters.size)).new
-        if not new.reached:
-            text = "must be reached by the case for its life to be scaled: raise run.horizon_hours"
-            raise CaseError([Fault(text, "stop", self.case.name)])
-        return new
 
     def _fit(self) -> Fitted:
         """Fit again until registration and the ratio of both coefficients go with what comes out."""
@@ -161,6 +163,8 @@ class Fitting:
             found = fit(self._problem(), before)
             if float(np.abs(found.point - before).max()) < _SETTLED:
                 break
+        else:
+            self.settled = False
         return found
 
     def _follow(self, point: Vector) -> bool:
@@ -190,16 +194,13 @@ class Fitting:
         return tried[int(np.argmin(squares))]
 
     def _problem(self) -> Problem:
-        low, high = (bound.copy() for bound in self.parameters.bounds)
-        if self.parameters.teeth:
-            earliest = math.log(self._last(teeth=True) / (1.0 + BEYOND))
-            low[0] = min(max(low[0], earliest), high[0] - 1.0)
-        return self._restated(lambda point: point, (low, high))
+        return self._restated(lambda point: point, self.parameters.bounds)
 
     def _last(self, teeth: bool) -> float:
         """Hours of the last reading of the teeth or of the chain [h]."""
         return max(
-            reading.hours for reading in self.readings if (reading.quantity != ELONGATION) == teeth
+            (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth),
+            default=math.nan,
         )
 
     def _restated(
@@ -214,16 +215,23 @@ class Fitting:
         return Problem(residuals, *bounds, self.freedom)
 
     def _check_reached(self, found: Fitted) -> None:
-        state = self.parameters.state(found.point)
-        teeth = [one for one in self.readings if one.quantity != ELONGATION]
-        for reading in teeth:
-            if reading.hours > 0.999 * (1.0 + BEYOND) * state.life:
-                text = (
-                    f"must lie within the limit of the case, which is reached after "
-                    f"{state.life:.4g} h, is at {reading.hours:g} h: raise the "
-                    "limits of [stop]"
-                )
-                raise CaseError([Fault(text, "time_hours", self.file, reading.row)])
+        """Raise where the best life is only an end of those that were searched."""
+        if not self.parameters.teeth:
+            return
+        low, high = self.parameters.bounds
+        if found.point[0] < low[0] + _AT_END:
+            text = (
+                f"must not lie more than a quarter of the life beyond the limit, but the readings until "
+                f"{self._last(teeth=True):g} h do: raise the limits of [stop]"
+            )
+            raise CaseError([Fault(text, "time_hours", self.file)])
+        if found.point[0] > high[0] - _AT_END:
+            least = profile_interval(self._problem(), found, 0, self.options.confidence)
+            text = (
+                f"must show wear, but go with none: the life is at least {math.exp(least.low):.4g} h "
+                f"({100 * self.options.confidence:g} %); measure later or better"
+            )
+            raise CaseError([Fault(text, "value", self.file)])
 
     def _values(self, found: Fitted) -> tuple[tuple[Value, ...], Vector]:
         """Return the values with their intervals, and their correlations."""
@@ -243,11 +251,18 @@ class Fitting:
             values.append(Value(key, value, start, interval.scaled(start)))
         return tuple(values), stated.correlation
 
-    def _fitted_tables(self, values: Sequence[Value]) -> Mapping[str, Any]:
+    def _fitted_tables(self, values: Sequence[Value], parts: Sequence[Part]) -> Mapping[str, Any]:
+        """Tables of the case with the values, the band of a known coefficient, and enough time."""
         tables = self.tables
         for one in values:
             tables = replaced(tables, one.key.split("."), one.value)
-        return tables
+        if self.parameters.teeth and not self.parameters.shapes and values[0].interval.known:
+            ends = values[0].interval
+            band = max(ends.high / values[0].value, values[0].value / ends.low)
+            tables = replaced(tables, ("wear", "band_factor"), band)
+        longest = max(part.life for part in parts)
+        horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
+        return replaced(tables, ("run", "horizon_hours"), horizon)
 
     def _parts(self, found: Fitted, values: Sequence[Value]) -> tuple[Part, ...]:
         parts = []
@@ -272,7 +287,8 @@ class Fitting:
         ]
         moved = {
             "none": "not moved",
-            "turn": "turned about the axis",
+            "turn": "turned about the axis (a datum that is off it by some hundredths of a millimetre can "
+            "cost more than the intervals, see --register free)",
             "free": "turned and shifted",
         }
         if any(reading.x.size for reading in self.readings):
@@ -288,24 +304,6 @@ class Fitting:
                 else "joints wear as much more or less than their coefficient says as teeth do"
             )
         return (*found, *self.case.assumptions)
-
-
-def _check_place(reading: Reading, new: Course) -> None:
-    if reading.quantity != ELONGATION and reading.gap_kind > new.kinds:
-        raise GeometryError(f"gap_kind must be at most {new.kinds}, is {reading.gap_kind}")
-    if reading.quantity == OVER_PINS:
-        falls = new.result.history_columns[OVER_PINS]
-        again = float((falls - np.minimum.accumulate(falls)).max())
-        if again > reading.error:
-            raise GeometryError(
-                f"over_pins_mm must belong to one time, but the measurement over pins grows again by "
-                f"{again:.3g} mm in the life: measure the depth"
-            )
-    if reading.quantity == POINT and reading.arc_length > new.arc_length[-1]:
-        raise GeometryError(
-            f"arc_length_mm must be at most {new.arc_length[-1]:.4g}, the length of the flank, is "
-            f"{reading.arc_length:g}"
-        )
 
 
 def _joints(case: Case) -> tuple[float, float, float]:

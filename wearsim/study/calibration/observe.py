@@ -143,10 +143,12 @@ class Gauge:
             return state.elongation_rate * reading.hours
         assert course is not None
         part = reading.hours / state.life
+        if reading.quantity == DEEPEST and reading.gap_kind is not None:
+            return course.deepest(part, reading.gap_kind)
         if reading.quantity == DEEPEST:
             return course.history(DEEPEST, part)
         if reading.quantity == POINT:
-            return course.depth_at(part, reading.arc_length, reading.gap_kind)
+            return course.depth_at(part, reading.arc_length, reading.gap_kind or 1)
         return course.history(reading.quantity, 0.0) - course.history(reading.quantity, part)
 
     def residuals(self, state: State) -> Vector:

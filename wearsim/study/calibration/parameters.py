@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibration.blend import Blend, Courses
+from wearsim.study.calibration.blend import Blend, Courses, Log
 from wearsim.study.calibration.observe import State
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"
@@ -21,6 +21,9 @@ SHAPES = {EXPONENT: (0.2, 5.0), SLIP: (1e-3, 1.0)}
 
 _WIDE = math.log(1e6)
 """Logarithm of the factor within which coefficients are searched."""
+
+BEYOND = 0.25
+"""Part of its life by which a reading may lie beyond the limit; the last rate goes on so far."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +48,8 @@ class Parameters:
         Whether the coefficients of the teeth and of the joints are fitted.
     shapes : mapping of str to float
         Keys that are fitted besides, with their values in the case.
+    last : float
+        Hours of the last reading of the teeth [h]; nan where there is none.
     ratio : float
         Coefficient of the joints over that of the teeth in the runs, as a factor of that in the
         case.
@@ -57,6 +62,7 @@ class Parameters:
     teeth: bool
     chain: bool
     shapes: Mapping[str, float]
+    last: float
     ratio: float
 
     @property
@@ -66,22 +72,29 @@ class Parameters:
 
     @cached_property
     def bounds(self) -> tuple[Vector, Vector]:
-        """Bounds of the logarithms."""
-        middle = self.start[0]
-        rates = [(middle - _WIDE, middle + _WIDE)] * self.teeth + [(-_WIDE, _WIDE)] * self.chain
-        shapes = [
-            (math.log(SHAPES[key][0] / value), math.log(SHAPES[key][1] / value))
+        """Bounds of the logarithms; those of the life of the teeth come from the last reading."""
+        earliest = math.log(self.last / (1.0 + BEYOND)) if self.teeth else math.nan
+        rates = [(earliest, earliest + _WIDE)] * self.teeth + [(-_WIDE, _WIDE)] * self.chain
+        low, high = zip(*rates, *self._shape_bounds(), strict=True)
+        return np.array(low), np.array(high)
+
+    def _shape_bounds(self) -> list[tuple[float, float]]:
+        return [
+            (
+                min(math.log(SHAPES[key][0] / value), 0.0),
+                max(math.log(SHAPES[key][1] / value), 0.0),
+            )
             for key, value in self.shapes.items()
         ]
-        low, high = zip(*rates, *shapes, strict=True)
-        return np.array(low), np.array(high)
 
     @property
     def start(self) -> Vector:
         """The logarithms of the case."""
         point = np.zeros(self.size)
         if self.teeth:
-            point[0] = math.log(self.course(point).hours)
+            low, high = self.bounds
+            hours = math.log(self.course(point).hours)
+            point[0] = min(max(hours, low[0]), high[0])
         return point
 
     def course(self, point: Vector) -> Blend:
@@ -100,8 +113,9 @@ class Parameters:
         given = dict(self.shapes)
         if self.ratio != 1.0:
             given[JOINT] = self.ratio * self.joint
-        logs = point[self.teeth + self.chain :].tolist()
-        return self.courses.blend(given, dict(zip(self.shapes, logs, strict=True)))
+        values = point[self.teeth + self.chain :].tolist()
+        ends = zip(self.shapes, values, self._shape_bounds(), strict=True)
+        return self.courses.blend(given, {key: Log(log, *bounds) for key, log, bounds in ends})
 
     def state(self, point: Vector) -> State:
         """Return the drive that a set of logarithms means.
@@ -158,7 +172,7 @@ class Parameters:
         """Return bounds of the logarithms of all values over those of the case."""
         low, high = (bound.copy() for bound in self.bounds)
         if self.teeth:
-            low[0], high[0] = -2.0 * _WIDE, 2.0 * _WIDE
+            low[0], high[0] = -4.0 * _WIDE, 4.0 * _WIDE
         return low, high
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from wearsim.case.messages import Faults
 from wearsim.case.tables import read_columns
 from wearsim.catalogue.tables import nearest
@@ -24,6 +26,8 @@ QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE)
 REQUIRED = ("time_hours", "quantity", "error")
 OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
 _LEAST_POINTS = 11
+_LEAST_HOURS, _MOST_HOURS = 1e-6, 1e9
+_LEAST_ERROR, _MOST_VALUE = 1e-9, 1e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +48,8 @@ class Reading:
         Standard deviation of the value, of a profile that of each point across it.
     arc_length : float
         Place of a depth along the new flank [mm]; nan for other quantities.
-    gap_kind : int
-        Number of the gap that was measured, from 1.
+    gap_kind : int or None
+        Number of the gap that was measured, from 1; None where it is not told.
     x, y : numpy.ndarray
         Points of a profile [mm]; none for other quantities.
     """
@@ -56,7 +60,7 @@ class Reading:
     value: float
     error: float
     arc_length: float
-    gap_kind: int
+    gap_kind: int | None
     x: Vector
     y: Vector
 
@@ -85,9 +89,13 @@ def read_readings(path: Path) -> tuple[Reading, ...]:
     for quantity, rows in table.groupby("quantity"):
         if quantity in QUANTITIES:
             faults += _bad_cells(rows, _of_quantity(str(quantity)), path)
+    points = {
+        row: _points(cells["points_file"], int(str(row)), path, faults)
+        for row, cells in table.iterrows()
+    }
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
-    found = [_reading(int(str(row)), cells, path) for row, cells in table.iterrows()]
+    found = [_reading(int(str(row)), cells, points[row]) for row, cells in table.iterrows()]
     if not found:
         raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
     return tuple(found)
@@ -109,6 +117,9 @@ def _table(path: Path) -> "pd.DataFrame":
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
     head, names = lines[0] if lines else (1, [])
+    if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
+        text = "cells must be separated by commas, with points in numbers: export it as such"
+        raise CaseError([Fault(text, "", str(path), head)])
     faults = [
         Fault(f"column {name!r} is missing{nearest(name, names)}", "", str(path), head)
         for name in REQUIRED
@@ -165,8 +176,15 @@ def _common() -> Any:
     words = ", ".join(QUANTITIES)
     return _columns(
         {
-            "time_hours": (_above_0, "must be a number above 0"),
-            "error": (_above_0, "must be a number above 0, the standard deviation of the value"),
+            "time_hours": (
+                lambda text: _LEAST_HOURS <= _number(text) <= _MOST_HOURS,
+                f"must be a number above 0, from {_LEAST_HOURS:g} to {_MOST_HOURS:g} h",
+            ),
+            "error": (
+                lambda text: _LEAST_ERROR <= _number(text) <= _MOST_VALUE,
+                "must be a number above 0, the standard deviation of the value, from "
+                f"{_LEAST_ERROR:g} to {_MOST_VALUE:g}",
+            ),
             "quantity": (lambda text: text in QUANTITIES, f"must be one of {words}"),
             "gap_kind": (
                 lambda text: text == "" or (text.isdecimal() and int(text) > 0),
@@ -181,9 +199,14 @@ def _of_quantity(quantity: str) -> Any:
     profile = quantity == PROFILE
     return _columns(
         {
-            "value": empty if profile else (_finite, "must be a number"),
+            "value": empty
+            if profile
+            else (
+                lambda text: abs(_number(text)) <= _MOST_VALUE,
+                f"must be a number of at most {_MOST_VALUE:g}",
+            ),
             "points_file": (bool, "must name a file with x_mm and y_mm") if profile else empty,
-            "arc_length_mm": (_not_negative, "must be a number of at least 0")
+            "arc_length_mm": (lambda text: _number(text) >= 0.0, "must be a number of at least 0")
             if quantity == POINT
             else empty,
         }
@@ -191,38 +214,15 @@ def _of_quantity(quantity: str) -> Any:
 
 
 def _number(text: str) -> float:
+    """Read a number; nan for anything else, also what only Python takes for one."""
     try:
-        return float(text)
+        return float(text) if "_" not in text else math.nan
     except ValueError:
         return math.nan
 
 
-def _finite(text: str) -> bool:
-    return math.isfinite(_number(text))
-
-
-def _above_0(text: str) -> bool:
-    return _finite(text) and _number(text) > 0.0
-
-
-def _not_negative(text: str) -> bool:
-    return _finite(text) and _number(text) >= 0.0
-
-
-def _reading(row: int, cells: Any, path: Path) -> Reading:
-    import numpy as np
-
-    x = y = np.empty(0)
-    if cells["quantity"] == PROFILE:
-        faults = Faults(str(path), "", ())
-        columns = read_columns(
-            path.parent / cells["points_file"], ("x_mm", "y_mm"), (), "points_file", faults
-        )
-        faults.check()
-        x, y = columns["x_mm"], columns["y_mm"]
-        if x.size < _LEAST_POINTS:
-            text = f"{cells['points_file']} needs at least {_LEAST_POINTS} points, has {x.size}"
-            raise CaseError([Fault(text, "points_file", str(path), row)])
+def _reading(row: int, cells: Any, points: tuple[Vector, Vector]) -> Reading:
+    x, y = points
     return Reading(
         row=row,
         hours=float(cells["time_hours"]),
@@ -230,7 +230,25 @@ def _reading(row: int, cells: Any, path: Path) -> Reading:
         value=_number(cells["value"]),
         error=float(cells["error"]),
         arc_length=_number(cells["arc_length_mm"]),
-        gap_kind=int(cells["gap_kind"] or 1),
+        gap_kind=int(cells["gap_kind"]) if cells["gap_kind"] else None,
         x=x,
         y=y,
     )
+
+
+def _points(name: str, row: int, path: Path, faults: list[Fault]) -> tuple[Vector, Vector]:
+    """Read the points of a profile; none where there are none or where there was a fault."""
+    nothing = np.empty(0), np.empty(0)
+    if not name:
+        return nothing
+    found = Faults(str(path), "", ())
+    columns = read_columns(path.parent / name, ("x_mm", "y_mm"), (), "", found)
+    try:
+        found.check()
+    except CaseError as error:
+        faults += [Fault(fault.message, "points_file", str(path), row) for fault in error.faults]
+        return nothing
+    if columns["x_mm"].size < _LEAST_POINTS:
+        text = f"{name} needs at least {_LEAST_POINTS} points, has {columns['x_mm'].size}"
+        faults.append(Fault(text, "points_file", str(path), row))
+    return columns["x_mm"], columns["y_mm"]

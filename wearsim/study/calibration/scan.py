@@ -51,7 +51,7 @@ def observation(
     assert new is not None
     expected = None
     if state is not None and state.course is not None:
-        expected = state.course.recess(reading.hours / state.life, reading.gap_kind)
+        expected = state.course.recess(reading.hours / state.life, reading.gap_kind or 1)
     registered = register(new.nominal, reading.x, reading.y, freedom, expected)
     return Scan(reading, registered, cutoff)
 
@@ -89,6 +89,12 @@ class Scan:
         return int(self.stations.size - self._explained.shape[1])
 
     @property
+    def moved(self) -> tuple[int, float, float, float]:
+        """Line of the reading, and how its points were moved: turn [rad], shifts [mm]."""
+        found = self.registered
+        return self.reading.row, found.turn, found.shift_x, found.shift_y
+
+    @property
     def left_out(self) -> int:
         """Points beyond the ends of the flank."""
         return self.registered.left_out
@@ -118,7 +124,7 @@ class Scan:
     def _smoothed(self, state: State) -> tuple[Vector, Vector]:
         """Measured and predicted recess at the stations [mm]."""
         assert state.course is not None
-        at = state.course.recess(self.reading.hours / state.life, self.reading.gap_kind)
+        at = state.course.recess(self.reading.hours / state.life, self.reading.gap_kind or 1)
         predicted = np.interp(self.registered.arc_length, state.course.new.chords, at)
         return self._weights @ self.registered.recess, self._weights @ predicted
 
