@@ -85,12 +85,12 @@ def test_percentiles_are_those_of_fatigue_where_it_governs(cli, case):
     """The stress goes with the root of the load and the life with its sixth power down: L F^3."""
     scatter = '"load.tension_N" = {distribution = "lognormal", sigma_ln = 0.04}\n'
     path = case(f"[uncertainty]\n{CERTAIN}{scatter}")
-    options = ("uncertainty", path, "--samples", 64)
+    options = ("uncertainty", path, "--samples", 32)
     done = cli(*options, "--json")
     found = json.loads(done.out)
     assert done.code == 0
     ratio = found["p10_hours"] / found["p50_hours"]
-    assert ratio == pytest.approx(math.exp(-3.0 * 0.04 * Z10), rel=5e-3)
+    assert ratio == pytest.approx(math.exp(-3.0 * 0.04 * Z10), rel=1e-2)
     assert "a life ends by wear or by contact fatigue" in " ".join(found["assumptions"])
     assert any("comes before the wear" in text for text in found["warnings"])
     p10 = found["p10_hours"]
@@ -114,6 +114,7 @@ def test_lives_of_no_hours(cli, case, tmp_path):
     assert found["fits"] == []
 
 
+@pytest.mark.slow
 def test_indices_are_of_the_life_that_governs(cli, case):
     pytest.importorskip("SALib", reason="SALib is not installed")
     scatter = (

@@ -24,7 +24,7 @@ def peak(wear: Callable[[], object]) -> int:
         tracemalloc.stop()
 
 
-@pytest.mark.parametrize("method", ["advance", "per_cycle"])
+@pytest.mark.parametrize("method", ["advance", pytest.param("per_cycle", marks=pytest.mark.slow)])
 def test_ten_times_the_cycles(build: Callable[..., Mechanism], method: str) -> None:
     contact, criteria = build(101).contact, (depth_criterion(0.05),)
 
