@@ -155,9 +155,9 @@ def study_columns():
     yield from (*COLUMNS, *sensitivity_table(answer))
     yield from (*REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
     measures = {"life_hours": 1.0, "mass_kg": 1.0}
-    one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "")
+    one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "", "")
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
-    yield from candidates_table(Outcome(study, one, (one,), (one,)), [one])
+    yield from candidates_table(Outcome(study, one, (one,), (one,), True), [one])
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

@@ -56,12 +56,21 @@ def optimise(
     text = f"optimising {study.case.title}"
     with in_batches(study.given, place, told, text, evaluations + 1) as run:
         trials = Trials(study, run)
-        search(study, trials)
+        settled = search(study, trials)
     tried = tuple(trials.found.values())
-    check_feasible(study, tried)
-    outcome = Outcome(study, trials.given, tried, tuple(front(tried, study.objectives)))
-    from wearsim.report.optimise import optimise_json, optimise_text, save_optimise, warnings_of
+    best = tuple(front(tried, study.objectives))
+    outcome = Outcome(study, trials.given, tried, best, settled)
+    from wearsim.report.optimise import (
+        optimise_json,
+        optimise_text,
+        save_candidates,
+        save_optimise,
+        warnings_of,
+    )
 
+    if place.out is not None:
+        save_candidates(outcome, place.out)
+    check_feasible(study, tried)
     if as_json:
         print_json(optimise_json(outcome), case, warnings_of(outcome))
     else:
@@ -92,7 +101,7 @@ def _show_plan(study: "OptimiseStudy", place: Place, told: Mapping[str, Any]) ->
     seconds, count = timed(study.design([study.space.row(point) for point in points]))
     click.echo(f"designs      {study.evaluations} at most, beside the case as given")
     click.echo(
-        f"time         about {seconds * study.evaluations:.3g} s in one thread, from {count} designs"
+        f"time         at least {seconds * study.evaluations:.3g} s in one thread, from {count} designs"
     )
     if place.out is not None:
         click.echo(f"files        in {place.out / 'shards'}, and tables beside it")

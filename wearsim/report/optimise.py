@@ -1,6 +1,7 @@
 """What is shown of an optimisation: text, JSON, tables, and the best designs as case files."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,14 @@ from wearsim.report.answer import grouped
 from wearsim.report.optimise_figures import optimise_figures
 from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.runner.store import DESIGN_FILES, DESIGNS
-from wearsim.study.trials import MAXIMISED, Candidate, Outcome, commonest_reason, margins
+from wearsim.study.trials import (
+    MAXIMISED,
+    Candidate,
+    Outcome,
+    commonest_reason,
+    limit_names,
+    margins,
+)
 
 _SAME = 1e-6
 """Relative scatter of a measure that is none."""
@@ -41,7 +49,7 @@ def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.Da
     study = outcome.study
     columns = [
         "design", *study.space.keys, *study.measures, "life_reached", "stop",
-        *(f"margin_{name}" for name in margins(study, outcome.front[0])), "feasible", "error",
+        *(f"margin_{name}" for name in limit_names(study)), "feasible", "error", "warnings",
     ]  # fmt: skip
     rows = []
     for one in candidates:
@@ -51,7 +59,7 @@ def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.Da
             row |= {f"margin_{name}": value for name, value in margins(study, one).items()}
         rows.append(
             row | {"life_reached": one.reached, "stop": one.stop, "feasible": one.feasible}
-            | {"error": one.error}
+            | {"error": one.error, "warnings": one.warnings}
         )  # fmt: skip
     return pd.DataFrame(rows, columns=columns)
 
@@ -93,7 +101,33 @@ def warnings_of(outcome: Outcome) -> tuple[str, ...]:
     if not outcome.given.feasible:
         why = "fails" if outcome.given.error else "breaks limits"
         found.append(f"the case as given {why}: what the best design gains has no measure")
-    return (*found, *study.case.warnings)
+    else:
+        found += [
+            f"the case as given has a better {name} than every design that was tried: it lies outside the "
+            "parameters, or more trials are needed"
+            for name in study.objectives
+            if outcome.given.cost(name) < min(one.cost(name) for one in outcome.front) - _SAME
+        ]
+    if not outcome.settled:
+        found.append(
+            f"the search was ended by --evaluations {study.evaluations} while it still gained: more may "
+            "give better designs"
+        )
+    return (*found, *_of_designs(outcome))
+
+
+def _of_designs(outcome: Outcome) -> list[str]:
+    """Warnings of the best designs, those that differ in their numbers only as one."""
+    kinds: dict[str, tuple[str, int]] = {}
+    for number, one in enumerate(outcome.front, 1):
+        for text in filter(None, one.warnings.split("\n")):
+            kind = re.sub(r"\d[\d.e+-]*", "#", text)
+            first, count = kinds.get(kind, (f"design {_name(number, outcome)}: {text}", 0))
+            kinds[kind] = first, count + 1
+    return [
+        first if count == 1 else f"{first} (and of {count - 1} more designs)"
+        for first, count in kinds.values()
+    ]
 
 
 def optimise_text(outcome: Outcome) -> str:
@@ -122,7 +156,7 @@ def optimise_text(outcome: Outcome) -> str:
     lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
     if failed:
         lines.append(f"             {commonest_reason(study, failed)}")
-    texts = [*study.assumptions, *study.case.assumptions]
+    texts = study.assumptions(outcome.cases)
     lines += ["", "assumptions:"]
     lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
     lines += [f"warning: {text}" for text in warnings_of(outcome)]
@@ -131,7 +165,7 @@ def optimise_text(outcome: Outcome) -> str:
 
 def _table(outcome: Outcome) -> list[str]:
     study = outcome.study
-    limits = list(margins(study, outcome.front[0]))
+    limits = limit_names(study)
     head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     shown = [("as given", outcome.given)]
@@ -206,7 +240,7 @@ def optimise_json(outcome: Outcome) -> dict[str, Any]:
         "commonest_reason": commonest_reason(study, failed),
         "given": _plain(outcome, outcome.given),
         "designs": [_plain(outcome, one) for one in outcome.front],
-        "assumptions": [*study.assumptions, *study.case.assumptions],
+        "assumptions": list(study.assumptions(outcome.cases)),
         "warnings": list(warnings_of(outcome)),
     }
 
@@ -221,11 +255,31 @@ def _plain(outcome: Outcome, one: Candidate) -> dict[str, Any]:
         "margins": {} if one.error else margins(study, one),
         "feasible": one.feasible,
         "error": one.error,
+        "warnings": list(filter(None, one.warnings.split("\n"))),
     }
 
 
+def save_candidates(outcome: Outcome, folder: Path) -> None:
+    """Write the table of all designs that were tried into the folder of a study.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search, perhaps without a feasible design.
+    folder : pathlib.Path
+        Its folder.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
+    save_texts(folder, {"candidates.csv": tried.to_csv(index=False)})
+
+
 def save_optimise(outcome: Outcome, folder: Path) -> None:
-    """Write tables, pictures and the best designs into the folder of a study.
+    """Write the best designs, as a table, as pictures and as cases, into the folder of a study.
 
     Parameters
     ----------
@@ -239,9 +293,7 @@ def save_optimise(outcome: Outcome, folder: Path) -> None:
     OutputError
         It cannot be written.
     """
-    tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
     texts = {
-        "candidates.csv": tried.to_csv(index=False),
         "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
         "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
     }

@@ -15,6 +15,9 @@ from wearsim.study.runner.design import Design, design, replaced
 from wearsim.study.scatter import WITH_FATIGUE
 from wearsim.study.search_space import SearchSpace, search_space
 
+_BEYOND = 1.02
+"""Horizon over the longest life that is allowed, at least."""
+
 
 @dataclass(frozen=True)
 class OptimiseStudy:
@@ -67,20 +70,39 @@ class OptimiseStudy:
         """
         return replace(self.given, keys=self.space.keys, rows=tuple(rows))
 
-    @property
-    def assumptions(self) -> tuple[str, ...]:
-        """What is taken for granted."""
+    def assumptions(self, cases: Sequence[Case]) -> tuple[str, ...]:
+        """Return what is taken for granted of designs.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            The designs, at least one.
+
+        Returns
+        -------
+        tuple of str
+            What holds for all of them, and that more does where they differ.
+        """
+        each = [(*self._of_measures(case), *case.assumptions) for case in cases]
+        shared = [text for text in each[0] if all(text in other for other in each[1:])]
+        if any(len(texts) > len(shared) for texts in each):
+            shared.append(
+                "more that differs from design to design: `wearsim check designs/01.toml` tells it"
+            )
+        return tuple(shared)
+
+    def _of_measures(self, case: Case) -> list[str]:
         found = []
         if "mass_kg" in self.measures:
-            found.append(mass_assumption(self.case))
+            found.append(mass_assumption(case))
         if "peak_pressure_MPa" in self.measures:
             found.append(
                 "the peak pressure is that on the new flank (Hertz) under the heaviest block of the duty; "
                 "wear changes it"
             )
-        if self.case.fatigue is not None:
+        if case.fatigue is not None:
             found.append(WITH_FATIGUE)
-        return tuple(found)
+        return found
 
 
 def load_optimise(
@@ -121,7 +143,9 @@ def load_optimise(
         blank_mass(case)
     if "life_hours" in limits:
         life = limits["life_hours"]
-        case = case.with_horizon(max(life.low or 0.0, life.high or 0.0))
+        # A life that runs beyond its high limit must be seen to.
+        horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
+        case = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     given = design(replace(document, data=data), space.keys, [], str(path))

@@ -30,7 +30,7 @@ _TRUSTED, _MARGINS = 0.25, (0.0, 3e-4)
 """Part of the ranges in which a model is trusted, and distances from the limits that it keeps."""
 
 
-def search(study: OptimiseStudy, trials: Trials) -> None:
+def search(study: OptimiseStudy, trials: Trials) -> bool:
     """Try designs until the best are found or no trial is left.
 
     One objective: differential evolution in generations, then steps to the optimum of local
@@ -44,6 +44,11 @@ def search(study: OptimiseStudy, trials: Trials) -> None:
     trials : Trials
         Takes what is tried.
 
+    Returns
+    -------
+    bool
+        Whether it ended as nothing was gained any more; of several objectives all trials are used.
+
     Raises
     ------
     CaseError
@@ -54,10 +59,10 @@ def search(study: OptimiseStudy, trials: Trials) -> None:
     if len(study.objectives) > 1:
         evolve_front(study, trials, points)
         refine_front(study, trials, size)
-        return
+        return True
     if trials.left >= _reserve(study):
         _evolve(study, trials, points)
-    _poll(study, trials)
+    return _poll(study, trials)
 
 
 def generation_size(study: OptimiseStudy) -> int:
@@ -127,8 +132,11 @@ def _reserve(study: OptimiseStudy) -> int:
     return generation_size(study) + study.evaluations // 3
 
 
-def _poll(study: OptimiseStudy, trials: Trials) -> None:
-    """Look where models have the best design, and around the best so far in smaller and smaller steps."""
+def _poll(study: OptimiseStudy, trials: Trials) -> bool:
+    """Look where models have the best design, and around the best so far in smaller and smaller steps.
+
+    Whether nothing was gained in the end.
+    """
     rng = np.random.default_rng((study.seed, 1))
     free = np.flatnonzero(~study.space.whole)
     step = _FIRST_STEP
@@ -137,7 +145,7 @@ def _poll(study: OptimiseStudy, trials: Trials) -> None:
     while trials.left > 0 and not best.error:
         if step <= _LAST_STEP:
             if before - _cost(study, best) < _GAIN:
-                return
+                return True
             step, before = _FIRST_STEP, _cost(study, best)
         middle = study.space.place(best.values)
         assert middle is not None
@@ -151,6 +159,7 @@ def _poll(study: OptimiseStudy, trials: Trials) -> None:
             best, step = ahead, 1.5 * step
         else:
             step *= 0.5
+    return False
 
 
 def _around(middle: Vector, free: Places, step: float, rng: np.random.Generator) -> list[Vector]:

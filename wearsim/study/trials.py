@@ -54,6 +54,8 @@ class Candidate:
         failed.
     error : str
         Why it failed.
+    warnings : str
+        What is doubtful about it, a line for each.
     """
 
     number: int
@@ -63,6 +65,7 @@ class Candidate:
     stop: str
     violation: float
     error: str
+    warnings: str
 
     @property
     def feasible(self) -> bool:
@@ -98,13 +101,23 @@ class Outcome:
     candidates : tuple of Candidate
         What was tried, in order.
     front : tuple of Candidate
-        The best design, or those than which none is better in all objectives.
+        The best design, or those than which none is better in all objectives; none where no
+        design is feasible.
+    settled : bool
+        Whether the search ended as nothing was gained any more.
     """
 
     study: OptimiseStudy
     given: Candidate
     candidates: tuple[Candidate, ...]
     front: tuple[Candidate, ...]
+    settled: bool
+
+    @property
+    def cases(self) -> list[Case]:
+        """The best designs as cases."""
+        cases = loaded_cases(self.study.design([one.values for one in self.front]))
+        return [case for case in cases if isinstance(case, Case)]
 
 
 class Trials:
@@ -178,7 +191,8 @@ def _candidate(
             error, measures = str(reason), {}
     violation = math.inf if error else sum(_excesses(study.limits, measures).values())
     stop = "" if error else str(found["stop"])
-    return Candidate(number, row, {} if error else measures, reached, stop, violation, error)
+    measures = {} if error else measures
+    return Candidate(number, row, measures, reached, stop, violation, error, str(found["warnings"]))
 
 
 def _excesses(
@@ -191,6 +205,27 @@ def _excesses(
         below = 0.0 if limit.low is None else math.log(limit.low / measures[name])
         found[name] = max(above, below, 0.0)
     return found
+
+
+def limit_names(study: OptimiseStudy) -> list[str]:
+    """Return the limits by names such as ``life_hours.low``.
+
+    Parameters
+    ----------
+    study : OptimiseStudy
+        What is asked.
+
+    Returns
+    -------
+    list of str
+        In the order of the table.
+    """
+    return [
+        f"{name}.{end}"
+        for name, limit in study.limits.items()
+        for end in ("low", "high")
+        if getattr(limit, end) is not None
+    ]
 
 
 def margins(study: OptimiseStudy, candidate: Candidate) -> dict[str, float]:
@@ -269,9 +304,14 @@ def check_feasible(study: OptimiseStudy, candidates: Sequence[Candidate]) -> Non
     """
     if any(candidate.feasible for candidate in candidates):
         return
+    nearest = min(candidates, key=lambda one: one.violation)
+    near = ""
+    if not nearest.error:
+        beyond = 100.0 * math.expm1(nearest.violation)
+        near = f"; design {nearest.number} comes nearest, {beyond:.3g} % beyond the limits in all"
     raise StudyError(
-        f"none of {len(candidates)} designs is feasible: {commonest_reason(study, candidates)}: widen the "
-        "parameters, loosen the limits, or try more (--evaluations)"
+        f"none of {len(candidates)} designs is feasible: {commonest_reason(study, candidates)}{near}: "
+        "widen the parameters, loosen the limits, or try more (--evaluations)"
     )
 
 

@@ -268,7 +268,7 @@ def _minimum(residuals: Residuals, start: Vector, low: Vector, high: Vector) -> 
     inside = np.clip(start, low + margin, high - margin)
     found = least_squares(
         residuals, inside, jac=jacobian, bounds=(low, high),
-        x_scale=1.0, xtol=1e-5, ftol=1e-7, gtol=1e-6, max_nfev=100,
+        x_scale=1.0, xtol=1e-7, ftol=1e-10, gtol=1e-8, max_nfev=100,
     )  # fmt: skip
     return np.asarray(found.x)
 
