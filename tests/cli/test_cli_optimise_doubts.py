@@ -49,14 +49,13 @@ def test_warnings_of_the_best_design_are_told(cli, case, tmp_path):
     done = cli("optimise", path, "--evaluations", 12, "--out", tmp_path / "out")
     assert done.code == 0
     own = json.loads(cli("life", tmp_path / "out" / "designs" / "01.toml", "--json").out)
-    # Studies do not estimate the error of the grid.
-    expected = [text for text in own["warnings"] if not text.startswith("numerical error")]
-    assert expected
-    for text in expected:
-        assert f"warning: design 01: {text}" in done.out
     with (tmp_path / "out" / "front.csv").open(encoding="utf-8", newline="") as file:
         (row,) = csv.DictReader(file)
-    assert row["warnings"].split("\n") == expected
+    told = row["warnings"].split("\n")
+    # Studies look at the end of a run only, so that they do not warn of all that `life` warns of.
+    assert told[0] and set(told) <= set(own["warnings"])
+    for text in told:
+        assert f"warning: design 01: {text}" in done.out
 
 
 def test_assumptions_are_those_of_the_best_design(cli, case):
