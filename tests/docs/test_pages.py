@@ -1,6 +1,6 @@
 """Tutorial and how-tos run as they are printed, each in a folder, and answer what they show.
 
-A block ``toml`` or ``csv`` that begins with ``# NAME`` is the file of that name. The blocks ``text``
+A block ``toml`` or ``none`` that begins with ``# NAME`` is the file of that name. The blocks ``text``
 hold lines of the answer to the commands or the Python before them. A command that is refused
 says so behind it: ``# exit code 2``.
 """
