@@ -202,7 +202,7 @@ def test_defaults(tmp_path):
         ("convex_concave.backlash_mm=-1", 2, "must be greater than or equal to 0"),
         ("convex_concave.arc=1", 2, "unknown key"),
         ("gears.root_form=filet", 2, "did you mean 'fillet'?"),
-        ("gears.roller_diameters_mm=[]", 2, "at least 1 item"),
+        ("gears.roller_diameters_mm=[]", 2, "must hold at least 1 value"),
         ("gears.root_clearance_ratio=-0.1", 2, "must be greater than or equal to 0"),
         ("gears.roller_diameters_mm=[2]", 3, "roller_diameters_mm: must be from 2.9711 to"),
         ("gears.root_clearance_ratio=0.25", 3, "root_clearance_ratio: must be at most 0.061 for"),

@@ -214,7 +214,7 @@ def test_interrupted_search_goes_on_and_runs_nothing_twice(
     assert plan.code == 0
     assert "designs      400 at most" in plan.out
     assert " s in one thread, from 4 designs" in plan.out
-    (out / "designs" / "99.toml").write_text("")
+    (out / "designs" / "99.toml").write_text("# design 7 of wearsim optimise drive: mass_kg 1\n")
     assert cli("optimise", case(), "--evaluations", 10, "--out", out, "--force", *other).code == 0
     assert [entry.name for entry in (out / "designs").iterdir()] == ["01.toml"]
 
@@ -275,18 +275,133 @@ def test_files_of_a_case_go_with_its_designs(cli, tmp_path, without_pictures):
     assert "optimise" not in given
 
 
+@pytest.fixture
+def two_flanks(tmp_path):
+    """Case that names a file in another folder, with both of two files as a parameter."""
+    (tmp_path / "data").mkdir()
+    text = (CASES / "hertz-arc-prescribed.csv").read_text(encoding="utf-8")
+    (tmp_path / "data" / "a.csv").write_text(text)
+    head, *rows = text.splitlines()
+    at = head.split(",").index("load_per_width_N_per_mm")
+    cells = [row.split(",") for row in rows]
+    less = [",".join([*row[:at], str(0.5 * float(row[at])), *row[at + 1 :]]) for row in cells]
+    (tmp_path / "b.csv").write_text("\n".join([head, *less]) + "\n")
+    path = tmp_path / "case.toml"
+    case = (CASES / "hertz-arc-prescribed.toml").read_text(encoding="utf-8")
+    case = case.replace('"hertz-arc-prescribed.csv"', '"data/a.csv"')
+    path.write_text(case + table('"mechanism.table_file" = ["data/a.csv", "b.csv"]\n', limits=""))
+    return path
+
+
+def test_files_as_a_parameter_go_with_the_designs(cli, two_flanks, tmp_path, without_pictures):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    without_pictures()
+    out = tmp_path / "out"
+    done = cli("optimise", two_flanks, "--evaluations", 10, "--out", out, "--json")
+    assert done.code == 0, done.err
+    content = json.loads(done.out)
+    assert (content["evaluations"], content["infeasible"]) == (2, 0)
+    assert content["given"]["inputs"] == {"mechanism.table_file": "a.csv"}
+    (best,) = content["designs"]
+    assert best["inputs"] == {"mechanism.table_file": "b.csv"}
+    assert best["life_hours"] > content["given"]["life_hours"]
+    # Only the file that the design names lies beside it.
+    assert {path.name for path in (out / "designs").iterdir()} == {"01.toml", "b.csv"}
+    single = json.loads(cli("life", out / "designs" / "01.toml", "--json").out)
+    assert single["life_hours"] == best["life_hours"]
+
+
+def test_files_as_a_parameter_are_there_and_differ(cli, two_flanks, tmp_path):
+    (tmp_path / "b.csv").unlink()
+    done = cli("optimise", two_flanks)
+    assert (done.code, done.out) == (2, "")
+    assert 'parameters."mechanism.table_file": must name files that can be read' in done.err
+    assert "but 'b.csv' cannot" in done.err
+    text = two_flanks.read_text().replace('"b.csv"', '"data/./a.csv"')
+    two_flanks.write_text(text)
+    assert "every file once" in cli("optimise", two_flanks).err
+    two_flanks.write_text(text.replace('"data/./a.csv"', "3"))
+    assert "takes names of files: give a list" in cli("optimise", two_flanks).err
+
+
+def test_files_of_the_user_stay_as_they_are(cli, two_flanks, tmp_path, without_pictures):
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    without_pictures()
+    out = tmp_path / "out"
+    designs = out / "designs"
+    command = ("optimise", two_flanks, "--evaluations", 10, "--out", out)
+    assert cli(*command).code == 0
+    own = {"99.toml": "# mine\n", "2026-plan.toml": "", "b.csv": "other\n", "notes.txt": ""}
+    for name, text in own.items():
+        (designs / name).write_text(text)
+    (designs / "98.toml").write_text("# design 3 of wearsim optimise case: life_hours 1\n")
+    assert cli(*command).code == 0
+    assert cli(*command, "--force", "--seed", 2).code == 0
+    assert {name: (designs / name).read_text() for name in own} == own
+    assert not (designs / "98.toml").exists()
+    # The file of the case lies there under another name, and the design names that.
+    named = tomllib.loads((designs / "01.toml").read_text())["mechanism"]["table_file"]
+    assert named.startswith("b-")
+    assert (designs / named).read_text() == (tmp_path / "b.csv").read_text()
+    (designs / "01.toml").write_text("# mine\n")
+    done = cli(*command, "--force", "--seed", 2)
+    assert (done.code, (designs / "01.toml").read_text()) == (2, "# mine\n")
+    assert "01.toml: must be free for a design" in done.err
+
+
+def test_limits_of_wear_move_with_a_warning(cli, case):
+    path = case(table('"stop.critical_depth_mm" = [0.1, 0.2]\n', limits=""))
+    (text,) = [one for one in answer(cli, path)["warnings"] if "limit of wear" in one]
+    assert text.startswith("stop.critical_depth_mm is a limit of wear")
+    assert "the limit moves and not the drive" in text
+
+
+def test_numbers_of_entries_have_one_spelling(cli, case):
+    load = "[load]\npower_kW = 3\nspeed_rpm = 100\n"
+    blocks = "[[duty]]\nshare_of_time = 1.0\npower_kW = 3\nspeed_rpm = 100\n"
+
+    def written(parameters):
+        path = case(table(parameters, limits=""))
+        path.write_text(path.read_text().replace(load, blocks))
+        return path
+
+    speeds = "{low = 100.0, high = 110.0}\n"
+    (best,) = answer(cli, written(f'"duty.01.speed_rpm" = {speeds}'), evaluations=10)["designs"]
+    assert list(best["inputs"]) == ["duty.1.speed_rpm"]
+    done = cli("optimise", written(f'"duty.1.speed_rpm" = {speeds}"duty.01.speed_rpm" = {speeds}'))
+    assert done.code == 2
+    assert "duty.1.speed_rpm is given twice" in done.err
+    done = cli("optimise", written(f'"duty.².speed_rpm" = {speeds}'))
+    assert done.code == 2
+    assert "must be a key of a case" in done.err
+
+
+def test_misspelt_keys_of_a_range_get_no_hint_at_other_tables(cli, case):
+    done = cli("optimise", case(table('"load.power_kW" = {low = 1.0, hihg = 2.0}\n')))
+    assert "optimise.parameters.load.power_kW.hihg: unknown key\n" in done.err
+    assert "did you mean" not in done.err
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("", "optimise: this table is required"),
         ("[optimise]\n", "optimise.parameters: "),
-        (table(""), "at least 1 item"),
-        (table(objectives=""), "at least 1 item"),
+        (table(""), "must hold at least 1 "),
+        (table(objectives=""), "must hold at least 1 "),
         (table(objectives='"cost"'), "optimise.objectives"),
         (table(objectives='"mass_kg", "mass_kg"'), "every objective once"),
         (table('"sprocket.tooth" = [3, 4]\n'), "did you mean 'sprocket.teeth'"),
         (table('"sprocket.teeth" = [20, 20]\n'), "every value once"),
-        (table('"sprocket.teeth" = [20]\n'), "at least 2 items"),
+        (table('"sprocket.teeth" = [20]\n'), "must hold at least 2 values (holds 1)"),
+        (table('"sprocket.teeth" = [20, 20.0]\n'), "every value once"),
+        (table('"sprocket.teeth" = 12\n'), "must be a range {low, high} or a list of values (got 12)"),
+        (table('"sprocket.teeth" = {low = 20, high = 2000000000}\n'), "at most 100000 whole numbers"),
+        (table('"load.power_kW" = {low = -1e308, high = 1e308}\n'), "less than 1.8e308 apart"),
+        (table('"sprocket.displaced" = {low = 0, high = 1}\n'), "give the list [true, false]"),
+        (table('"format_version" = [1, 2]\n'), "tells how the file is read"),
+        (table('"sprocket.nodes" = [101, 201]\n'), "tells how finely a design is calculated"),
+        (table('"mechanism.phases" = [8, 16]\n'), "tells how finely a design is calculated"),
         (table('"sprocket.teeth" = {low = 20.0, high = 22.0}\n'), "takes whole numbers"),
         (table('"sprocket.profile" = {low = 1, high = 2}\n'), "takes words, not a range"),
         (table('"load.power_kW" = {low = 2.0, high = 2.0}\n'), "must be above low = 2"),

@@ -125,7 +125,7 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
     [
         ("", "a sweep needs values for a key"),
         ('[grid]\n"sprocket.tooth" = [3]\n', "must be a key of a case; did you mean 'sprocket.teeth'"),
-        ('[grid]\n"sprocket.teeth" = []\n', "at least 1 item"),
+        ('[grid]\n"sprocket.teeth" = []\n', "must hold at least 1 value"),
         ('[grid]\n"a.b" = {from = 1.0, to = 2.0, count = 1}\n', "greater than or equal to 2"),
         ('[grid]\n"a.b" = {from = 0.0, to = 2.0, count = 3, spacing = "log"}\n', "both ends above 0"),
         ('[grid]\n"a.b" = {from = inf, to = 2.0, count = 3}\n', "finite number"),

@@ -1,9 +1,11 @@
 """Tables by dotted names, and keys that take a table or a list."""
 
 import pytest
+from pydantic import ValidationError
 
 import wearsim
 from wearsim.case.schema.dotted import dotted
+from wearsim.case.schema.sweep import SweepTables
 from wearsim.errors import CaseError
 
 CASE = {
@@ -46,3 +48,15 @@ def test_faults_name_the_key_and_nothing_of_the_library(table, told):
     assert all(message in text for message in told), text
     assert "function" not in text and "union" not in text
     assert len(text.splitlines()) == len(told)
+
+
+def test_numbers_of_entries_are_counted_without_zeros():
+    assert dotted({"duty": {"01": {"speed_rpm": 3}}}) == {"duty.1.speed_rpm": 3}
+    assert dotted({"duty.².speed_rpm": 3}) == {"duty.².speed_rpm": 3}
+    with pytest.raises(ValueError, match="given twice"):
+        dotted({"duty.1.speed_rpm": 3, "duty.01.speed_rpm": 4})
+
+
+def test_a_sweep_tells_its_own_words_of_values():
+    with pytest.raises(ValidationError, match=r"must be a range \{from, to, count\} or a list"):
+        SweepTables.model_validate({"format_version": 1, "case": "a", "grid": {"load.power_kW": 3}})

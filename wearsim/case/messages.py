@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from wearsim.case.schema.dotted import CHOSEN
+from wearsim.case.schema.dotted import CHOSEN, is_number, without_numbers
 from wearsim.errors import CaseError, Fault
 
 _MARK = "\x00wearsim\x00"
@@ -140,6 +140,8 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     if kind == "missing":
         what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
         return f"this {what} is required and missing"
+    if kind in ("too_short", "too_long"):
+        return _length_message(entry["ctx"], kind)
     text = str(entry["msg"]).removeprefix("Value error, ")
     text = text.replace("Input should be", "must be")
     if kind == "model_type":
@@ -157,6 +159,14 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     return f"{text} (got {_shown(got)}){hint}"
 
 
+def _length_message(found: Mapping[str, Any], kind: str) -> str:
+    word, count = (
+        ("least", found["min_length"]) if kind == "too_short" else ("most", found["max_length"])
+    )
+    one, many = ("key", "keys") if found["field_type"] == "Dictionary" else ("value", "values")
+    return f"must hold at {word} {count} {one if count == 1 else many} (holds {found['actual_length']})"
+
+
 def _shown(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
@@ -165,8 +175,13 @@ def _shown(value: object) -> str:
 
 
 def _similar(key: str, names: list[str]) -> str:
-    """Name the keys like an unknown one: of its own table first, then the same word elsewhere."""
-    table, _, last = ".".join(part for part in key.split(".") if not part.isdigit()).rpartition(".")
+    """Name the keys like an unknown one: of its own table first, then the same word elsewhere.
+
+    A table by the dotted name of another key is not of the schema, and has its keys alone.
+    """
+    table, _, last = without_numbers(key).rpartition(".")
+    if table and table not in names:
+        return ""
     siblings = {name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table}
     close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
     if close:
@@ -209,11 +224,11 @@ def _line_of_value(text: str, parts: list[str]) -> int:
     document: Any = tomlkit.parse(text)
     place = document
     for part in parts[:-1]:
-        if isinstance(place, list) and part.isdigit() and 0 < int(part) <= len(place):
+        if isinstance(place, list) and is_number(part) and 0 < int(part) <= len(place):
             place = place[int(part) - 1]
         else:
             place = place.get(part) if isinstance(place, Mapping) else None
-    if isinstance(place, AoT) and parts[-1].isdigit():
+    if isinstance(place, AoT) and is_number(parts[-1]):
         return _line_of_header(text, ".".join(parts[:-1]), int(parts[-1]))
     if not isinstance(place, Mapping) or parts[-1] not in place:
         return 0

@@ -2,17 +2,17 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from wearsim.output import write_file
 from wearsim.report.answer import grouped
+from wearsim.report.design_files import save_designs
 from wearsim.report.optimise_figures import optimise_figures
 from wearsim.report.study_files import plain, save_figures, save_texts
-from wearsim.study.runner.store import DESIGN_FILES, DESIGNS
+from wearsim.study.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.trials import (
     MAXIMISED,
     Candidate,
@@ -113,7 +113,7 @@ def warnings_of(outcome: Outcome) -> tuple[str, ...]:
             f"the search was ended by --evaluations {study.evaluations} while it still gained: more may "
             "give better designs"
         )
-    return (*found, *_of_designs(outcome))
+    return (*found, *study.space.warnings, *_of_designs(outcome))
 
 
 def _of_designs(outcome: Outcome) -> list[str]:
@@ -305,29 +305,14 @@ def save_optimise(outcome: Outcome, folder: Path) -> None:
 def _save_designs(outcome: Outcome, folder: Path) -> None:
     """Write each of the best designs as a case of its own, with the files that it names."""
     study = outcome.study
-    cases = study.design([one.values for one in outcome.front])
-    files = {
-        f"{_name(at + 1, outcome)}.toml": _case_text(outcome, one, cases.tables_of(at))
-        for at, one in enumerate(outcome.front)
+    heads = {
+        f"{_name(number, outcome)}.toml": _head(outcome, one)
+        for number, one in enumerate(outcome.front, 1)
     }
-    for path in folder.glob(DESIGN_FILES):
-        if path.name not in files:
-            path.unlink()
-    for name, text in cases.files.items():
-        data = text.encode("utf-8", "surrogateescape")
-        write_file(folder / name, data, force=True)
-    save_texts(folder, files)
+    save_designs(folder, heads, study.design([one.values for one in outcome.front]))
 
 
-def _case_text(outcome: Outcome, one: Candidate, tables: Mapping[str, Any]) -> str:
-    import tomlkit
-
+def _head(outcome: Outcome, one: Candidate) -> str:
     study = outcome.study
     found = ", ".join(f"{name} {_measure(one, name)}" for name in study.measures)
-    document = tomlkit.document()
-    document.add(
-        tomlkit.comment(f"design {one.number} of wearsim optimise {study.case.name}: {found}")
-    )
-    for key, value in tables.items():
-        document.add(key, value)
-    return tomlkit.dumps(document)
+    return f"design {one.number}{DESIGN_MARK}{study.case.name}: {found}"

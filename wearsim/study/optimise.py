@@ -2,16 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
+from itertools import zip_longest
+from pathlib import Path, PurePath
 from typing import Any
 
-from wearsim.case.document import read_document
+from wearsim.case.document import Document, read_document
 from wearsim.case.load import load_case
 from wearsim.case.model import Case
+from wearsim.case.schema.dotted import all_differ, is_number
 from wearsim.case.schema.optimise import MeasureLimit, OptimiseTable
 from wearsim.errors import CaseError, Fault
 from wearsim.sizing.blank import blank_mass, mass_assumption
-from wearsim.study.runner.design import Design, design, replaced
+from wearsim.study.runner.design import NAMES_FILE, Design, design, replaced
 from wearsim.study.scatter import WITH_FATIGUE
 from wearsim.study.search_space import SearchSpace, search_space
 
@@ -129,7 +131,8 @@ def load_optimise(
     Raises
     ------
     CaseError
-        The case is wrong, has no table [optimise], or has none of what is sought.
+        The case is wrong, has no table [optimise], or has none of what is sought; a file that a
+        parameter names is not there.
     """
     document = read_document(path, overrides)
     case = load_case(path, overrides)
@@ -148,7 +151,7 @@ def load_optimise(
         case = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
-    given = design(replace(document, data=data), space.keys, [], str(path))
+    given, space = _with_files(replace(document, data=data), space, path)
     return OptimiseStudy(
         case, replace(given, keys=(), rows=((),)), space,
         tuple(_value(case.inputs, key) for key in space.keys),
@@ -156,11 +159,52 @@ def load_optimise(
     )  # fmt: skip
 
 
+def _with_files(document: Document, space: SearchSpace, path: Path) -> tuple[Design, SearchSpace]:
+    """Read the files that the case and the choices name; the choices are then bare names."""
+    named = {
+        parameter.key: parameter.choices
+        for parameter in space.parameters
+        if parameter.key in NAMES_FILE
+    }
+    faults = [
+        Fault(f"must name files that can be read, but {name!r} cannot", _place(key), str(path))
+        for key, names in named.items()
+        for name in names
+        if not _is_readable(document.folder / name)
+    ]
+    if faults:
+        raise CaseError(faults)
+    rows = list(zip_longest(*(named.get(key, ()) for key in space.keys)))
+    given = design(document, space.keys, rows, str(path))
+    parameters = []
+    for parameter, column in zip(space.parameters, zip(*given.rows, strict=True), strict=False):
+        bare = tuple(name for name in column if name is not None)
+        if not all_differ(bare):
+            text = "every file once, but one is given twice: remove it"
+            raise CaseError([Fault(text, _place(parameter.key), str(path))])
+        parameters.append(replace(parameter, choices=bare) if bare else parameter)
+    return given, SearchSpace(tuple(parameters) or space.parameters)
+
+
+def _is_readable(path: Path) -> bool:
+    try:
+        with path.open("rb"):
+            return True
+    except (OSError, ValueError):
+        return False
+
+
+def _place(key: str) -> str:
+    return f'optimise.parameters."{key}"'
+
+
 def _value(inputs: Mapping[str, Any], key: str) -> Any:
+    """Of a key in the case; of a file its name without folder."""
     found: Any = inputs
     for part in key.split("."):
         if isinstance(found, list):
-            found = found[int(part) - 1] if part.isdigit() and int(part) <= len(found) else None
+            is_there = is_number(part) and 0 < int(part) <= len(found)
+            found = found[int(part) - 1] if is_there else None
         else:
             found = found.get(part) if isinstance(found, Mapping) else None
-    return found
+    return PurePath(found).name if key in NAMES_FILE and isinstance(found, str) else found

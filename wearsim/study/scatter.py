@@ -10,6 +10,7 @@ import numpy as np
 from wearsim.case.document import Document, read_document
 from wearsim.case.load import load_case
 from wearsim.case.model import Case, WrapDrive
+from wearsim.case.schema.dotted import is_number
 from wearsim.case.schema.uncertainty import Distribution
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
@@ -211,7 +212,7 @@ def _value(case: Case, key: str) -> float:
     for part in key.split("."):
         if isinstance(found, Mapping):
             found = found.get(part)
-        elif isinstance(found, list) and part.isdigit() and 0 < int(part) <= len(found):
+        elif isinstance(found, list) and is_number(part) and 0 < int(part) <= len(found):
             found = found[int(part) - 1]
         else:
             found = None

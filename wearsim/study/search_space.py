@@ -1,5 +1,6 @@
 """What an optimisation may change: keys between two ends or from a list, as numbers of a box."""
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,9 +10,11 @@ from numpy.typing import NDArray
 from pydantic.fields import FieldInfo
 
 from wearsim.case.keys import parts, schema_fields, schema_of, words
+from wearsim.case.schema.dotted import without_numbers
 from wearsim.case.schema.optimise import ParameterRange
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
+from wearsim.study.runner.design import NAMES_FILE
 from wearsim.study.uncertainty import unit_samples
 
 _DIGITS = 7
@@ -20,8 +23,21 @@ _DIGITS = 7
 _NEAR_END = 1e-3
 """Part of a range within which a value lies on its end."""
 
-_NOT_OF_A_DESIGN = ("run", "optimise", "uncertainty", "maintenance", "service", "title")
-"""Tables that tell how a case is calculated or shown, not what it is."""
+_MOST_WHOLE = 100_000
+"""Whole numbers of a range."""
+
+_NOT_OF_A_DESIGN = {
+    **dict.fromkeys(
+        ("run", "optimise", "uncertainty", "maintenance", "service", "title"),
+        "must be a key of the design, not of how it is calculated or shown",
+    ),
+    "format_version": "tells how the file is read, and is no part of the design",
+    **dict.fromkeys(
+        ("sprocket.nodes", "gear.nodes", "mechanism.phases"),
+        "tells how finely a design is calculated: its best value would be that of the greatest error",
+    ),
+}
+"""Tables and keys that are none of a design, and why."""
 
 
 @dataclass(frozen=True)
@@ -129,6 +145,16 @@ class SearchSpace:
         """Whether each parameter has a list of values."""
         return np.array([bool(parameter.choices) for parameter in self.parameters])
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful about changing some keys."""
+        return tuple(
+            f"{key} is a limit of wear: where it changes the limit moves and not the drive, and a life "
+            "gained by it is no better design"
+            for key in self.keys
+            if key.startswith("stop.")
+        )
+
     def row(self, place: Sequence[float] | Vector) -> tuple[Any, ...]:
         """Return the values at a point of the unit cube.
 
@@ -207,13 +233,13 @@ def search_space(tables: Mapping[str, Any], parameters: Mapping[str, Any]) -> Se
     Raises
     ------
     CaseError
-        A key that tells how a case is calculated, or a range where only words or whole numbers
-        are allowed.
+        A key that tells how a case is calculated, a range where only words, files or whole numbers
+        are allowed, or one of too many.
     """
     fields = {key.replace("[]", ""): field for key, field in schema_fields(schema_of(tables))}
     found, faults = [], []
     for key, given in parameters.items():
-        plain = ".".join(part for part in key.split(".") if not part.isdigit())
+        plain = without_numbers(key)
         text = _unfit(plain, given, fields.get(plain))
         if text:
             faults.append(Fault(text, f'optimise.parameters."{key}"'))
@@ -225,17 +251,32 @@ def search_space(tables: Mapping[str, Any], parameters: Mapping[str, Any]) -> Se
 
 
 def _unfit(key: str, given: Any, field: FieldInfo | None) -> str:
-    if key.partition(".")[0] in _NOT_OF_A_DESIGN:
-        return "must be a key of the design, not of how it is calculated or shown: remove it"
+    reason = _NOT_OF_A_DESIGN.get(key) or _NOT_OF_A_DESIGN.get(key.partition(".")[0])
+    if reason:
+        return f"{reason}: remove it"
+    if key in NAMES_FILE:
+        named = isinstance(given, list) and all(isinstance(name, str) for name in given)
+        return "" if named else "takes names of files: give a list of them"
     if field is None or not isinstance(given, ParameterRange):
         return ""
+    return _unfit_range(given, field)
+
+
+def _unfit_range(given: ParameterRange, field: FieldInfo) -> str:
+    if bool in parts(field.annotation):
+        return "takes true or false, not a range: give the list [true, false]"
     if words(field):
-        return f"takes words, not a range: give a list such as {list(words(field))}"
-    if _is_whole(field) and not (isinstance(given.low, int) and isinstance(given.high, int)):
+        shown = json.dumps(words(field), ensure_ascii=False)
+        return f"takes words, not a range: give a list such as {shown}"
+    if not _is_whole(field):
+        return ""
+    if not (isinstance(given.low, int) and isinstance(given.high, int)):
         return (
             f"takes whole numbers: give low and high as such, not {given.low:g} and {given.high:g}"
         )
-    return ""
+    count = given.high - given.low + 1
+    too_many = f"may hold at most {_MOST_WHOLE} whole numbers, holds {count}: give nearer ends"
+    return too_many if count > _MOST_WHOLE else ""
 
 
 def _parameter(key: str, given: Any, field: FieldInfo | None) -> Parameter:

@@ -1,8 +1,82 @@
 """Tables whose keys are the dotted names of a case's keys."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any
 
-from pydantic import Discriminator, Tag
+from pydantic import BaseModel, Discriminator, Tag
+
+
+def is_number(part: str) -> bool:
+    """Return whether a part of a dotted name counts the entries of a list.
+
+    Parameters
+    ----------
+    part : str
+        Between two dots.
+
+    Returns
+    -------
+    bool
+        Only of plain digits, and few enough to count by.
+
+    Examples
+    --------
+    >>> is_number("2"), is_number("\u00b2"), is_number("teeth")
+    (True, False, False)
+    """
+    return part.isascii() and part.isdecimal() and len(part) < _LONGEST
+
+
+_LONGEST = 10
+"""Digits from which on no list has so many entries."""
+
+
+def without_numbers(key: str) -> str:
+    """Return a dotted name without the numbers of entries of lists.
+
+    Parameters
+    ----------
+    key : str
+        Dotted name.
+
+    Returns
+    -------
+    str
+        As the schema names it.
+
+    Examples
+    --------
+    >>> without_numbers("duty.2.speed_rpm")
+    'duty.speed_rpm'
+    """
+    return ".".join(part for part in key.split(".") if not is_number(part))
+
+
+def all_differ(values: Sequence[Any]) -> bool:
+    """Return whether no value of a list stands there twice.
+
+    Parameters
+    ----------
+    values : sequence
+        Numbers, words, true and false, or lists of them.
+
+    Returns
+    -------
+    bool
+        Numbers are compared by value; true is not 1.
+
+    Examples
+    --------
+    >>> all_differ([20, 20.0]), all_differ([1, True])
+    (False, True)
+    """
+    return len({_told_apart(value) for value in values}) == len(values)
+
+
+def _told_apart(value: Any) -> Any:
+    if isinstance(value, list):
+        return tuple(_told_apart(entry) for entry in value)
+    return isinstance(value, bool), value
 
 
 def dotted(value: Any, leaf: str | None = None) -> Any:
@@ -19,12 +93,12 @@ def dotted(value: Any, leaf: str | None = None) -> Any:
     Returns
     -------
     object
-        A table of one level.
+        A table of one level; zeros before the numbers of entries are left out.
 
     Raises
     ------
     ValueError
-        A key is given in both ways.
+        A key is given twice.
 
     Examples
     --------
@@ -38,24 +112,34 @@ def dotted(value: Any, leaf: str | None = None) -> Any:
         nested = isinstance(below, dict) and not (leaf is not None and _is_value(below, leaf))
         inner = dotted(below, leaf) if nested else {"": below}
         for name, entry in inner.items():
-            whole = f"{key}.{name}" if name else key
+            whole = _counted(f"{key}.{name}" if name else key)
             if whole in flat:
-                raise ValueError(f"{whole} is given twice, with and without quotes: remove one")
+                raise ValueError(
+                    f"{whole} is given twice, with and without quotes or zeros before a number: "
+                    "remove one"
+                )
             flat[whole] = entry
     return flat
+
+
+def _counted(key: str) -> str:
+    parts = key.split(".")
+    return ".".join(str(int(part)) if is_number(part) else part for part in parts)
 
 
 def _is_value(table: dict[str, Any], leaf: str) -> bool:
     return leaf in table or not any(isinstance(entry, dict | list) for entry in table.values())
 
 
-def list_or(table: Any, values: Any) -> Any:
+def list_or(table: type[BaseModel], values: Any, words: str) -> Any:
     """Return the type of a key that takes a table or a list, faulted as what was meant.
 
     Parameters
     ----------
     table, values : type
         Of the table and of the list.
+    words : str
+        What the table is, for a value that is neither.
 
     Returns
     -------
@@ -64,8 +148,17 @@ def list_or(table: Any, values: Any) -> Any:
     """
     return Annotated[
         Annotated[table, Tag(_TABLE)] | Annotated[values, Tag(_LIST)],
-        Discriminator(lambda value: _LIST if isinstance(value, list) else _TABLE),
-    ]
+        Discriminator(
+            _chosen, custom_error_type="table_or_list",
+            custom_error_message=f"must be {words} or a list of values",
+        ),
+    ]  # fmt: skip
+
+
+def _chosen(value: Any) -> str | None:
+    if isinstance(value, list):
+        return _LIST
+    return _TABLE if isinstance(value, dict | BaseModel) else None
 
 
 _TABLE, _LIST = "(table)", "(list)"

@@ -1,10 +1,11 @@
 """The table [optimise]: what may change of a case, what is sought, and within what limits."""
 
+import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, field_validator
 
-from wearsim.case.schema.dotted import dotted, list_or
+from wearsim.case.schema.dotted import all_differ, dotted, list_or
 from wearsim.case.schema.table import Table
 
 Finite = Annotated[int | float, Field(allow_inf_nan=False)]
@@ -21,6 +22,8 @@ class ParameterRange(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
+        if not math.isfinite(float(self.high) - float(self.low)):
+            return [("high", "low and high must lie less than 1.8e308 apart: give nearer ends")]
         if self.low < self.high:
             return []
         return [("high", f"must be above low = {self.low:g} (got {self.high:g})")]
@@ -33,7 +36,7 @@ Choices = Annotated[list[Choice], Field(min_length=2)]
 if TYPE_CHECKING:
     _Parameter = ParameterRange | list[Choice]
 else:
-    _Parameter = list_or(ParameterRange, Choices)
+    _Parameter = list_or(ParameterRange, Choices, "a range {low, high}")
 
 
 class MeasureLimit(Table):
@@ -83,6 +86,6 @@ class OptimiseTable(Table):
         found += [
             (f"parameters.{key}", "every value once, but one is given twice: remove it")
             for key, values in self.parameters.items()
-            if isinstance(values, list) and len({repr(value) for value in values}) < len(values)
+            if isinstance(values, list) and not all_differ(values)
         ]
         return found

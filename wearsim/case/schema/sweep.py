@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field, PositiveInt, field_validator
 
 from wearsim.case.schema.calculation import CalculationTables
-from wearsim.case.schema.dotted import dotted, list_or
+from wearsim.case.schema.dotted import all_differ, dotted, list_or
 from wearsim.case.schema.table import Table
 
 Number = Annotated[int | float, Field(allow_inf_nan=False)]
@@ -35,7 +35,7 @@ class Range(Table):
 if TYPE_CHECKING:
     _Axis = Range | list[Value]
 else:
-    _Axis = list_or(Range, Values)
+    _Axis = list_or(Range, Values, "a range {from, to, count}")
 
 
 class SweepTables(CalculationTables):
@@ -66,7 +66,7 @@ class SweepTables(CalculationTables):
         found += [
             (f"grid.{key}", "every value once, but one is given twice: remove it")
             for key, values in self.grid.items()
-            if isinstance(values, list) and len({repr(value) for value in values}) < len(values)
+            if isinstance(values, list) and not all_differ(values)
         ]
         for number, group in enumerate(self.zip, start=1):
             counts = {key: len(values) for key, values in group.items()}

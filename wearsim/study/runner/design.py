@@ -12,6 +12,7 @@ from wearsim import __version__
 from wearsim.case.document import Document
 from wearsim.case.keys import schema_fields, schema_of
 from wearsim.case.kind import WRAP_PROFILES
+from wearsim.case.schema.dotted import is_number, without_numbers
 from wearsim.catalogue.tables import nearest
 from wearsim.errors import CaseError, Fault
 from wearsim.kernels.compiled import source_hash
@@ -20,6 +21,10 @@ from wearsim.result.folder import FILE_KEYS
 FEW, SOME, MANY = 2, 25, 250
 """Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
 and of all others."""
+
+
+NAMES_FILE = tuple(f"{table}.{key}" for table, key in FILE_KEYS)
+"""Dotted keys whose values name a file."""
 
 
 @dataclass(frozen=True)
@@ -194,7 +199,7 @@ def replaced(tables: Mapping[str, Any], path: Sequence[str], value: Any) -> dict
     if isinstance(below, Mapping):
         return {**tables, head: replaced(below, rest, value)}
     number, *rest = rest
-    if not isinstance(below, list) or not number.isdigit() or not 0 < int(number) <= len(below):
+    if not isinstance(below, list) or not is_number(number) or not 0 < int(number) <= len(below):
         counted = f"holds {len(below)} tables" if isinstance(below, list) else "is a key, no table"
         raise CaseError([Fault(f"must be a key of the case, but {head} {counted}", ".".join(path))])
     entry = replaced(below[int(number) - 1], rest, value) if rest else value
@@ -234,10 +239,11 @@ def design(
         given = document.data.get(table)
         if isinstance(given, Mapping) and isinstance(given.get(key), str):
             tables = replaced(tables, (table, key), _taken(document, files, given[key]))
-    named = {f"{table}.{key}" for table, key in FILE_KEYS}
     moved = tuple(
         tuple(
-            _taken(document, files, value) if key in named and isinstance(value, str) else value
+            _taken(document, files, value)
+            if key in NAMES_FILE and isinstance(value, str)
+            else value
             for key, value in zip(keys, row, strict=True)
         )
         for row in rows
@@ -249,7 +255,7 @@ def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
     known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
     faults = []
     for key in keys:
-        plain = ".".join(part for part in key.split(".") if not part.isdigit())
+        plain = without_numbers(key)
         if plain not in known:
             text = f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
             faults.append(Fault(text, f'"{key}"', place))

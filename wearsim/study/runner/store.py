@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,8 +24,11 @@ _WRITTEN = (
 )  # fmt: skip
 """Tables and pictures of studies."""
 
-DESIGNS, DESIGN_FILES = "designs", "[0-9]*.toml"
-"""Folder of the best designs, and their files in it."""
+DESIGNS, DESIGN_MARK = "designs", " of wearsim optimise "
+"""Folder of the best designs, and what stands in the first line of each."""
+
+_DESIGN_NAME = re.compile(r"[0-9]{2,}\.toml")
+_DESIGN_LINE = re.compile(rf"# design [0-9]+{DESIGN_MARK}")
 
 _HASH = b"rows_sha256"
 _TEXTS = ("stop", "warnings", "error", "case_sha256")
@@ -188,6 +192,34 @@ def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bo
     _found(folder, _manifest(design, told), force)
 
 
+def own_designs(folder: Path) -> list[Path]:
+    """Return the designs in a folder that wearsim wrote.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Of the best designs, there or not.
+
+    Returns
+    -------
+    list of pathlib.Path
+        Files named by a number that begin as such a design does.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    return [path for path in folder.glob("*.toml") if _is_own_design(path)]
+
+
+def _is_own_design(path: Path) -> bool:
+    if not _DESIGN_NAME.fullmatch(path.name) or not path.is_file():
+        return False
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return _DESIGN_LINE.match(file.readline(200)) is not None
+
+
 def _found(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
     place = folder / MANIFEST
@@ -216,7 +248,7 @@ def _clear(folder: Path) -> None:
     try:
         for name in _WRITTEN:
             (folder / name).unlink(missing_ok=True)
-        for path in (folder / DESIGNS).glob(DESIGN_FILES):
+        for path in own_designs(folder / DESIGNS):
             path.unlink()
     except OSError as error:
         raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
