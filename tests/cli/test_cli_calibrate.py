@@ -96,6 +96,7 @@ def test_confidence_is_the_width_of_the_intervals(cli, case, table):
     assert widths[1] / widths[0] == pytest.approx(2.0, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_slip_is_fitted_where_it_is_asked_for(cli, case, table):
     path, model = case
     readings = table(*(depth(model, part, 9.0) for part in (0.3, 0.6, 0.9)))

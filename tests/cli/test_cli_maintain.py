@@ -48,6 +48,7 @@ def wrapped(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_text_json_and_files_agree(cli, wrapped, tmp_path):
     out = tmp_path / "plan"
     done = cli("maintain", wrapped, "--out", out, "--json")

@@ -102,6 +102,7 @@ def test_key_that_does_nothing_and_text(cli, case):
     assert "what would double the life" in done.out
 
 
+@pytest.mark.slow
 def test_options_change_the_samples(cli, case):
     base = answer(cli, case(), "--samples", 32, "--trajectories", 4)[2][K]
     for option in (("--seed", 2), ("--trajectories", 8), ("--samples", 64)):

@@ -13,6 +13,7 @@ from wearsim.report.workbook.book import Book, Page, number_format
 from wearsim.report.workbook.names import clean, sheet_names
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(st.lists(st.text(max_size=40), min_size=1, max_size=8))
 def test_any_names_make_sheets(names):

@@ -70,11 +70,11 @@ def once(monkeypatch):
     monkeypatch.setattr(calibrations, "read_readings", lambda rows: rows)
 
 
-def readings(rows, scans=()):
-    """Readings from rows of (hours, quantity, value, error, place), and of scans."""
+def readings(rows, scans=(), kind=None):
+    """Readings from rows of (hours, quantity, value, error, place), and of scans, of one kind of gap."""
     none = np.empty(0)
     found = [
-        Reading(row, hours, quantity, value, error, place, None, none, none)
+        Reading(row, hours, quantity, value, error, place, kind, none, none)
         for row, (hours, quantity, value, error, place) in enumerate(rows, start=2)
     ]
     found += [
@@ -216,6 +216,7 @@ def test_elongations_have_the_closed_form_of_a_line_through_zero(tmp_path):
     assert found.runs == 0
 
 
+@pytest.mark.slow
 def test_teeth_and_chain_of_a_wrap_are_told_apart(tmp_path):
     truth = {**WRAP, "wear": {"specific_wear_rate_mm2_per_N": 1.4e-9},
              "joint": {"specific_wear_rate_mm2_per_N": 1e-8}}  # fmt: skip
@@ -301,23 +302,21 @@ KINDS = {
 }
 
 
-def test_gaps_of_two_kinds_are_told_apart(tmp_path):
+def test_gaps_of_two_kinds_are_told_apart(tmp_path, once):
     model = course(KINDS)
     assert model.kinds == 2
     deepest = [model.deepest(0.4, kind) for kind in (1, 2)]
     assert max(deepest) == pytest.approx(model.history("max_depth_mm", 0.4), rel=1e-2)
-    bench = Bench(tmp_path, KINDS)
-    head = "time_hours,quantity,value,error,gap_kind"
-    for kind in (1, 2, ""):
-        value = deepest[kind - 1] if kind else max(deepest)
-        path = tmp_path / "kinds.csv"
-        path.write_text(f"{head}\n{0.4 * model.hours},max_depth_mm,{value},1e-5,{kind}\n")
-        found = calibrate(bench.case, path)
+    bench, hours = Bench(tmp_path, KINDS), 0.4 * model.hours
+    for kind, value in ((1, deepest[0]), (2, deepest[1]), (None, max(deepest))):
+        rows = [(hours, "max_depth_mm", value, 1e-5, np.nan)]
+        found = calibrate(bench.case, readings(rows, kind=kind))
         assert found.values[0].value == pytest.approx(1e-9, rel=0.02), kind
     with pytest.raises(CaseError, match="gap_kind is needed, as the gaps of this drive wear in 2"):
-        bench.fit([(1.0, "depth_mm", 0.01, 0.01, 1.0)])
+        calibrate(bench.case, readings([(1.0, "depth_mm", 0.01, 0.01, 1.0)]))
 
 
+@pytest.mark.slow
 def test_told_life_is_that_of_the_case_that_was_fitted(tmp_path):
     """The joints wear three times as fast as the case says, so that the ratio must be followed."""
     truth = {**WRAP, "joint": {"specific_wear_rate_mm2_per_N": 4.5e-8}}
@@ -333,6 +332,7 @@ def test_told_life_is_that_of_the_case_that_was_fitted(tmp_path):
     assert again.parts["chain"].hours == pytest.approx(found.parts[1].life, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [(3.5, 2e-18), (4.8, 1e-13), (1.0, 1e-9)])
 def test_the_answer_does_not_depend_on_the_start(tmp_path, start):
     truth, rng = course(POWER), np.random.default_rng(6)
@@ -350,7 +350,9 @@ def test_the_answer_does_not_depend_on_the_start(tmp_path, start):
     assert not any("band" in text for text in found.warnings)
 
 
-@pytest.mark.parametrize("slip", [0.98, 0.1, 1e-4])
+@pytest.mark.parametrize(
+    "slip", [0.98, *(pytest.param(slip, marks=pytest.mark.slow) for slip in (0.1, 1e-4))]
+)
 def test_slip_is_searched_up_to_its_ends(tmp_path, slip):
     truth = course(STRAND)
     rows = depths(truth, (4.0, 9.0), (0.3, 0.9), 0.001, np.random.default_rng(7))

@@ -270,6 +270,7 @@ MARGIN = (
 )
 
 
+@pytest.mark.slow
 def test_life_ends_where_the_slack_tension_needed_reaches_its_limit() -> None:
     """The chain needs less before; at the end as much as was allowed, within the steps of the search."""
     plain = wrap(*MARGIN)

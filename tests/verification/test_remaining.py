@@ -110,6 +110,7 @@ def test_elongation_gives_the_coefficient_of_the_joints():
     assert found.coefficient == pytest.approx(4.5e-8, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_over_pins():
     """Twice the seat's shift for an even number of teeth: the run's own column, read back."""
     loaded = case(WRAP, sprocket={"teeth": 20}, stop={"critical_depth_mm": 0.1})

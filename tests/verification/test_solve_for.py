@@ -67,6 +67,7 @@ def test_whole_number_is_the_next_that_lives_as_long() -> None:
     assert life(f"sprocket.teeth={int(teeth)}") >= hours > life(f"sprocket.teeth={int(teeth) - 1}")
 
 
+@pytest.mark.slow
 def test_value_beyond_the_allowed_range_is_not_met() -> None:
     """The face width ends at the inner plates, 17.02 mm, and the pull at 60 kN."""
     wide = solved("sprocket.face_width_mm", 10.0, 3.0 * life("sprocket.face_width_mm=10"))

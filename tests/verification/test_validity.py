@@ -229,6 +229,7 @@ def test_stall_has_cycle_and_place() -> None:
         run_advance(flat_contact(stalling), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
 
 
+@pytest.mark.slow
 def test_vanished_contact_has_cycle_and_place() -> None:
     """The load is gone once 1 um is worn off, deepest 5 mm from the root."""
 

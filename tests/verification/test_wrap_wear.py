@@ -468,6 +468,7 @@ def zone(of: WrapContact, run: DwellingTrajectory, area: float) -> dict[str, flo
     }
 
 
+@pytest.mark.slow
 def test_a_chain_that_does_not_stretch_digs_a_hook_at_the_root_one_that_does_spreads_the_wear() -> (
     None
 ):
