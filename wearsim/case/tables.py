@@ -2,6 +2,7 @@
 
 import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,20 +73,49 @@ def read_columns(
         return {}
     names = [name.strip() for name in lines[0]] if lines else []
     before = faults.count
-    for name in required:
-        if name not in names:
-            faults.add(key, f"{path.name}:1: column {name!r} is missing{nearest(name, names)}")
-    for name in names:
-        if name not in required + optional:
-            hint = nearest(name, list(required + optional))
-            faults.add(key, f"{path.name}:1: unknown column {name!r}{hint}")
-    if len(set(names)) != len(names):
-        faults.add(key, f"{path.name}:1: every column may stand there once only")
+    for text in header_faults(names, required, optional):
+        faults.add(key, f"{path.name}:1: {text}")
     values = _cells(path, names, lines[1:], key, faults)
     if faults.count > before:
         return {}
     table = np.array(values, dtype=float).reshape(-1, len(names))
     return {name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)}
+
+
+def header_faults(
+    names: Sequence[str], required: Sequence[str], optional: Sequence[str]
+) -> list[str]:
+    """Return what is wrong with the names of columns.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Those of a file.
+    required, optional : sequence of str
+        Those that it must and may have.
+
+    Returns
+    -------
+    list of str
+        In words.
+
+    Examples
+    --------
+    >>> header_faults(["x_mm"], ["x_mm", "y_mm"], [])
+    ["column 'y_mm' is missing"]
+    """
+    known = [*required, *optional]
+    found = [
+        f"column {name!r} is missing{nearest(name, list(names))}"
+        for name in required
+        if name not in names
+    ]
+    found += [
+        f"unknown column {name!r}{nearest(name, known)}" for name in names if name not in known
+    ]
+    if len(set(names)) != len(names):
+        found.append("every column may stand there once only")
+    return found
 
 
 def _cells(

@@ -8,7 +8,8 @@ import click
 
 from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import overrides, print_json, standard, warn
-from wearsim.cli.study import Place, in_batches, place_options, timed
+from wearsim.cli.study import Place, place_options
+from wearsim.cli.study_run import in_batches, timed
 
 if TYPE_CHECKING:
     from wearsim.study.optimise import OptimiseStudy

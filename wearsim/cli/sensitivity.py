@@ -6,7 +6,8 @@ import click
 
 from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import overrides, print_json, standard, warn, working
-from wearsim.cli.study import Place, place_options, run
+from wearsim.cli.study import Place, place_options
+from wearsim.cli.study_run import run
 
 
 def _power_of_two(context: click.Context, parameter: click.Parameter, value: int) -> int:

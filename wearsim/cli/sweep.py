@@ -5,7 +5,8 @@ from pathlib import Path
 import click
 
 from wearsim.cli.standard import overrides, standard, warn
-from wearsim.cli.study import Place, exit_code, place_options, run
+from wearsim.cli.study import Place, place_options
+from wearsim.cli.study_run import exit_code, run
 
 
 @click.command(short_help="Lives over values of any keys: grids, lists, designs.")

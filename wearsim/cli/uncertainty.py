@@ -8,7 +8,8 @@ import click
 
 from wearsim.cli.complete import CasePath
 from wearsim.cli.standard import NOT_MET, finite, overrides, print_json, standard, warn, working
-from wearsim.cli.study import Place, exit_code, place_options, run
+from wearsim.cli.study import Place, place_options
+from wearsim.cli.study_run import exit_code, run
 
 if TYPE_CHECKING:
     from wearsim.report.uncertainty import Answer

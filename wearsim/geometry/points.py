@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.evolute import Strand
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Profile, Vector, chord_lengths
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -42,7 +42,7 @@ def flank_from_points(x: Vector, y: Vector, noise: float, nodes: int) -> Profile
     GeometryError
         The flank crosses itself.
     """
-    chord = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    chord = chord_lengths(x, y)
     spline = _smoothing_spline(x, y, chord, noise)
     fine = np.linspace(0.0, chord[-1], 20 * nodes + 1)
     speed = np.hypot(*spline.derivative()(fine))

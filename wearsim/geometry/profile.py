@@ -18,6 +18,27 @@ def _vector(values: ArrayLike) -> Vector:
     return array
 
 
+def chord_lengths(x: Vector, y: Vector) -> Vector:
+    """Return the length along the chords of a row of points.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray
+        Points [mm], shape (n,).
+
+    Returns
+    -------
+    numpy.ndarray
+        From 0 at the first one [mm], shape (n,).
+
+    Examples
+    --------
+    >>> chord_lengths(np.array([0.0, 3.0, 3.0]), np.array([0.0, 4.0, 6.0])).tolist()
+    [0.0, 5.0, 7.0]
+    """
+    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+
+
 def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> float:
     """Return the area between two flanks, by the shoelace formula.
 

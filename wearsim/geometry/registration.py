@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Profile, Vector, chord_lengths
 
 Freedom = Literal["none", "turn", "free"]
 """How points may be moved: not at all, turned about the axis, turned and shifted."""
@@ -74,12 +74,8 @@ def feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector]:
     >>> float(arc[0]), float(recess[0])
     (0.5, 0.1)
     """
-    line = shapely.LineString(np.column_stack([nominal.x, nominal.y]))
-    places = shapely.line_locate_point(line, shapely.points(x, y))
-    foot = shapely.line_interpolate_point(line, places)
-    normal_x, normal_y = _normals(nominal, places)
-    away_x, away_y = x - shapely.get_x(foot), y - shapely.get_y(foot)
-    return places, -(away_x * normal_x + away_y * normal_y)
+    places, recess, _, _ = _feet(nominal, x, y)
+    return places, recess
 
 
 def register(
@@ -114,13 +110,13 @@ def register(
         Fewer than 11 points have one, or the points do not settle.
     """
     turn, shift = 0.0, np.zeros(2)
-    chords = _chords(nominal)
+    chords = chord_lengths(nominal.x, nominal.y)
     recessed = np.zeros(chords.size) if expected is None else expected
     slopes = np.gradient(recessed, chords)
     for _ in range(_MOST_STEPS):
         cos, sin = np.cos(turn), np.sin(turn)
         at_x, at_y = cos * x - sin * y + shift[0], sin * x + cos * y + shift[1]
-        places, recess = feet(nominal, at_x, at_y)
+        places, recess, normal_x, normal_y = _feet(nominal, at_x, at_y)
         on = (places > 0.0) & (places < chords[-1])
         if on.sum() < 11:
             raise GeometryError(
@@ -129,7 +125,8 @@ def register(
                 "flank was measured"
             )
         slope = np.interp(places, chords, slopes)
-        moves = _moves(nominal, places, at_x, at_y, slope)[:, : _WAYS[freedom]]
+        worn_x, worn_y = normal_x - slope * normal_y, normal_y + slope * normal_x
+        moves = _moves(at_x, at_y, worn_x, worn_y)[:, : _WAYS[freedom]]
         over = recess - np.interp(places, chords, recessed)
         step = np.zeros(3)
         step[: _WAYS[freedom]] = -np.linalg.lstsq(moves[on], over[on], rcond=UNSEEN)[0]
@@ -149,25 +146,25 @@ def register(
 _WAYS = {"none": 0, "turn": 1, "free": 3}
 
 
-def _chords(nominal: Profile) -> Vector:
-    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(nominal.x), np.diff(nominal.y)))])
+def _feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector, Vector, Vector]:
+    """Arc lengths of the feet, distances into the material, and normals into the gap there."""
+    line = shapely.LineString(np.column_stack([nominal.x, nominal.y]))
+    places = shapely.line_locate_point(line, shapely.points(x, y))
+    foot = shapely.line_interpolate_point(line, places)
+    chords = chord_lengths(nominal.x, nominal.y)
+    normal_x = np.interp(places, chords, nominal.normal_x)
+    normal_y = np.interp(places, chords, nominal.normal_y)
+    size = np.hypot(normal_x, normal_y)
+    normal_x, normal_y = normal_x / size, normal_y / size
+    away_x, away_y = x - shapely.get_x(foot), y - shapely.get_y(foot)
+    return places, -(away_x * normal_x + away_y * normal_y), normal_x, normal_y
 
 
-def _normals(nominal: Profile, places: Vector) -> tuple[Vector, Vector]:
-    """Normals into the gap at arc lengths along the chords."""
-    chords = _chords(nominal)
-    x = np.interp(places, chords, nominal.normal_x)
-    y = np.interp(places, chords, nominal.normal_y)
-    size = np.hypot(x, y)
-    return x / size, y / size
-
-
-def _moves(nominal: Profile, places: Vector, x: Vector, y: Vector, slope: Vector) -> Vector:
+def _moves(x: Vector, y: Vector, normal_x: Vector, normal_y: Vector) -> Vector:
     """Change of the recess over what is expected by a turn about the axis and by shifts, shape (n, 3).
 
-    A movement along the profile matters as far as what is expected has a slope there.
+    The normals are those of what is expected, so that a movement along it matters as far as it
+    has a slope.
     """
-    normal_x, normal_y = _normals(nominal, places)
-    worn_x, worn_y = normal_x - slope * normal_y, normal_y + slope * normal_x
     size = float(np.hypot(x, y).max())
-    return np.column_stack([(y * worn_x - x * worn_y) / size, -worn_x, -worn_y])
+    return np.column_stack([(y * normal_x - x * normal_y) / size, -normal_x, -normal_y])

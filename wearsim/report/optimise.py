@@ -1,7 +1,6 @@
 """What is shown of an optimisation: text, JSON, tables, and the best designs as case files."""
 
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from wearsim.report.answer import grouped
 from wearsim.report.design_files import save_designs
 from wearsim.report.optimise_figures import optimise_figures
 from wearsim.report.study_files import plain, save_figures, save_texts
+from wearsim.study.kinds import kinds
 from wearsim.study.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.trials import (
     MAXIMISED,
@@ -118,15 +118,14 @@ def warnings_of(outcome: Outcome) -> tuple[str, ...]:
 
 def _of_designs(outcome: Outcome) -> list[str]:
     """Warnings of the best designs, those that differ in their numbers only as one."""
-    kinds: dict[str, tuple[str, int]] = {}
-    for number, one in enumerate(outcome.front, 1):
-        for text in filter(None, one.warnings.split("\n")):
-            kind = re.sub(r"\d[\d.e+-]*", "#", text)
-            first, count = kinds.get(kind, (f"design {_name(number, outcome)}: {text}", 0))
-            kinds[kind] = first, count + 1
+    told = kinds(
+        f"design {_name(number, outcome)}: {text}"
+        for number, one in enumerate(outcome.front, 1)
+        for text in filter(None, one.warnings.split("\n"))
+    )
     return [
         first if count == 1 else f"{first} (and of {count - 1} more designs)"
-        for first, count in kinds.values()
+        for first, count in told
     ]
 
 

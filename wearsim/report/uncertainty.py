@@ -1,7 +1,6 @@
 """What is shown of the uncertainty of a life: text, JSON, tables and pictures."""
 
 import math
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +13,7 @@ from wearsim.report.answer import grouped
 from wearsim.report.cross_check import cross_check_json, cross_check_lines
 from wearsim.report.study_files import plain, save_figures, save_texts
 from wearsim.study.cross_check import CrossCheck
+from wearsim.study.kinds import kinds
 from wearsim.study.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
 from wearsim.study.uncertainty import UncertaintyStudy
 
@@ -163,13 +163,7 @@ def warnings_of(answer: Answer) -> list[str]:
 
 def _of_samples(warnings: "pd.Series[str]") -> list[str]:
     """Warnings of the samples, those that differ in their numbers only as one."""
-    kinds: dict[str, tuple[str, int]] = {}
-    for joined in warnings:
-        for text in filter(None, joined.split("\n")):
-            kind = re.sub(r"\d[\d.e+-]*", "#", text)
-            first, count = kinds.get(kind, (text, 0))
-            kinds[kind] = first, count + 1
-    most = sorted(kinds.values(), key=lambda entry: -entry[1])
+    most = kinds(text for joined in warnings for text in filter(None, joined.split("\n")))
     found = [
         f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]
     ]

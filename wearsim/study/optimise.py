@@ -9,11 +9,11 @@ from typing import Any
 from wearsim.case.document import Document, read_document
 from wearsim.case.load import load_case
 from wearsim.case.model import Case
-from wearsim.case.schema.dotted import all_differ, is_number
+from wearsim.case.schema.dotted import all_differ
 from wearsim.case.schema.optimise import MeasureLimit, OptimiseTable
 from wearsim.errors import CaseError, Fault
 from wearsim.sizing.blank import blank_mass, mass_assumption
-from wearsim.study.runner.design import NAMES_FILE, Design, design, replaced
+from wearsim.study.runner.design import NAMES_FILE, Design, design, replaced, value_at
 from wearsim.study.scatter import WITH_FATIGUE
 from wearsim.study.search_space import SearchSpace, search_space
 
@@ -200,11 +200,5 @@ def _place(key: str) -> str:
 
 def _value(inputs: Mapping[str, Any], key: str) -> Any:
     """Of a key in the case; of a file its name without folder."""
-    found: Any = inputs
-    for part in key.split("."):
-        if isinstance(found, list):
-            is_there = is_number(part) and 0 < int(part) <= len(found)
-            found = found[int(part) - 1] if is_there else None
-        else:
-            found = found.get(part) if isinstance(found, Mapping) else None
+    found = value_at(inputs, key)
     return PurePath(found).name if key in NAMES_FILE and isinstance(found, str) else found

@@ -12,6 +12,7 @@ from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap import wrap_contact
 from wearsim.study.constant import check_constant
+from wearsim.study.over_pins import ambiguity
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
 
@@ -213,15 +214,10 @@ def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _
         raise _fault(case, reading, "needs a sprocket with gaps: set kind = 'wrap'")
     values = columns[reading.quantity]
     if reading.quantity == OVER_PINS:
+        doubt = ambiguity(values, reading.error)
+        if doubt:
+            raise _fault(case, reading, doubt)
         values = values[0] - values
-        fall = float((np.maximum.accumulate(values) - values).max())
-        if fall > reading.error:
-            raise _fault(
-                case,
-                reading,
-                f"must belong to one time, but the measurement over pins grows again by {fall:.3g} mm in "
-                "the life: measure the depth",
-            )
     joints = ("joints wear as much more or less than their coefficient says as teeth do",)
     return _Course(
         hours=columns["time_hours"],

@@ -10,13 +10,12 @@ import numpy as np
 from wearsim.case.document import Document, read_document
 from wearsim.case.load import load_case
 from wearsim.case.model import Case, WrapDrive
-from wearsim.case.schema.dotted import is_number
 from wearsim.case.schema.uncertainty import Distribution
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.result.folder import FILE_KEYS
 from wearsim.study.distributions import described, quantile
-from wearsim.study.runner.design import Design, design, replaced
+from wearsim.study.runner.design import Design, design, replaced, value_at
 
 PUBLISHED_SIGMA = 0.5
 """Scatter of published wear coefficients about those of one system: standard deviation of ln k,
@@ -208,14 +207,7 @@ def _scatter(case: Case, key: str, distribution: Distribution) -> Scatter:
 
 
 def _value(case: Case, key: str) -> float:
-    found: Any = case.inputs
-    for part in key.split("."):
-        if isinstance(found, Mapping):
-            found = found.get(part)
-        elif isinstance(found, list) and is_number(part) and 0 < int(part) <= len(found):
-            found = found[int(part) - 1]
-        else:
-            found = None
+    found = value_at(case.inputs, key)
     if isinstance(found, bool | int) or not isinstance(found, float):
         what = "is not in the case" if found is None else f"is {found!r}"
         text = f"only a key that holds a number with a fraction can scatter, but it {what}"

@@ -1,8 +1,6 @@
 """Designs that an optimisation has tried: what came of them, and which are best."""
 
 import math
-import re
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +12,7 @@ from wearsim.case.schema.optimise import MeasureLimit
 from wearsim.errors import StudyError, WearsimError
 from wearsim.simulation.new_flank import new_peak_pressure
 from wearsim.sizing.blank import blank_mass
+from wearsim.study.kinds import kinds
 from wearsim.study.optimise import OptimiseStudy
 from wearsim.study.runner.design import Design
 from wearsim.study.runner.shard import loaded_cases
@@ -244,12 +243,10 @@ def margins(study: OptimiseStudy, candidate: Candidate) -> dict[str, float]:
         By limit such as ``life_hours.low``: relative distance to it, negative beyond.
     """
     found = {}
-    for name, limit in study.limits.items():
-        value = candidate.measures[name]
-        if limit.low is not None:
-            found[f"{name}.low"] = value / limit.low - 1.0
-        if limit.high is not None:
-            found[f"{name}.high"] = 1.0 - value / limit.high
+    for key in limit_names(study):
+        name, end = key.split(".")
+        ratio = candidate.measures[name] / getattr(study.limits[name], end)
+        found[key] = ratio - 1.0 if end == "low" else 1.0 - ratio
     return found
 
 
@@ -330,17 +327,8 @@ def commonest_reason(study: OptimiseStudy, candidates: Sequence[Candidate]) -> s
     str
         In words, with how many and one example; empty where all are feasible.
     """
-    reasons: Counter[str] = Counter()
-    examples: dict[str, str] = {}
-    for candidate in candidates:
-        for text in _reasons(study, candidate):
-            kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", text)
-            reasons[kind] += 1
-            examples.setdefault(kind, text)
-    if not reasons:
-        return ""
-    ((kind, count),) = reasons.most_common(1)
-    return f"{count} of them by {examples[kind]}"
+    reasons = kinds(text for candidate in candidates for text in _reasons(study, candidate))
+    return f"{reasons[0][1]} of them by {reasons[0][0]}" if reasons else ""
 
 
 def _reasons(study: OptimiseStudy, candidate: Candidate) -> list[str]:

@@ -3,7 +3,13 @@
 from collections.abc import Sequence
 from typing import Annotated, Any
 
-from pydantic import BaseModel, Discriminator, Tag
+from pydantic import BaseModel, Discriminator, Field, Tag
+
+Finite = Annotated[int | float, Field(allow_inf_nan=False)]
+"""A number in the unit of the key that it is for."""
+
+Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
+"""The same above 0."""
 
 
 def is_number(part: str) -> bool:

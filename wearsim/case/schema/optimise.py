@@ -5,11 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, field_validator
 
-from wearsim.case.schema.dotted import all_differ, dotted, list_or
+from wearsim.case.schema.dotted import Above0, Finite, all_differ, dotted, list_or
 from wearsim.case.schema.table import Table
-
-Finite = Annotated[int | float, Field(allow_inf_nan=False)]
-Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
 
 Measure = Literal["life_hours", "mass_kg", "peak_pressure_MPa"]
 

@@ -5,11 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field, PositiveInt, field_validator
 
 from wearsim.case.schema.calculation import CalculationTables
-from wearsim.case.schema.dotted import all_differ, dotted, list_or
+from wearsim.case.schema.dotted import Finite, all_differ, dotted, list_or
 from wearsim.case.schema.table import Table
 
-Number = Annotated[int | float, Field(allow_inf_nan=False)]
-Value = bool | Number | str | list[bool | Number | str]
+Value = bool | Finite | str | list[bool | Finite | str]
 Values = Annotated[list[Value], Field(min_length=1)]
 
 _MOST = 1_000_000

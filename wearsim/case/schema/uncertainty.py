@@ -4,11 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from wearsim.case.schema.dotted import dotted
+from wearsim.case.schema.dotted import Above0, Finite, dotted
 from wearsim.case.schema.table import Table
-
-Finite = Annotated[int | float, Field(allow_inf_nan=False)]
-Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
 
 _KEYS = {
     "lognormal": (("sigma_ln",), ("median", "low", "high")),

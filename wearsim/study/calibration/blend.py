@@ -1,11 +1,9 @@
 """Courses for any values of keys, from those that are run."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
+from typing import Any, TypeVar
 
 from wearsim.case.load import load_case
 from wearsim.errors import ConvergenceError
@@ -13,6 +11,8 @@ from wearsim.geometry.profile import Vector
 from wearsim.simulation import simulate
 from wearsim.study.calibration.course import Course
 from wearsim.study.runner.design import replaced
+
+Taken = TypeVar("Taken", float, Vector)
 
 _SPACING = 0.05
 """Of the logarithms of values that are run."""
@@ -33,82 +33,27 @@ class Blend:
     @property
     def hours(self) -> float:
         """Hours until the limit of the teeth [h]."""
-        return math.exp(math.fsum(share * math.log(one.hours) for share, one in self.shares))
+        return math.exp(self.mean(lambda one: math.log(one.hours)))
 
     @property
     def new(self) -> Course:
         """One of them, for all that does not depend on the wear."""
         return self.shares[0][1]
 
-    def deepest(self, part: float, kind: int) -> float:
-        """Return the depth of the deepest point of a gap.
+    def mean(self, take: Callable[[Course], Taken]) -> Taken:
+        """Return what all of them say, by their shares.
 
         Parameters
         ----------
-        part : float
-            Time as a part of the life.
-        kind : int
-            Number of the gap from 1.
+        take : callable
+            What one course says, a number or an array.
 
         Returns
         -------
-        float
-            Depth [mm].
+        float or numpy.ndarray
+            As one of them.
         """
-        return math.fsum(share * one.deepest(part, kind) for share, one in self.shares)
-
-    def depth_at(self, part: float, arc_length: float, kind: int) -> float:
-        """Return the depth of a point.
-
-        Parameters
-        ----------
-        part : float
-            Time as a part of the life.
-        arc_length : float
-            Place along the new flank [mm].
-        kind : int
-            Number of the gap from 1.
-
-        Returns
-        -------
-        float
-            Depth [mm].
-        """
-        return math.fsum(share * one.depth_at(part, arc_length, kind) for share, one in self.shares)
-
-    def recess(self, part: float, kind: int) -> Vector:
-        """Return how far the worn flank lies behind the new one.
-
-        Parameters
-        ----------
-        part : float
-            Time as a part of the life.
-        kind : int
-            Number of the gap from 1.
-
-        Returns
-        -------
-        numpy.ndarray
-            At the chords of the new flank [mm].
-        """
-        return np.asarray(sum(share * one.recess(part, kind) for share, one in self.shares))
-
-    def history(self, quantity: str, part: float) -> float:
-        """Return a quantity of the history.
-
-        Parameters
-        ----------
-        quantity : str
-            Column of history.csv.
-        part : float
-            Time as a part of the life.
-
-        Returns
-        -------
-        float
-            In the unit of the column.
-        """
-        return math.fsum(share * one.history(quantity, part) for share, one in self.shares)
+        return sum(share * take(one) for share, one in self.shares)  # type: ignore[return-value]
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from wearsim.case.model import Case, PrescribedDrive, WrapDrive
 from wearsim.errors import CaseError, Fault
 from wearsim.study.calibration.answer import Options
@@ -17,6 +15,7 @@ from wearsim.study.calibration.readings import (
     PROFILE,
     Reading,
 )
+from wearsim.study.over_pins import ambiguity
 
 _NONE, _FAR = 3.0, 5.0
 """Errors by which a value may lie below 0, and beyond the depth at the limit."""
@@ -100,7 +99,8 @@ def faults_of(reading: Reading, new: Course) -> list[str]:
     if reading.gap_kind is not None and reading.gap_kind > kinds:
         found.append(f"gap_kind must be at most {kinds}, is {reading.gap_kind}")
     if reading.quantity == OVER_PINS:
-        found += _ambiguous(reading, new)
+        doubt = ambiguity(new.result.history_columns[OVER_PINS], reading.error)
+        found += [f"over_pins_mm {doubt}"] if doubt else []
     if reading.quantity == POINT and reading.arc_length > new.arc_length[-1]:
         found.append(
             f"arc_length_mm must be at most {new.arc_length[-1]:.4g}, the length of the flank, is "
@@ -113,14 +113,3 @@ def faults_of(reading: Reading, new: Course) -> list[str]:
             f"{reading.value:g}: raise the limits of [stop]"
         )
     return found
-
-
-def _ambiguous(reading: Reading, new: Course) -> list[str]:
-    over = new.result.history_columns[OVER_PINS]
-    again = float((over - np.minimum.accumulate(over)).max())
-    if again <= reading.error:
-        return []
-    return [
-        f"over_pins_mm must belong to one time, but the measurement over pins grows again by {again:.3g} "
-        "mm in the life: measure the depth"
-    ]

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile import Profile, Vector, chord_lengths
 from wearsim.geometry.registration import feet
 from wearsim.result import Life, WearResult
 
@@ -121,8 +121,7 @@ class Course:
     @cached_property
     def chords(self) -> Vector:
         """Places of the points along the chords of the new flank [mm]."""
-        steps = np.hypot(np.diff(self.nominal.x), np.diff(self.nominal.y))
-        return np.concatenate([[0.0], np.cumsum(steps)])
+        return chord_lengths(self.nominal.x, self.nominal.y)
 
     def history(self, quantity: str, part: float) -> float:
         """Return a quantity of the history.
@@ -158,12 +157,12 @@ class Course:
 
     @cached_property
     def _recess(self) -> Vector:
-        x, y = self._outlines
-        found = np.empty_like(x)
-        for place in np.ndindex(x.shape[:2]):
-            arc, recess = feet(self.nominal, x[place], y[place])
-            inside = (arc > _SAME) & (arc < self.chords[-1] - _SAME)
-            found[place] = np.interp(self.chords, arc[inside], recess[inside])
+        arc, recess = feet(self.nominal, *self._outlines)
+        inside = (arc > _SAME) & (arc < self.chords[-1] - _SAME)
+        found = np.empty_like(arc)
+        for place in np.ndindex(arc.shape[:2]):
+            on = inside[place]
+            found[place] = np.interp(self.chords, arc[place][on], recess[place][on])
         return found
 
     def _flank(self, name: str) -> Vector:

@@ -180,7 +180,7 @@ class Fitting:
         return moved or scanned
 
     def _ratio(self, point: Vector) -> float:
-        coefficient, joints, *_ = self.parameters.to_coefficients(point)
+        coefficient, joints, *_ = self.parameters.swapped(point)
         return math.exp(joints - coefficient)
 
     def _nearest(self, point: Vector) -> Vector:
@@ -236,8 +236,8 @@ class Fitting:
     def _values(self, found: Fitted) -> tuple[tuple[Value, ...], Vector]:
         """Return the values with their intervals, and their correlations."""
         parameters = self.parameters
-        problem = self._restated(parameters.from_coefficients, parameters.bounds_of_coefficients())
-        stated = stated_at(problem, parameters.to_coefficients(found.point))
+        problem = self._restated(parameters.swapped, parameters.bounds_of_coefficients())
+        stated = stated_at(problem, parameters.swapped(found.point))
         given = {}
         if parameters.teeth:
             given[coefficient_key(self.case)] = parameters.coefficient

@@ -7,6 +7,7 @@ import numpy as np
 
 from wearsim.geometry.profile import Vector
 from wearsim.study.calibration.blend import Blend
+from wearsim.study.calibration.course import Course
 from wearsim.study.calibration.readings import DEEPEST, ELONGATION, POINT, Reading
 
 
@@ -138,11 +139,14 @@ class Gauge:
         float
             In the unit of the quantity.
         """
-        reading, course = self.reading, state.course
-        if reading.quantity == ELONGATION:
-            return state.elongation_rate * reading.hours
-        assert course is not None
-        part = reading.hours / state.life
+        if self.reading.quantity == ELONGATION:
+            return state.elongation_rate * self.reading.hours
+        assert state.course is not None
+        part = self.reading.hours / state.life
+        return state.course.mean(lambda one: self._of_teeth(one, part))
+
+    def _of_teeth(self, course: Course, part: float) -> float:
+        reading = self.reading
         if reading.quantity == DEEPEST and reading.gap_kind is not None:
             return course.deepest(part, reading.gap_kind)
         if reading.quantity == DEEPEST:

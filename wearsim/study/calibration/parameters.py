@@ -11,6 +11,7 @@ from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
 from wearsim.study.calibration.blend import Blend, Courses, Log
 from wearsim.study.calibration.observe import State
+from wearsim.study.runner.design import value_at
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"
 EXPONENT = "wear.pressure_exponent"
@@ -136,37 +137,23 @@ class Parameters:
             return State(None, math.nan, rate)
         return State(self.course(point), math.exp(point[0]), rate)
 
-    def to_coefficients(self, point: Vector) -> Vector:
-        """Return the logarithms of all values over those of the case.
+    def swapped(self, point: Vector) -> Vector:
+        """Return logarithms with the coefficient of the teeth for their life, or the other way round.
 
         Parameters
         ----------
         point : numpy.ndarray
-            The logarithms, the first one that of a life.
+            The logarithms of all values over those of the case, but for the first one, which is
+            that of a life or of the coefficient.
 
         Returns
         -------
         numpy.ndarray
-            The same, the first one that of the coefficient.
+            The same with the other one first.
         """
         if not self.teeth:
             return point
         return np.array([math.log(self.course(point).hours) - point[0], *point[1:]])
-
-    def from_coefficients(self, logs: Vector) -> Vector:
-        """Return what `to_coefficients` started from; it is its own inverse.
-
-        Parameters
-        ----------
-        logs : numpy.ndarray
-            Logarithms of all values over those of the case.
-
-        Returns
-        -------
-        numpy.ndarray
-            The same, the first one that of a life.
-        """
-        return self.to_coefficients(logs)
 
     def bounds_of_coefficients(self) -> tuple[Vector, Vector]:
         """Return bounds of the logarithms of all values over those of the case."""
@@ -189,7 +176,5 @@ def shape_values(case: Case) -> dict[str, float]:
     dict
         By key; those that the case does not have are left out.
     """
-    found = {
-        key: case.inputs.get(key.partition(".")[0], {}).get(key.partition(".")[2]) for key in SHAPES
-    }
+    found = {key: value_at(case.inputs, key) for key in SHAPES}
     return {key: float(value) for key, value in found.items() if value is not None}

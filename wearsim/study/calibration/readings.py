@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wearsim.case.messages import Faults
-from wearsim.case.tables import read_columns
-from wearsim.catalogue.tables import nearest
+from wearsim.case.tables import header_faults, read_columns
 from wearsim.errors import CaseError, Fault
 from wearsim.extras import library
 from wearsim.geometry.profile import Vector
@@ -120,18 +119,7 @@ def _table(path: Path) -> "pd.DataFrame":
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         text = "cells must be separated by commas, with points in numbers: export it as such"
         raise CaseError([Fault(text, "", str(path), head)])
-    faults = [
-        Fault(f"column {name!r} is missing{nearest(name, names)}", "", str(path), head)
-        for name in REQUIRED
-        if name not in names
-    ]
-    faults += [
-        Fault(f"unknown column {name!r}{nearest(name, [*REQUIRED, *OPTIONAL])}", "", str(path), 1)
-        for name in names
-        if name not in REQUIRED + OPTIONAL
-    ]
-    if len(set(names)) < len(names):
-        faults.append(Fault("every column may stand there once only", "", str(path), head))
+    faults = [Fault(text, "", str(path), head) for text in header_faults(names, REQUIRED, OPTIONAL)]
     rows = [(number, cells) for number, cells in lines[1:] if any(cells)]
     faults += [
         Fault(f"needs {len(names)} values, has {len(cells)}", "", str(path), number)

@@ -49,9 +49,7 @@ def observation(
     if reading.quantity != PROFILE:
         return Gauge(reading)
     assert new is not None
-    expected = None
-    if state is not None and state.course is not None:
-        expected = state.course.recess(reading.hours / state.life, reading.gap_kind or 1)
+    expected = None if state is None else _recess(reading, state)
     registered = register(new.nominal, reading.x, reading.y, freedom, expected)
     return Scan(reading, registered, cutoff)
 
@@ -124,8 +122,8 @@ class Scan:
     def _smoothed(self, state: State) -> tuple[Vector, Vector]:
         """Measured and predicted recess at the stations [mm]."""
         assert state.course is not None
-        at = state.course.recess(self.reading.hours / state.life, self.reading.gap_kind or 1)
-        predicted = np.interp(self.registered.arc_length, state.course.new.chords, at)
+        chords = state.course.new.chords
+        predicted = np.interp(self.registered.arc_length, chords, _recess(self.reading, state))
         return self._weights @ self.registered.recess, self._weights @ predicted
 
     def residuals(self, state: State) -> Vector:
@@ -169,3 +167,10 @@ class Scan:
             Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row))
             for row in rows
         ]
+
+
+def _recess(reading: Reading, state: State) -> Vector:
+    """How far the worn flank lies behind the new one at the time of a profile [mm]."""
+    assert state.course is not None
+    part, kind = reading.hours / state.life, reading.gap_kind or 1
+    return state.course.mean(lambda one: one.recess(part, kind))

@@ -206,6 +206,36 @@ def replaced(tables: Mapping[str, Any], path: Sequence[str], value: Any) -> dict
     return {**tables, head: [*below[: int(number) - 1], entry, *below[int(number) :]]}
 
 
+def value_at(tables: Mapping[str, Any], key: str) -> Any:
+    """Return the value of a key.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables.
+    key : str
+        Dotted name; entries of a list of tables by their numbers from 1.
+
+    Returns
+    -------
+    object
+        None where there is none.
+
+    Examples
+    --------
+    >>> value_at({"duty": [{"speed_rpm": 1}]}, "duty.1.speed_rpm")
+    1
+    """
+    found: Any = tables
+    for part in key.split("."):
+        if isinstance(found, list):
+            is_there = is_number(part) and 0 < int(part) <= len(found)
+            found = found[int(part) - 1] if is_there else None
+        else:
+            found = found.get(part) if isinstance(found, Mapping) else None
+    return found
+
+
 def design(
     document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str
 ) -> Design:
