@@ -13,7 +13,7 @@ import pytest
         ("ANSI 40", 25),
         ("ПР-38,1-127", 18),
         ("72B-1", 60),
-        ("04B-1", 40),
+        ("05B-1", 40),
     ],
 )
 def test_output_passes_check_and_lives(cli, tmp_path, chain, teeth):

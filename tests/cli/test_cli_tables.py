@@ -46,7 +46,7 @@ def test_result_schema_is_closed_and_described(cli):
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ("chains", ["16B-1", "25.4", "ПР-25,4-60", "ISO 606:2004/2015"]),
+        ("chains", ["16B-1", "25.4", "ПР-25,4-60", "ISO 606:2015, 3.3", "doubtful: tensile_kN"]),
         ("materials", ["steel", "2.1e5", "polyamide 6"]),
         ("wear-conditions", ["hardened, oiled", "5e-11", "order of magnitude"]),
         ("cases", ["16b-20t-oiled.toml", "Evolute sprocket, 16B chain, 20 teeth"]),

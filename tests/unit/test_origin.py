@@ -38,7 +38,7 @@ def test_given_taken_and_default():
 
 def test_sources_of_catalogues():
     found = by_key(load_case(CASE))
-    assert found["chain.designation"].why.startswith("ISO606-B: K:ISO 606")
+    assert found["chain.designation"].why.startswith("ISO606-B: ISO 606:2015, 3.3")
     assert "2 times the single row" in found["chain.designation"].why
     assert "carbon" in found["material.sprocket.name"].why
     assert "order of magnitude" in found["wear.condition"].why

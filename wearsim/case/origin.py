@@ -115,8 +115,8 @@ def _chain_source(name: str) -> str:
     base = f"{chain.designation.rpartition('-')[0]}-1"
     for row in rows("chains"):
         if row["designation"].partition(" (")[0] in (chain.designation, base):
-            note = f"; note: {chain.flag}" if chain.flag else ""
-            return f"{chain.series}: {row['source']}{note}"
+            note = f"; note: {chain.note}" if chain.note else ""
+            return f"{chain.series}: {row['source']}; trust: {row['trust']}{note}"
     return chain.series
 
 

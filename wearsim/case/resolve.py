@@ -132,8 +132,8 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
         bearing_area=chain.bearing_area or table.bearing_area_mm2 or 0.0,
         mass_per_length=chain.mass_per_length or KG_PER_M * (table.mass_kg_per_m or 0.0),
     )
-    if chain.flag:
-        case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.flag}")
+    if chain.note:
+        case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.note}")
     return chain
 
 

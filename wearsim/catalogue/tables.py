@@ -25,8 +25,8 @@ class Chain:
         Chains side by side.
     tensile : float
         Minimum tensile strength [N], 0 where it is not known.
-    flag : str
-        Doubt about a number of the table.
+    note : str
+        Doubtful numbers of the table and what else there is to know about the row.
     series : str
         Standard and series as in the table, such as ``ISO606-B``; empty for a chain of one's own.
     pin_diameter : float
@@ -54,7 +54,7 @@ class Chain:
     inner_width: float
     strands: int = 1
     tensile: float = 0.0
-    flag: str = ""
+    note: str = ""
     series: str = ""
     pin_diameter: float = 0.0
     bearing_area: float = 0.0
@@ -140,7 +140,7 @@ def chains() -> dict[str, Chain]:
         A row ``08A-1 (ANSI 40)`` stands under ``08A-1``, ``08A`` and ``ANSI 40``. A row of
         ISO 606 with a transverse pitch also stands for its chains of two and three strands,
         ``08A-2``, ``ANSI 40-2`` and so on: area, tensile strength and mass are then n times
-        the single row, and the flag says so.
+        the single row, and the note says so.
 
     Examples
     --------
@@ -240,13 +240,19 @@ def _chain(row: dict[str, str]) -> Chain:
         inner_width=float(row["inner_width_mm"]),
         strands=int(first) if first.isdigit() and designation[1:3] == "ПР" else 1,
         tensile=1000.0 * float(row["tensile_kN"]),
-        flag=row["flag"],
+        note=_note(row),
         series=row["series"],
         pin_diameter=float(row["pin_diameter_mm"] or 0.0),
         bearing_area=float(row["bearing_area_mm2"] or 0.0),
         mass_per_length=KG_PER_M * float(row["mass_kg_per_m"] or 0.0),
         transverse_pitch=float(row["transverse_pitch_mm"] or 0.0),
     )
+
+
+def _note(row: dict[str, str]) -> str:
+    """What a case that uses the row must tell: its doubtful numbers first."""
+    _, doubtful, columns = row["trust"].partition("doubtful: ")
+    return ", ".join(part for part in (doubtful + columns, row["note"]) if part)
 
 
 def _multiple(single: Chain, designation: str, strands: int) -> Chain:
@@ -260,7 +266,7 @@ def _multiple(single: Chain, designation: str, strands: int) -> Chain:
         tensile=strands * single.tensile,
         bearing_area=strands * single.bearing_area,
         mass_per_length=strands * single.mass_per_length,
-        flag="; ".join(part for part in (single.flag, note) if part),
+        note="; ".join(part for part in (single.note, note) if part),
     )
 
 
