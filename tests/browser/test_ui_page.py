@@ -286,7 +286,7 @@ def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
 def test_save_as_stays_in_the_folder_and_asks_before_it_replaces(watched, serve, tmp_path):
     (tmp_path / "taken.toml").write_text("mine")
     page = opened(watched, serve(None))
-    assert "Evolute sprocket" in field(page, "title").input_value()
+    assert page.locator(".ws-title").inner_text() == "Evolute sprocket, 16B-1 chain, 20 teeth"
 
     def save_as(name):
         page.get_by_role("button", name="Save as").click()

@@ -3,7 +3,7 @@
 import copy
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -84,9 +84,78 @@ def read_document(source: Source, overrides: Sequence[str]) -> Document:
         text = source.text if isinstance(source, CaseText) else _read(path)
         data = _parsed(path, text)
     faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
+    written = copy.deepcopy(data)
     for item in overrides:
         _override(data, item)
-    return Document(name, folder, data, faults)
+    return Document(name, folder, retitled(data, written), faults)
+
+
+def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables whose title tells what is no longer as it was written under that title.
+
+    Parameters
+    ----------
+    tables : mapping
+        The tables as they are used.
+    written : mapping
+        As they were written.
+
+    Returns
+    -------
+    dict
+        The tables; without a title, or with one that is new itself, as they are.
+
+    Examples
+    --------
+    >>> written = {"title": "Hoist", "sprocket": {"teeth": 20, "profile": "evolute"}}
+    >>> retitled({"title": "Hoist", "sprocket": {"teeth": 25, "profile": "evolute"}}, written)["title"]
+    'Hoist, with sprocket.teeth = 25'
+    """
+    title, now, before = tables.get("title"), dict(leaves(tables)), dict(leaves(written))
+    if not isinstance(title, str) or not title or title != written.get("title"):
+        return dict(tables)
+    changes = {
+        "with": [f"{key} = {_shown(now[key])}" for key in now if now[key] != before.get(key)],
+        "without": [key for key in before if key not in now],
+    }
+    told = [f", {word} {', '.join(keys)}" for word, keys in changes.items() if keys]
+    return {**tables, "title": "".join([title, *told])}
+
+
+def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Give every key of some tables.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables of an input file.
+    prefix : str
+        Dotted name of the table that they stand in and a dot.
+
+    Yields
+    ------
+    str
+        Dotted key, tables of a list by their numbers from 1.
+    object
+        Its value.
+
+    Examples
+    --------
+    >>> dict(leaves({"duty": [{"speed_rpm": 1}], "title": "A"}))
+    {'duty.1.speed_rpm': 1, 'title': 'A'}
+    """
+    for name, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from leaves(value, f"{prefix}{name}.")
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            for number, entry in enumerate(value, start=1):
+                yield from leaves(entry, f"{prefix}{name}.{number}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+def _shown(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _read(path: Path) -> str:

@@ -9,7 +9,7 @@ from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.messages import Faults
 from wearsim.case.model import Case, GearDrive
 from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearTables
+from wearsim.case.schema.gear import GearTable, GearTables
 from wearsim.case.shared import (
     FLANK_NODES,
     TOLERANCE,
@@ -83,7 +83,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
     fatigue = resolve_fatigue(case, tables.fatigue)
     return Case(
         name=name,
-        title=tables.title or name,
+        title=tables.title or _title(tables.gear),
         inputs=case.inputs,
         files=(),
         drive=GearDrive(
@@ -107,6 +107,12 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )
+
+
+def _title(gear: GearTable) -> str:
+    """What a case is about that has no title of its own."""
+    form = gear.profile.replace("_", "-").capitalize()
+    return f"{form} gears {gear.pinion_teeth}/{gear.wheel_teeth}, module {gear.module_mm:g} mm"
 
 
 def _stiffness(case: Record, tables: GearTables, modulus: float) -> float:

@@ -1,10 +1,11 @@
 """Every key of a complete case: its value, its unit, and where the value comes from."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from wearsim.case.document import leaves
 from wearsim.case.keys import schema_fields, schema_of
 from wearsim.catalogue.tables import chains, rows, wear_conditions
 from wearsim.quantities import quantities
@@ -64,7 +65,7 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
         if not field.is_required()
     }
     found = []
-    for key, value in _keys(inputs):
+    for key, value in leaves(inputs):
         name = key.rpartition(".")[2]
         quantity = quantities().get(name)
         why, origin = _why_taken(key, value, assumptions), "taken"
@@ -75,17 +76,6 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
         unit, meaning = (quantity.unit, quantity.meaning) if quantity else ("", "")
         found.append(InputRow(key, value, unit, meaning, origin, why))
     return found
-
-
-def _keys(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _keys(value, f"{prefix}{name}.")
-        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
-            for number, entry in enumerate(value, start=1):
-                yield from _keys(entry, f"{prefix}{name}.{number}.")
-        else:
-            yield f"{prefix}{name}", value
 
 
 def _why_taken(key: str, value: Any, assumptions: Sequence[str]) -> str:

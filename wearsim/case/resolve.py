@@ -78,7 +78,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     assert drive is not None and duty is not None
     return Case(
         name=name,
-        title=tables.title or name,
+        title=tables.title or _title(case, kind),
         inputs=case.inputs,
         files=tuple(case.files),
         drive=drive,
@@ -95,6 +95,19 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
     )
+
+
+def _title(case: Resolution, kind: str) -> str:
+    """What a case is about that has no title of its own."""
+    given, sprocket = case.inputs["chain"], case.inputs.get("sprocket", {})
+    name = given.get("designation")
+    chain = f"{name} chain" if name else f"chain of {given['pitch_mm']:g} mm pitch"
+    if kind == "prescribed":
+        return f"Flank under the loads of {case.inputs['mechanism']['table_file']}"
+    if kind == "wrap":
+        return f"{chain[0].upper()}{chain[1:]} around a sprocket of {sprocket['teeth']} teeth"
+    form = "Evolute sprocket" if sprocket["profile"] == "evolute" else "Sprocket from points"
+    return f"{form}, {chain}, {sprocket['teeth']} teeth"
 
 
 def _turns_per_cycle(case: Resolution) -> int:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from wearsim.case.document import retitled
 from wearsim.errors import OutputError
 from wearsim.output import write_file
 from wearsim.report.study_files import save_texts
@@ -41,7 +42,7 @@ def save_designs(folder: Path, heads: Mapping[str, str], cases: Design) -> None:
             raise
         raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
     texts = {
-        name: _case_text(head, cases.tables_of(at), placed)
+        name: _case_text(head, retitled(cases.tables_of(at), cases.tables), placed)
         for at, (name, head) in enumerate(heads.items())
     }
     save_texts(folder, texts)

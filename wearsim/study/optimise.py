@@ -148,7 +148,8 @@ def load_optimise(
         life = limits["life_hours"]
         # A life that runs beyond its high limit must be seen to.
         horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
-        case = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
+        raised = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
+        case = replace(raised, title=case.title)
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     given, space = _with_files(replace(document, data=data), space, path)

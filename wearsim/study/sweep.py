@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.calculation import load_calculation
-from wearsim.case.document import read_document
+from wearsim.case.document import read_document, retitled
 from wearsim.case.schema.sweep import Range, SweepTables
 from wearsim.errors import CaseError, Fault
 from wearsim.study.runner.design import Design, design
@@ -67,9 +67,11 @@ def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
         tuple(itertools.chain.from_iterable(parts))
         for parts in itertools.product(*(rows for _, rows in axes))
     ]
-    document = read_document(path.parent / tables.case, overrides)
+    document, written = (read_document(path.parent / tables.case, sets) for sets in (overrides, ()))
+    title = {"title": tables.title}
+    told = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, str(path))
-    return Sweep(tables.title, tuple(names for names, _ in axes), cases)
+    return Sweep(told, tuple(names for names, _ in axes), cases)
 
 
 Axis = tuple[tuple[str, ...], list[tuple[Any, ...]]]

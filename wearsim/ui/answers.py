@@ -1,9 +1,9 @@
 """The answer to an input, in steps: is it sound, about how long, how long, what it looks like."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from wearsim.case.document import CaseText
+from wearsim.case.document import CaseText, retitled
 from wearsim.case.load import load_case
 from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, Fault, WearsimError
@@ -15,6 +15,8 @@ from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import WearResult
 from wearsim.simulation import simulate
+from wearsim.ui.file import CaseFile
+from wearsim.ui.source import tables_of
 
 _ROUGH = {"mechanism.phases": 4, "sprocket.nodes": 101}
 """Most of what a first estimate takes of a wrap."""
@@ -62,6 +64,31 @@ def faults_of(error: WearsimError) -> tuple[Fault, ...]:
         At least one.
     """
     return error.faults if isinstance(error, CaseError) else (Fault(str(error)),)
+
+
+def edited_case(source: CaseText, file: CaseFile) -> Case:
+    """Return the case of an input whose title tells what is not yet in its file.
+
+    Parameters
+    ----------
+    source : CaseText
+        The input.
+    file : CaseFile
+        What it held when it was last read or written.
+
+    Returns
+    -------
+    Case
+        As `load_case` gives it but for the title.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input.
+    """
+    case = load_case(source)
+    tables, written = tables_of(source.text) or {}, tables_of(file.text) or {}
+    return replace(case, title=retitled(tables, written).get("title") or case.title)
 
 
 def is_slow(case: Case) -> bool:

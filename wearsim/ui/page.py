@@ -8,7 +8,6 @@ from typing import TypeVar
 from nicegui import background_tasks, ui
 
 from wearsim.case.document import CaseText
-from wearsim.case.load import load_case
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.report.answer import hours
@@ -17,6 +16,7 @@ from wearsim.result import WearResult
 from wearsim.ui.answer_panel import AnswerPanel
 from wearsim.ui.answers import (
     StaleError,
+    edited_case,
     estimate,
     faults_of,
     is_slow,
@@ -167,7 +167,7 @@ class CasePage:
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
         is_stale, told = self._staleness(version), self._progress(version)
-        case = await self._step(version, lambda: load_case(source))
+        case = await self._step(version, lambda: edited_case(source, self._keeper.file))
         if is_slow(case):
             await self._show_first(version, source, case)
         result = await self._step(version, lambda: life(case, is_stale, told))
@@ -195,7 +195,7 @@ class CasePage:
     def _show_sound(self, case: Case) -> None:
         self._form.show_faults(())
         self._answer.show_faults(())
-        self._form.show_taken(case.inputs)
+        self._form.show_taken({**case.inputs, "title": case.title})
 
     async def _step(self, version: int, work: Callable[[], Found]) -> Found:
         found = await in_thread(work)
