@@ -91,6 +91,8 @@ def test_beyond_the_horizon_only_a_bound_is_known(cli, case):
     assert found["p50_hours"] is not None
     assert found["p90_hours"] is None
     assert found["p90_hours_at_least"] == pytest.approx(middle * 1.2)
+    assert found["p50_hours_at_least"] is None
+    assert found["convergence"][-1]["p90_hours"] is None  # as in the table on screen
     assert any("beyond run.horizon_hours are only bounds" in text for text in found["warnings"])
     text = cli(
         "uncertainty", path, "--samples", 64, "--set", f"run.horizon_hours={middle * 1.2!r}"

@@ -1,7 +1,9 @@
 """``life --xlsx`` and ``compare --xlsx``: the workbook, read back cell by cell."""
 
 import io
+import json
 import math
+import re
 import sys
 import zipfile
 
@@ -129,8 +131,8 @@ def test_numbers_are_those_of_the_folder(cli, drive, tmp_path):
         assert answer[name][0] == (quantities()[name].unit or None)
     assert answer["life_reached"][1] is True
     assert answer["critical_depth_mm"][:2] == ("mm", 0.02)
-    assert answer["  has come to"][1] == pytest.approx(0.02)
-    assert answer["  margin"][1] == 0
+    assert answer["critical_depth_mm, value"][1] == pytest.approx(0.02)
+    assert answer["critical_depth_mm, margin"][1] == 0
     texts = [cell.value for cell in sheets["Answer"]["B"]]
     assert set(result.assumptions) | set(result.warnings) <= set(texts)
 
@@ -199,8 +201,11 @@ def test_comparison_of_runs_and_cases(cli, case, drive, tmp_path):
     found = rows(sheets["Comparison"])
     for name in ("case", "stop"):
         assert found[name][1:4] == tuple(summary[name])
-    governing = ["governing_life", "governing_life_hours"]  # in a workbook with [fatigue] only
+    governing = [name for name in summary.columns if name.startswith("governing")]  # [fatigue] only
     for name in summary.columns.drop(["case", "stop", "title", "life_reached", *governing]):
+        if name.endswith("_at_least") and summary[name].isna().all():
+            assert name not in found
+            continue
         values = [math.nan if value is None else value for value in found[name][1:4]]
         assert values == pytest.approx(summary[name].tolist(), rel=1e-12, nan_ok=True)
     assert found["life_reached"][1:4] == (True, True, False)
@@ -329,3 +334,71 @@ def test_workbook_is_a_valid_zip_of_xml(cli, drive, tmp_path):
     cli("life", drive(title='"A & B < C"'), "--xlsx", book)
     data = io.BytesIO(book.read_bytes())
     assert zipfile.ZipFile(data).testzip() is None
+
+
+def numbers(text):
+    """Numbers as the screen shows them, thousands set apart, with the sign of a bound."""
+    return re.findall(r"(> )?(\d[\d .]*\d|\d) h", text)
+
+
+@pytest.mark.parametrize(
+    ("name", "settings"),
+    [
+        ("strand", ()),
+        ("strand", ("run.horizon_hours=50",)),
+        ("wrap", ()),
+        ("gears", ()),
+        ("gears", ("run.horizon_hours=1",)),
+    ],
+)
+def test_screen_json_and_workbook_agree(cli, case, drive, tmp_path, name, settings):
+    """Every life with its bound: on screen with >, beside an empty cell and null as _at_least."""
+    path = drive() if name == "strand" else case(name, {"wrap": WRAP, "gears": GEARS}[name])
+    run, book = tmp_path / "run", tmp_path / "book.xlsx"
+    sets = [part for setting in settings for part in ("--set", setting)]
+    screen = " ".join(cli("life", path, *sets, "--out", run, "--xlsx", book).out.split())
+    (line,) = cli("compare", run, "--xlsx", tmp_path / "other.xlsx", "--json").out.splitlines()
+    found, answer = json.loads(line), rows(read(book)["Answer"])
+    shown = [name for name in found if isinstance(found[name], int | float | str)]
+    assert {name: answer[name][1] for name in shown if name not in ("schema_version", "title")} == {
+        name: pytest.approx(found[name], rel=1e-15)
+        if isinstance(found[name], float)
+        else found[name]
+        for name in shown
+        if name not in ("schema_version", "title")
+    }
+    empty = [name for name in found if found[name] is None]
+    assert all(name not in answer or answer[name][1] is None for name in empty)
+    lives = ["life_hours", "life_hours_high", "life_hours_low"]
+    lives += ["chain_life_hours", "sprocket_life_hours"] if name == "wrap" else []
+    told = numbers(re.sub(r"\([^()]*\)", "", screen))[: len(lives)]
+    assert len(told) == len(lives)
+    for key, (sign, number) in zip(lives, told, strict=True):
+        is_bound = found[key] is None
+        assert bool(sign) == is_bound
+        hours = found[f"{key}_at_least"] if is_bound else found[key]
+        assert float(number.replace(" ", "")) == pytest.approx(hours, rel=1e-3)
+        assert (found[f"{key}_at_least"] is None) != is_bound
+    if settings:
+        horizon = float(settings[0].partition("=")[2])
+        assert found["life_hours_at_least"] == found["hours_run"] == horizon
+        assert found["life_hours_high_at_least"] == horizon
+    if name == "wrap":
+        assert found["chains_run"] == 1  # no chain has come to its limit within the run
+    (total,) = re.findall(r"Worn most .*?at [\d.]+ mm of ([\d.]+) mm", screen)
+    assert float(total) == pytest.approx(found["flank_length_mm"], abs=0.05)
+
+
+def test_meanings_stand_by_themselves(cli, case, drive, tmp_path):
+    """No meaning of a row points at another row; every row has one, and every limit its own name."""
+    book = tmp_path / "all.xlsx"
+    cli("life", drive(), case("wrap", WRAP), case("gears", GEARS), "--xlsx", book)
+    sheet = read(book)["Comparison"]
+    found = [(row[0], row[-1]) for row in sheet.iter_rows(min_row=2, values_only=True) if row[0]]
+    meanings = dict(found[: [label for label, _ in found].index("warnings")])
+    meanings = {label: text for label, text in meanings.items() if not label.startswith("limits, ")}
+    assert all(meanings.values()), [label for label, text in meanings.items() if not text]
+    for label, text in meanings.items():
+        assert not re.match(r"(that|the same|its|it|those|this)\b", text), label
+        assert not label.startswith(" ")
+    assert len(set(meanings.values())) == len(meanings)

@@ -51,7 +51,7 @@ CASE = {
 CALCULATION_CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
 OTHER_ENDINGS = {"h": "hours", "km/h": "km_per_hour", "t/h": "tonnes_per_hour"}
 """Endings of names whose unit is written otherwise in the table."""
-WORDS_AFTER_UNIT = ("_low", "_high", "_run")
+WORDS_AFTER_UNIT = ("_at_least", "_low", "_high", "_run")
 
 
 def ending(unit):
@@ -177,7 +177,14 @@ def written(tmp_path_factory):
         *comparison_table([result]),
         *wrapped(),
         *FLANK_COLUMNS["gear_pair"],
-        *("time_s", "turned", "chains_per_sprocket", "last_chain_used", "stops"),
+        *(
+            "time_s",
+            "turned",
+            "chains_per_sprocket",
+            "chains_per_sprocket_at_least",
+            "last_chain_used",
+            "stops",
+        ),
         *("cost_per_1000_h", "classes", "same_link_kind"),
         *HERTZ_CHECK_FEM,
         *catalogue_columns(),

@@ -213,32 +213,34 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
     return [("Of which", f"{lives}{more}"), *limits]
 
 
-def service_text(inputs: Mapping[str, Any], running: float, before: float = 0.0) -> str:
-    """Return hours of running in the measures that a case gives factors for, in words.
+def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0) -> str:
+    """Return a life in the measures that a case gives factors for, in words.
 
     Parameters
     ----------
     inputs : mapping
         Tables of the case.
-    running, before : float
-        Running time [h], and that from ``start_date`` until it begins.
+    life : Life or LowerBound
+        The life.
+    before : float
+        Running time from ``start_date`` until it begins [h].
 
     Returns
     -------
     str
         Such as ``30 000 km, 125 days, until 2026-05-06``; empty without factors.
     """
-    return ", ".join(
+    text = ", ".join(
         f"until {value}" if isinstance(value, str) else f"{grouped(value)} {name}"
-        for name, value in service_measures(inputs, running, before).items()
+        for name, value in service_measures(inputs, life.hours_run, before).items()
     )
+    return f"more than {text}" if text and isinstance(life, LowerBound) else text
 
 
 def _service(result: WearResult) -> list[tuple[str, str]]:
     """Give the life, or what the run covers of it, in other measures."""
-    reached = isinstance(result.life, Life)
-    text = service_text(result.inputs, result.life.hours_run)
-    return [("In service", text if reached else f"more than {text}")] if text else []
+    text = service_text(result.inputs, result.life)
+    return [("In service", text)] if text else []
 
 
 def row(label: str, text: str) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from wearsim.output import new_folder
 from wearsim.report.answer import governing_text, hours, limit_text
 from wearsim.report.figures import comparison_figures, save_figure
-from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result import Life, WearResult, life_keys
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,8 +26,8 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Life and its band [h] (nan and ``life_reached`` false where only a bound is
-        known), ratio to the first, the limit that ended it, with contact fatigue what
+        Life and its band [h] (nan where only a bound is known, which stands under
+        ``..._at_least``), ratio to the first, the limit that ended it, with contact fatigue what
         governs and its hours, peak pressure, removed area, where the deepest point is.
     """
     import pandas as pd  # takes 0.3 s, and a page of one drive has no table
@@ -41,18 +41,18 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
             {
                 "case": result.case,
                 "title": result.title,
-                "life_hours": _number(life),
+                **life_keys("life_hours", life),
                 "life_reached": isinstance(life, Life),
                 "hours_run": result.hours_run,
-                "life_hours_low": _number(result.life_low),
-                "life_hours_high": _number(result.life_high),
+                **life_keys("life_hours_low", result.life_low),
+                **life_keys("life_hours_high", result.life_high),
                 "ratio_to_first": life.hours / first.hours if both else float("nan"),
                 "stop": result.stop,
                 "stop_value": result.stop_value,
                 "governing_life": result.governing if result.fatigue else None,
-                "governing_life_hours": _number(result.earliest_life)
-                if result.fatigue
-                else float("nan"),
+                **life_keys(
+                    "governing_life_hours", result.earliest_life if result.fatigue else None
+                ),
                 "initial_peak_pressure_MPa": result.initial_peak_pressure,
                 "final_peak_pressure_MPa": result.final_peak_pressure,
                 "removed_area_mm2": float(result.history_columns["removed_area_mm2"][-1]),
@@ -60,7 +60,10 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
                 "max_depth_arc_length_mm": result.max_depth_arc_length,
             }
         )
-    return pd.DataFrame(rows)
+    table = pd.DataFrame(rows)
+    # A column of None alone is one of numbers too.
+    numbers = [name for name in table if "life_hours" in name]
+    return table.astype(dict.fromkeys(numbers, float))
 
 
 def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[str]]]:
@@ -215,7 +218,3 @@ def _page(results: list[WearResult], table: str) -> str:
     pictures = ("flanks", "along_flank", "depth_over_hours")
     parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
     return "\n\n".join(parts) + "\n"
-
-
-def _number(life: Life | LowerBound) -> float:
-    return life.hours if isinstance(life, Life) else float("nan")

@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.output import new_folder
 from wearsim.report.answer import grouped, hours, numbered, row
-from wearsim.result import Life, LowerBound
+from wearsim.result import Life, LowerBound, life_keys
 from wearsim.study.maintain import MaintenancePlan, Policy
 from wearsim.study.tooth_count import ToothCount
 
@@ -34,12 +34,15 @@ def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
             "replace_at_percent": _percent(policy),
             "turned": policy.turned,
             "chain_life_hours": policy.chain_hours,
-            "chains_per_sprocket": policy.chains,
-            "last_chain_used": policy.last_chain_used,
-            "sprocket_life_hours": _hours(policy.sprocket),
+            "chains_per_sprocket": _known(policy.chains, policy),
+            "chains_per_sprocket_at_least": (
+                None if isinstance(policy.sprocket, Life) else policy.chains
+            ),
+            "last_chain_used": _known(policy.last_chain_used, policy),
+            **life_keys("sprocket_life_hours", policy.sprocket),
             "life_reached": isinstance(policy.sprocket, Life),
             "hours_run": policy.hours,
-            "stops": policy.stops,
+            "stops": _known(policy.stops, policy),
             "cost_per_1000_h": policy.cost,
             "numerical_error": policy.numerical_error,
         }
@@ -66,8 +69,8 @@ def count_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
             "links": count.meetings.links,
             "classes": count.meetings.classes,
             "same_link_kind": count.meetings.same_link_kind,
-            "chain_life_hours": _hours(count.lives.get("chain")),
-            "sprocket_life_hours": _hours(count.lives.get("sprocket")),
+            **life_keys("chain_life_hours", count.lives.get("chain")),
+            **life_keys("sprocket_life_hours", count.lives.get("sprocket")),
         }
         for count in plan.counts
     ]
@@ -174,6 +177,11 @@ def save_maintenance(plan: MaintenancePlan, folder: Path, force: bool) -> None:
         save_figure(maintenance_figure(plan), place, "maintenance")
 
 
+def _known(value: float, policy: Policy) -> float | None:
+    """A number of the sprocket's life, None where that is not known."""
+    return value if isinstance(policy.sprocket, Life) else None
+
+
 def _percent(policy: Policy) -> float:
     return float(f"{100.0 * policy.replace_at:.12g}")
 
@@ -246,7 +254,3 @@ def _aligned(head: Sequence[str], rows: list[list[str]]) -> list[str]:
 def _markdown(head: Sequence[str], rows: list[list[str]]) -> str:
     lines = ["| " + " | ".join(row) + " |" for row in (head, *rows)]
     return "\n".join([lines[0], "|" + "---|" * len(head), *lines[1:]])
-
-
-def _hours(life: Life | LowerBound | None) -> float | None:
-    return life.hours if isinstance(life, Life) else None

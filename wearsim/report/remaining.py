@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from wearsim.report.answer import grouped, hours, numbered, row, service_text
-from wearsim.report.service import service_measures
-from wearsim.result import Life, LowerBound
+from wearsim.report.service import service_keys
+from wearsim.result import Life, life_keys
 from wearsim.study.remaining import RemainingLife
 
 _WORDS = {
@@ -33,7 +33,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
     reading = found.reading
     band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
     what = _WORDS[reading.quantity].format(f"{reading.value:g}")
-    service = service_text(inputs, found.remaining.hours_run, reading.hours)
+    service = service_text(inputs, found.remaining, reading.hours)
     rows = [
         (
             "Remaining",
@@ -82,20 +82,15 @@ def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str,
         "coefficient": found.coefficient,
         "coefficient_factor": found.factor,
         "life_reached": isinstance(found.life, Life),
-        "life_hours": _hours(found.life),
-        "remaining_hours": _hours(found.remaining),
-        "remaining_hours_low": _hours(found.remaining_low),
-        "remaining_hours_high": _hours(found.remaining_high),
+        **life_keys("life_hours", found.life),
+        **life_keys("remaining_hours", found.remaining),
+        **life_keys("remaining_hours_low", found.remaining_low),
+        **life_keys("remaining_hours_high", found.remaining_high),
         "hours_run": found.life.hours_run,
     }
-    if inputs.get("service") and isinstance(found.remaining, Life):
-        content["service"] = service_measures(inputs, found.remaining.hours, reading.hours)
     return {
         **content,
+        **service_keys(inputs, found.remaining, reading.hours),
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),
     }
-
-
-def _hours(life: Life | LowerBound) -> float | None:
-    return life.hours if isinstance(life, Life) else None

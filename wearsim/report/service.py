@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from datetime import date, timedelta
 from typing import Any
 
-from wearsim.result import Life, WearResult
+from wearsim.result import Life, LowerBound, WearResult
 
 
 def service_measures(
@@ -62,9 +62,32 @@ def life_json(result: WearResult) -> dict[str, Any]:
     Returns
     -------
     dict
-        Its summary; with ``service`` where the case has that table and the life is known.
+        Its summary; with ``service`` where the case has that table, with ``service_at_least`` where
+        only a bound of the life is known.
     """
-    summary = result.summary()
-    if result.inputs.get("service") and isinstance(result.life, Life):
-        summary["service"] = service_measures(result.inputs, result.life.hours)
-    return summary
+    return result.summary() | service_keys(result.inputs, result.life)
+
+
+def service_keys(
+    inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0
+) -> dict[str, dict[str, float | str]]:
+    """Return a life in the measures of a machine in service under the key that says what it is.
+
+    Parameters
+    ----------
+    inputs : mapping
+        Tables of the case.
+    life : Life or LowerBound
+        The life.
+    before : float
+        Running time from ``start_date`` until it begins [h].
+
+    Returns
+    -------
+    dict
+        Empty where the case has no table [service].
+    """
+    if not inputs.get("service"):
+        return {}
+    key = "service" if isinstance(life, Life) else "service_at_least"
+    return {key: service_measures(inputs, life.hours_run, before)}

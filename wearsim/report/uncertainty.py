@@ -186,13 +186,13 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
         A percentile that is not known is null, and its bound stands under ``at_least``.
     """
     study = answer.study
-    content: dict[str, Any] = {"schema_version": 1, "case": study.scattered.case.name}
+    case = study.scattered.case
+    content: dict[str, Any] = {"schema_version": 1, "case": case.name, "title": case.title}
     for found in answer.percentiles:
         name = f"p{100 * found.share:.0f}_hours"
         content[name] = found.hours if found.known else None
         content[f"{name}_low"], content[f"{name}_high"] = found.low, plain(found.high)
-        if not found.known:
-            content[f"{name}_at_least"] = found.hours
+        content[f"{name}_at_least"] = None if found.known else found.hours
     content["confidence"] = CONFIDENCE
     content |= {"samples": len(answer.sound), "failed": len(answer.table) - len(answer.sound)}
     content |= {"method": study.method, "seed": study.seed}
@@ -207,11 +207,11 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
     ]  # fmt: skip
     if answer.crossed is not None:
         content["cross_check"] = cross_check_json(answer.crossed)
-    content["assumptions"] = [
-        *study.scattered.assumptions,
-        _OF_INTERVALS,
-        *study.scattered.case.assumptions,
+    content["convergence"] = [
+        {name: plain(value) for name, value in row.items()}
+        for row in answer.convergence.to_dict("records")
     ]
+    content["assumptions"] = _assumptions(study)
     content["warnings"] = warnings_of(answer)
     return content
 

@@ -104,6 +104,34 @@ def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | Lowe
     return Life(cycles, hours) if reached else LowerBound(cycles, hours)
 
 
+def life_keys(name: str, life: Life | LowerBound | None) -> dict[str, float | None]:
+    """Return a life as two plain numbers, one of which is None.
+
+    Parameters
+    ----------
+    name : str
+        Key of the life.
+    life : Life, LowerBound or None
+        The life, None where it was not calculated.
+
+    Returns
+    -------
+    dict
+        Its hours, and under the key with ``_at_least`` what it is at least where only that is known.
+
+    Examples
+    --------
+    >>> life_keys("life_hours", Life(12000.0, 2.0))
+    {'life_hours': 2.0, 'life_hours_at_least': None}
+    >>> life_keys("life_hours", LowerBound(12000.0, 2.0))
+    {'life_hours': None, 'life_hours_at_least': 2.0}
+    """
+    return {
+        name: life.hours if isinstance(life, Life) else None,
+        f"{name}_at_least": life.hours_run if isinstance(life, LowerBound) else None,
+    }
+
+
 def first_life(wear: Life | LowerBound, fatigue: Mapping[str, Life | LowerBound]) -> str | None:
     """Return which of the lives by wear and by contact fatigue ends first.
 

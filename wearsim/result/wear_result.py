@@ -14,7 +14,7 @@ import wearsim
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
-from wearsim.result.life import Life, LimitState, LowerBound, first_life
+from wearsim.result.life import Life, LimitState, LowerBound, first_life, life_keys
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -156,21 +156,21 @@ class WearResult:
             "schema_version": SCHEMA_VERSION,
             "case": self.case,
             "title": self.title,
-            "life_hours": _hours(self.life),
+            **life_keys("life_hours", self.life),
             "cycles": self.life.cycles if isinstance(self.life, Life) else None,
             "life_reached": reached,
             "hours_run": self.hours_run,
             "cycles_run": self.cycles_run,
-            "life_hours_low": _hours(self.life_low),
-            "life_hours_high": _hours(self.life_high),
+            **life_keys("life_hours_low", self.life_low),
+            **life_keys("life_hours_high", self.life_high),
             "band": self.band,
             "stop": self.stop,
             "stop_value": self.stop_value,
-            **{f"{name}_life_hours": _hours(life) for name, life in self.parts.items()},
-            **self._governing_life(),
+            **self._parts(),
             "limits": [asdict(state) for state in self.limits],
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
+            "flank_length_mm": float(self.flank_columns["arc_length_mm"][-1]),
             "removed_area_mm2": self.removed_area,
             "worn_area_mm2": self.worn_area,
             "initial_peak_pressure_MPa": self.initial_peak_pressure,
@@ -184,13 +184,21 @@ class WearResult:
             "warnings": list(self.warnings),
         }
 
-    def _governing_life(self) -> dict[str, Any]:
-        if not self.fatigue:
-            return {}
-        return {
-            "governing_life": self.governing,
-            "governing_life_hours": _hours(self.earliest_life),
-        }
+    def _parts(self) -> dict[str, Any]:
+        """Lives of the parts, which of wear and contact fatigue governs, and the chains they take."""
+        keys: dict[str, Any] = {}
+        for name, life in self.parts.items():
+            found = life_keys(f"{name}_life_hours", life)
+            if name in self.fatigue:
+                # A stress that is always endured: there is no such life, and no bound of it.
+                del found[f"{name}_life_hours_at_least"]
+            keys |= found
+        if "chain" in self.parts:
+            keys["chains_run"] = int(self.history_columns["chain"][-1])
+        if self.fatigue:
+            keys["governing_life"] = self.governing
+            keys |= life_keys("governing_life_hours", self.earliest_life)
+        return keys
 
     def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:
         """Write the result into a folder, all of it or nothing.
@@ -252,7 +260,3 @@ def environment() -> dict[str, str]:
         "platform": f"{platform.system()} {platform.machine()}",
         **{name: metadata.version(name) for name in libraries},
     }
-
-
-def _hours(life: Life | LowerBound) -> float | None:
-    return life.hours if isinstance(life, Life) else None

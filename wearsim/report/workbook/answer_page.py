@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import hours
+from wearsim.report.answer import governing_text, hours, limit_name
 from wearsim.report.compare import comparison_table, differing_limits
 from wearsim.report.service import life_json
 from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
@@ -14,6 +14,25 @@ _NOT_SHOWN = ("schema_version", "title", "limits", "assumptions", "warnings")
 _LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
 _FIRST_VALUE = 2
 _BOLD = ("life", "life_hours")
+_AT_LEAST = "_at_least"
+_MEANINGS = {
+    "life": "the life in words; > where no limit was met within the running time",
+    "governs": "which of wear and contact fatigue ends the life first, with the lives of all",
+    "case": "stem of the case file",
+    "cycles": "loading cycles of one gap or tooth in this life; empty where no limit was met",
+    "max_depth_mm": "depth worn off at the deepest point at the end of the run",
+    **{
+        f"{name}{end}": f"{text}{told}"
+        for name, text in {
+            "km": "way that the machine covers in this life, km",
+            "tonnes": "mass that the machine moves in this life, t",
+            "days": "days of service that this life takes",
+            "date": "day on which this life ends",
+        }.items()
+        for end, told in (("", ""), (_AT_LEAST, ": at least this, no limit was met"))
+    },
+}
+"""Meanings of rows that are no key of the answer, or mean less here than everywhere."""
 
 
 def write_answer_page(
@@ -60,8 +79,12 @@ def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
     """Values of every quantity, one for each result."""
     answers = [_flat(life_json(result)) for result in results]
     rows: dict[str, list[Any]] = {"life": [_in_words(result) for result in results]}
+    if any(result.fatigue for result in results):
+        rows["governs"] = [governing_text(result) if result.fatigue else None for result in results]
     for name in dict.fromkeys(name for answer in answers for name in answer):
-        rows[name] = [answer.get(name) for answer in answers]
+        values = [answer.get(name) for answer in answers]
+        if not name.endswith(_AT_LEAST) or any(value is not None for value in values):
+            rows[name] = values
     if len(results) > 1:
         rows["ratio_to_first"] = comparison_table(list(results))["ratio_to_first"].tolist()
     return rows
@@ -69,7 +92,9 @@ def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
 
 def _flat(answer: Mapping[str, Any]) -> dict[str, Any]:
     shown = {name: value for name, value in answer.items() if name not in _NOT_SHOWN}
-    return {**shown, **shown.pop("service", {})}
+    measures = shown.pop("service", {})
+    bounds = shown.pop("service_at_least", {})
+    return {**shown, **measures, **{f"{name}{_AT_LEAST}": value for name, value in bounds.items()}}
 
 
 def _in_words(result: WearResult) -> str:
@@ -99,27 +124,36 @@ def _write_row(
 
 
 def _unit(name: str) -> str:
+    if name.removesuffix(_AT_LEAST).endswith("_percent"):
+        return "%"
     return quantities()[name].unit if name in quantities() else ""
 
 
 def _meaning(name: str) -> str:
-    if name == "life":
-        return "the answer in words; > where no limit was met within the running time"
+    if name in _MEANINGS:
+        return _MEANINGS[name]
     return quantities()[name].meaning if name in quantities() else ""
 
 
 def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
     """Write each limit, what its quantity has come to, and what is left between both."""
-    _write_section(page, row, "limits at the end of the life", _FIRST_VALUE + len(results))
+    _write_section(
+        page,
+        row,
+        "limits, and what has come of them when the life or the run ends",
+        _FIRST_VALUE + len(results),
+    )
     states = [{state.name: state for state in result.limits} for result in results]
     for name in dict.fromkeys(name for found in states for name in found):
         chosen = [found.get(name) for found in states]
         limits = [state.limit if state else None for state in chosen]
         values = [state.value if state else None for state in chosen]
         margins = [state.left if state else None for state in chosen]
-        _write_row(page, row + 1, name, _unit(name), limits, _meaning(name))
-        _write_row(page, row + 2, "  has come to", _unit(name), values, _meaning("value"))
-        _write_row(page, row + 3, "  margin", _unit(name), margins, "what is left to the limit")
+        words, unit = limit_name(name)[0], _unit(name)
+        come, left = f"{words}: what it has come to", f"{words}: what is left to the limit"
+        _write_row(page, row + 1, name, unit, limits, f"limit: {_meaning(name)}")
+        _write_row(page, row + 2, f"{name}, value", unit, values, come)
+        _write_row(page, row + 3, f"{name}, margin", unit, margins, left)
         row += 3
     return row + 1
 
