@@ -62,7 +62,7 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
         )
     table = pd.DataFrame(rows)
     # A column of None alone is one of numbers too.
-    numbers = [name for name in table if "life_hours" in name]
+    numbers = [name for name in map(str, table.columns) if "life_hours" in name]
     return table.astype(dict.fromkeys(numbers, float))
 
 
