@@ -100,7 +100,8 @@ def test_bad_input_is_2_and_named(cli, setting, named):
 
 
 def test_units_are_converted(cli):
-    plain = cli("face-load", CASE, "--json", "-q").out
+    title = ("--set", "title=One")
+    plain = cli("face-load", CASE, "--json", "-q", *title).out
     given = [
         part
         for text in (
@@ -110,7 +111,7 @@ def test_units_are_converted(cli):
         )
         for part in ("--set", text)
     ]
-    assert cli("face-load", CASE, "--json", "-q", *given).out == plain
+    assert cli("face-load", CASE, "--json", "-q", *title, *given).out == plain
 
 
 def test_page_shows_what_is_printed(cli):
