@@ -1,6 +1,8 @@
 """README.md and docs/ are true: every expected value is what the document itself states."""
 
+import contextlib
 import csv
+import io
 import json
 import os
 import re
@@ -15,6 +17,7 @@ import pytest
 from pydantic import BaseModel
 
 import wearsim
+import wearsim.cli
 from wearsim.case.schema import CaseTables
 from wearsim.catalogue.tables import rows
 from wearsim.report.answer import grouped
@@ -45,6 +48,7 @@ def commands():
 
 
 def run(line, folder):
+    """The installed command in a process of its own."""
     _, *arguments = shlex.split(line, comments=True)
     return subprocess.run(
         [WEARSIM, *arguments],
@@ -54,6 +58,21 @@ def run(line, folder):
         encoding="utf-8",
         env={**os.environ, "PYTHONIOENCODING": "utf-8"},
     )
+
+
+def run_here(line, folder):
+    """The same command in this process, which has loaded what every command needs."""
+    out, err = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+        pytest.MonkeyPatch.context() as patch,
+        pytest.raises(SystemExit) as ended,
+    ):
+        patch.setattr(sys, "argv", ["wearsim", *shlex.split(line, comments=True)[1:]])
+        wearsim.cli.main()
+    return subprocess.CompletedProcess(line, ended.value.code or 0, out.getvalue(), err.getvalue())
 
 
 def documented(text, heading):
@@ -68,7 +87,7 @@ def checkout(tmp_path_factory):
     """A copy of what the commands of README.md read, after all of them have run in turn."""
     folder = tmp_path_factory.mktemp("checkout")
     shutil.copytree(ROOT / "cases", folder / "cases")
-    return folder, {line: run(line, folder) for line in commands()}
+    return folder, {line: run_here(line, folder) for line in commands()}
 
 
 @pytest.fixture(scope="module")
