@@ -68,10 +68,10 @@ def run_here(line, folder):
         contextlib.redirect_stdout(out),
         contextlib.redirect_stderr(err),
         pytest.MonkeyPatch.context() as patch,
-        pytest.raises(SystemExit) as ended,
     ):
         patch.setattr(sys, "argv", ["wearsim", *shlex.split(line, comments=True)[1:]])
-        wearsim.cli.main()
+        with pytest.raises(SystemExit) as ended:
+            wearsim.cli.main()
     return subprocess.CompletedProcess(line, ended.value.code or 0, out.getvalue(), err.getvalue())
 
 
