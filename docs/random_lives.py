@@ -34,7 +34,10 @@ WARNINGS = ("numerical error", "the error of the grid could not be estimated")
 PRESSURE, HARDNESS = 600.0, 6000.0
 """Pressure at which every law of a specific wear rate wears alike; of the drozdov law [MPa]."""
 
-DESIGNATIONS = sorted({chain.designation for chain in chains().values()})
+STAND_INS = {f"04B-{strands}": f"05B-{strands}" for strands in (1, 2, 3)}
+"""Chains that the catalogue had when the cases were first drawn: without them all would be others."""
+
+DESIGNATIONS = sorted({*(chain.designation for chain in chains().values()), *STAND_INS})
 LIMITS = ("", "", "min_tip_land_mm", "min_tooth_thickness_mm", "case_depth_mm")
 FADES = {0: "loaded to the ends", 1: "fading to the ends", 2: "fading smoothly"}
 
@@ -92,7 +95,8 @@ def draw(rng: Random, folder: Path) -> Draw:
     """Draw a case; where a value is drawn from that of a default, one without it is loaded."""
     kind = str(rng.choice(["evolute", "points", "table"], p=[0.6, 0.15, 0.25]))
     points, tolerance = round(log_uniform(rng, 61, 401)), log_uniform(rng, 1e-5, 1e-2)
-    chain = chains()[str(rng.choice(DESIGNATIONS))]
+    name = str(rng.choice(DESIGNATIONS))
+    chain = chains()[STAND_INS.get(name, name)]
     depth = 0.5 * chain.roller_diameter * log_uniform(rng, 0.005, 0.2)
     local = kind == "table" and rng.random() < 0.5
     wear, law = random_wear(rng, depth, local)
