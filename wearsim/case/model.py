@@ -431,7 +431,9 @@ class Case:
     inputs : mapping
         All tables with every default taken, as an input file would give them.
     files : tuple of pathlib.Path
-        CSV files that it read.
+        CSV files and drawings that it read.
+    input_files : mapping
+        Their text by their names, as they were then.
     drive : StrandDrive, PrescribedDrive, WrapDrive or GearDrive
         What touches the flank.
     modulus : float
@@ -463,6 +465,7 @@ class Case:
     title: str
     inputs: Mapping[str, Any]
     files: tuple[Path, ...]
+    input_files: Mapping[str, str]
     drive: Drive
     modulus: float
     speed_rpm: float

@@ -81,6 +81,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         title=tables.title or name,
         inputs=case.inputs,
         files=tuple(case.files),
+        input_files=case.texts(),
         drive=drive,
         modulus=modulus,
         speed_rpm=duty.speed_rpm,

@@ -154,6 +154,8 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
 
 
 def _removed(result: WearResult) -> str:
+    if not result.removed_area > 0.0:
+        return "less than the coordinates of the flank can tell"
     closes = abs(result.worn_area / result.removed_area - 1.0)
     return (
         f"{result.removed_area:.4g} mm2 between new and worn outline, {result.worn_area:.4g} mm2 summed "

@@ -38,7 +38,7 @@ def case_of(result: WearResult) -> Case:
     """
     with tempfile.TemporaryDirectory() as folder:
         for name, text in result.input_files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8")
+            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         return load_case(with_files(result.inputs, folder))
 
 

@@ -88,7 +88,7 @@ def write_result(result: WearResult, folder: Path, force: bool, parquet: bool) -
         (place / "case.lock.toml").write_text(_lock(result), encoding="utf-8")
         for name, text in result.input_files.items():
             (place / _INPUTS).mkdir(exist_ok=True)
-            (place / _INPUTS / name).write_text(text, encoding="utf-8")
+            (place / _INPUTS / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         result.history.to_csv(place / "history.csv", index=False)
         result.flank.to_csv(place / "flank.csv", index=False)
         if parquet:
@@ -169,7 +169,8 @@ def _stored(folder: Path) -> dict[str, Any]:
         "warnings": tuple(stored["warnings"]),
         "inputs": inputs,
         "input_files": {
-            name: (folder / _INPUTS / name).read_text(encoding="utf-8") for name in _named(inputs)
+            name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
+            for name in _named(inputs)
         },
         "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS[kind]),
         "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS[kind]),

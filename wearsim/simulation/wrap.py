@@ -113,7 +113,7 @@ def simulate_wrap(
         ),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
-        input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
+        input_files=case.input_files,
         history_columns=history,
         flank_columns=flank,
         environment=environment(),

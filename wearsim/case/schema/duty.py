@@ -6,7 +6,7 @@ from pydantic import Field
 
 from wearsim.case.schema.load import LOAD_KEYS
 from wearsim.case.schema.table import Table
-from wearsim.case.units import Positive, PositiveNumber
+from wearsim.case.units import Positive, PositiveNumber, Speed
 
 Share = Annotated[PositiveNumber, Field(le=1.0)]
 
@@ -19,7 +19,7 @@ class DutyBlock(Table):
     tension_N: Positive | None = None
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
-    speed_rpm: Positive
+    speed_rpm: Speed
     wear_factor: PositiveNumber = 1.0
 
     def conflicts(self) -> list[tuple[str, str]]:
