@@ -323,7 +323,11 @@ class TestFaults:
                 "duty.1.share_of_time: .*greater than 0",
             ),
             (GOOD.replace("time = 0.5", "time = 1.5", 1), 1, "duty.1.share_of_time: .*less than"),
-            (GOOD.replace("rpm = 100", "rpm = 0", 1), 3, "duty.1.speed_rpm: .*greater than 0"),
+            (
+                GOOD.replace("rpm = 100", "rpm = 0", 1),
+                3,
+                r"duty.1.speed_rpm: .*or equal to 0\.000001",
+            ),
             (GOOD.replace("speed_rpm = 100\n", "", 1), 0, "duty.1.speed_rpm: this key is required"),
             (GOOD + "wear_factor = 0\n", 8, "duty.2.wear_factor: .*greater than 0"),
             (GOOD + "wear_faktor = 2\n", 8, "duty.2.wear_faktor: unknown key; .*wear_factor"),

@@ -119,7 +119,7 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
 
 def _check_depth(data: dict[str, Any], file: str, text: str = "") -> None:
     """Raise where tables or lists lie deeper within one another than any input needs."""
-    depth, level = 0, [data]
+    depth, level = 0, list[Any]([data])
     while level:
         depth += 1
         level = [

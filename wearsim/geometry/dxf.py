@@ -277,7 +277,7 @@ def _length(entity: "Circle | Ellipse | Spline") -> float:
             if isinstance(entity, Arc)
             else (0.0, 0.0)
         )
-        return abs(entity.dxf.radius) * math.radians((ends[1] - ends[0]) % 360.0 or 360.0)
+        return float(abs(entity.dxf.radius) * math.radians((ends[1] - ends[0]) % 360.0 or 360.0))
     if isinstance(entity, Ellipse):
         turn = (entity.dxf.end_param - entity.dxf.start_param) % math.tau
         return float(entity.dxf.major_axis.magnitude) * (turn or math.tau)
