@@ -131,15 +131,24 @@ def test_drawing_that_is_far_too_large(tmp_path, kind):
         outline_from_dxf(tmp_path / "wheel.dxf", 12)
 
 
-@pytest.mark.parametrize("value", ["inf", "nan", "\0", "1\x002"])
-def test_drawing_with_a_number_that_is_none(tmp_path, value):
+UNITS = "$INSUNITS\n 70\n"
+
+
+@pytest.mark.parametrize(
+    ("good", "bad"),
+    [
+        *((f"{UNITS}4", f"{UNITS}{number}") for number in ("inf", "nan", "\0", "1\x002")),
+        ("\nModel\n", "\nMod\0el\n"),
+    ],
+)
+def test_damaged_drawing(tmp_path, good, bad):
+    """Numbers that are none, and a NUL in the name of the model space."""
     drawing = ezdxf.new(units=4)
     drawing.modelspace().add_lwpolyline([(0, 0), (1, 0), (1, 1)], close=True)
     drawing.saveas(tmp_path / "wheel.dxf")
     text = (tmp_path / "wheel.dxf").read_text()
-    (tmp_path / "wheel.dxf").write_text(
-        text.replace("$INSUNITS\n 70\n4", f"$INSUNITS\n 70\n{value}")
-    )
+    assert good in text
+    (tmp_path / "wheel.dxf").write_text(text.replace(good, bad))
     with pytest.raises(GeometryError, match=r"wheel\.dxf: "):
         outline_from_dxf(tmp_path / "wheel.dxf", 12)
 

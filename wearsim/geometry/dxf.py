@@ -160,7 +160,9 @@ def _document(path: Path, notes: list[str]) -> "Drawing":
     from ezdxf.lldxf.const import DXFError
 
     try:
-        return readfile(path)
+        document = readfile(path)
+        document.modelspace()  # A damaged file may hold none.
+        return document
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise GeometryError(
             f"{path}: must be a DXF file, but cannot be opened ({error.strerror}): check the path"
@@ -169,6 +171,7 @@ def _document(path: Path, notes: list[str]) -> "Drawing":
         pass
     try:
         document, auditor = recover.readfile(path)
+        document.modelspace()
     except (DXFError, *_UNREADABLE) as error:
         raise GeometryError(
             f"{path}: must be a DXF file, but cannot be read ({error}): export it anew"
