@@ -172,8 +172,8 @@ class GearPairMechanism:
         elsewhere = replace(self, points=round(_ELSEWHERE * self.points))
         return half, half.coarsened(), elsewhere.contact
 
-    def refined(self, level: int) -> "GearPairMechanism":
-        """Return the pair on twice as many points, then on four times as many and so on.
+    def refined(self, level: int) -> "GearPairMechanism | None":
+        """Return the pair on twice as many points.
 
         Parameters
         ----------
@@ -182,10 +182,10 @@ class GearPairMechanism:
 
         Returns
         -------
-        GearPairMechanism
-            Of 2^level (K - 1) + 1 points.
+        GearPairMechanism or None
+            None above 1: the time of a run grows with the third power of the points.
         """
-        return replace(self, points=2**level * (self.points - 1) + 1)
+        return replace(self, points=2 * self.points - 1) if level == 1 else None
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return the wheel's flank as it wears, at the points that meet those of the pinion.

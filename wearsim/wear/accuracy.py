@@ -26,7 +26,7 @@ def grid_error(spacing: float, others: Iterable[tuple[float, float]]) -> float:
     converge by leaps, and errors of both ends may cancel by accident on one grid: so what all
     the grids tell is added up.
 
-    Equation physics.md (A6).
+    Equation physics.md (A5).
 
     Parameters
     ----------
