@@ -186,7 +186,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
     per_loop = math.fsum(
         block.share
         * elongation_per_loop(
-            joint.coefficient,
+            block.joint_factor * joint.coefficient,
             (
                 (block.tension + block.centrifugal) / joint.bearing_area,
                 (drive.slack + block.centrifugal) / joint.bearing_area,
