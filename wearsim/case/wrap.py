@@ -85,20 +85,22 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout),
-        service_factor=_factor(case, "service", "smooth load; raises the power in the ratings"),
+        service_factor=_factor(case, "service", "smooth load", "power"),
         exploitation_factor=_factor(
-            case, "exploitation", "steady, drip oil, one shift; raises the pressure in the ratings"
+            case, "exploitation", "steady, drip oil, one shift", "joint pressure"
         ),
         chain=chain,
     )
 
 
-def _factor(case: Resolution, name: str, why: str) -> float:
+def _factor(case: Resolution, name: str, why: str, what: str) -> float:
     key = f"{name}_factor"
     given: float | None = getattr(case.tables.drive or DriveTable(), key)
+    effect = f"it changes the {what} in the ratings, not the wear"
     if given is None:
-        case.take(f"drive.{key}", 1.0, why)
+        case.take(f"drive.{key}", 1.0, f"{why}; {effect}")
         return 1.0
+    case.assumptions.append(f"{name} factor {given:g}: {effect}")
     return given
 
 
