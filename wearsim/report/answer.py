@@ -8,11 +8,13 @@ from typing import Any
 
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LowerBound, WearResult
+from wearsim.sizing.selection import Finding
 
 _WIDTH = 100
 _LABEL = 13
 
 BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
+OVERLOADED = "Overloaded:"
 """Labels of findings that a page shows in its own way."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
@@ -62,6 +64,22 @@ def hours(life: Life | LowerBound) -> str:
     if isinstance(life, Life):
         return f"{grouped(life.hours)} h"
     return f"> {grouped(life.hours_run)} h"
+
+
+def headline(result: WearResult) -> str:
+    """Return the life in hours, with the word where the drive is overloaded.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    str
+        Such as ``2 650 h`` or ``2 650 h (overloaded)``.
+    """
+    return f"{hours(result.life)} (overloaded)" if result.overloaded else hours(result.life)
 
 
 def limit_text(name: str, value: float) -> str:
@@ -130,7 +148,7 @@ def answer(result: WearResult, source: str) -> str:
 
 
 def findings(result: WearResult) -> list[tuple[str, str]]:
-    """Return what a run has found, the life first.
+    """Return what a run has found, the life first; before it that the drive is overloaded.
 
     Parameters
     ----------
@@ -143,6 +161,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
         Labels with their texts.
     """
     return [
+        *(((OVERLOADED, overload_text(result)),) if result.overloaded else ()),
         ("Life", _life(result)),
         (BAND, _band(result)),
         *_service(result),
@@ -151,6 +170,31 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
         ("Worn most", _worst(result)),
         ("Removed", _removed(result)),
     ]
+
+
+def overload_text(result: WearResult) -> str:
+    """Return by how much a drive is outside the ratings of its load.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    str
+        Such as ``plate fatigue 118.2 % of the rating; the hours are for wear only``; empty where
+        it is overloaded by none.
+    """
+    if not result.overloaded:
+        return ""
+    found = ", ".join(_overload(finding) for finding in result.overloaded)
+    return f"{found} of the rating; the hours are for wear only"
+
+
+def _overload(finding: Finding) -> str:
+    name = f"{finding.name} (indicative)" if finding.note else finding.name
+    return f"{name} {grouped(100.0 * finding.used)} %"
 
 
 def _removed(result: WearResult) -> str:

@@ -75,6 +75,7 @@ def simulate_points(case: Case) -> WearResult:
         life_tolerance=case.run.life_tolerance,
         parts=fatigue,
         limits=limit_states(asked.criteria, run.x[-1], run.y[-1], run.depth[-1]),
+        ratings=(),
         assumptions=(
             *mechanism.assumptions(),
             *running_in_assumptions(asked.running_in),

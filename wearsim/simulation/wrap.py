@@ -20,7 +20,7 @@ from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
-from wearsim.sizing.rating import rating_warnings
+from wearsim.sizing.rating import rating, rating_warnings
 from wearsim.wear.accuracy import GridStudy, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
@@ -106,6 +106,7 @@ def simulate_wrap(
         life_tolerance=case.run.life_tolerance,
         parts=parts,
         limits=_limits(contact, drive, criteria, run, life),
+        ratings=rating(case),
         assumptions=(
             *contact.assumptions(),
             *running_in_assumptions(warp),
@@ -186,7 +187,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
     per_loop = math.fsum(
         block.share
         * elongation_per_loop(
-            joint.coefficient,
+            block.joint_factor * joint.coefficient,
             (
                 (block.tension + block.centrifugal) / joint.bearing_area,
                 (drive.slack + block.centrifugal) / joint.bearing_area,
