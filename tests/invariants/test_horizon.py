@@ -89,4 +89,4 @@ def test_a_sprocket_that_outlives_many_chains_takes_so_many_steps(monkeypatch):
     assert sprocket.hours_run == result.hours_run
     assert result.updates == 800  # steps of half the size
     (told,) = [text for text in result.warnings if "most that it takes" in text]
-    assert told.startswith("the run ended after 800 steps and 3 chains")
+    assert told.startswith("the run ends after 800 steps and 3 chains")

@@ -261,8 +261,8 @@ def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
     if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
         return []
     return [
-        f"the run ended after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
-        "the sprocket's own limit was not reached, it outlives all of them"
+        f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
+        "the sprocket outlives them, its own limit was not reached"
     ]
 
 

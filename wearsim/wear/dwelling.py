@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import ChainWear, Dwelling
-from wearsim.errors import ConvergenceError, JumpError
+from wearsim.errors import JumpError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
 from wearsim.wear.bodies import Bodies, Start, State
