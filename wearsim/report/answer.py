@@ -383,5 +383,7 @@ def _worst(result: WearResult) -> str:
         place = f"pinion, {place} from where contact starts to its tip"
     if kind == "wrap":
         place = f"{_depth(result.max_depth)} mm {place} from the gap's right tip"
+        if result.life.hours_run < result.hours_run:
+            place += f", after {grouped(result.hours_run)} h"
     pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
     return f"{place}; peak pressure {pressures}"
