@@ -65,7 +65,7 @@ TAKEN = {
     "wear.law": "archard",
     "run.method": "advance",
     "run.life_tolerance": 1e-3,
-    "run.horizon_hours": 50000.0,
+    "run.horizon_hours": 1e6,
 }
 
 

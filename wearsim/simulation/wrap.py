@@ -71,6 +71,7 @@ def simulate_wrap(
     warp = law.running_in
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
+    warnings += _gave_up(run, horizon)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
     chain = _chain_life(case, contact, horizon, warp)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
@@ -244,8 +245,9 @@ def _run(
         thin, law, criteria, horizon, tolerance / amplification, (coarse, fine), progress=progress
     )
     if case.run.method == "per_cycle":
-        check = run
-        run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]), progress)
+        check, end = run, float(run.cycles[-1])
+        until = horizon if check.met else end
+        run = _per_cycle(case, contact, law, criteria, until, end, progress)
         error += difference(run, check)
     error = amplification * (error + difference(coarse, sparse))
     if error > tolerance:
@@ -253,6 +255,16 @@ def _run(
             f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"
         )
     return run, error
+
+
+def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
+    """Warn of a run that ended neither at a limit nor at its horizon."""
+    if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
+        return []
+    return [
+        f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
+        "the sprocket outlives them, its own limit was not reached"
+    ]
 
 
 def _per_cycle(

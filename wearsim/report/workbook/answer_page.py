@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import hours, overload_text
+from wearsim.report.answer import JUMPING, hours, limit_state, overload_text
 from wearsim.report.compare import comparison_table, differing_limits
 from wearsim.report.rating import rule
 from wearsim.report.service import life_json
@@ -127,6 +127,15 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
         _write_row(page, row + 2, "  has come to", _unit(name), values, _meaning("value"))
         _write_row(page, row + 3, "  margin", _unit(name), margins, "what is left to the limit")
         row += 3
+        if name == JUMPING:
+            told = [
+                limit_state(state, result.inputs) if state else None
+                for state, result in zip(chosen, results, strict=True)
+            ]
+            _write_row(
+                page, row + 1, "  in words", "", told, "how sure it is that it does not jump"
+            )
+            row += 1
     return row + 1
 
 
