@@ -10,7 +10,7 @@ what they judge:
 - strand: lives on 801 and 1601 even points, extrapolated with the first power of the spacing;
 - pair: the same on four and eight times the points of the case;
 - table: its functions on eight times the rows;
-- wrap: steps three and two times halved, extrapolated, and what twice the points move the life by, twice.
+- wrap: steps three and four times halved, extrapolated, and what twice the points move the life by, twice.
 """
 
 import csv
@@ -33,6 +33,9 @@ from wearsim.catalogue.tables import chains
 from wearsim.geometry.profile import Profile
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
+from wearsim.simulation.wrap import wrap_contact, wrap_problem
+from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.trajectory import Trajectory
 
 SEED = 16
 DRIVES = {"strand": 300, "table": 100, "pair": 60, "wrap": 120}
@@ -126,12 +129,13 @@ def wrap_drive(rng: Random) -> Tables:
     }
     names = sorted(name for name in whole if name.isascii() and name.endswith("-1"))
     chain = whole[str(rng.choice(names))]
-    teeth = round(log_uniform(rng, 11, 60))
+    teeth, nodes = round(log_uniform(rng, 11, 60)), 2 * round(log_uniform(rng, 100, 200)) + 1
     mate = round(log_uniform(rng, max(11, teeth / 4), min(120, teeth * 4)))
     profile = str(rng.choice(["iso606", "iso606", "ansi_b29", "gost591"]))
     sprocket: Tables = {
         "teeth": teeth,
         "profile": profile,
+        "nodes": nodes,
         "role": str(rng.choice(["driver", "driven"])),
     }
     if profile == "iso606":
@@ -150,7 +154,11 @@ def wrap_drive(rng: Random) -> Tables:
         "chain": {"designation": chain.designation},
         "sprocket": sprocket,
         "drive": {"mate_teeth": mate},
-        "mechanism": {"kind": "wrap", "roller_slip_fraction": uniform(rng, 0.05, 1.0)},
+        "mechanism": {
+            "kind": "wrap",
+            "roller_slip_fraction": uniform(rng, 0.05, 1.0),
+            "phases": 8,
+        },
         "joint": {
             "specific_wear_rate_mm2_per_N": joint,
             "pitch": str(rng.choice(["alternating", "uniform"])),
@@ -191,6 +199,16 @@ def extrapolated(coarse: float, fine: float) -> float:
     return 2.0 * fine - coarse
 
 
+def steps_life(case: wearsim.Case, level: int) -> Trajectory:
+    """Wear a wrap by steps that are halved so many times."""
+    contact = wrap_contact(case, case.drive)
+    law, limits, horizon = wrap_problem(case, contact)
+    run = run_dwelling(contact.thinned(), law, limits, horizon, level)
+    if run.met is None:
+        raise wearsim.ConvergenceError("no life")
+    return run
+
+
 def strand(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
     case = wearsim.load_case(strand_drive(rng))
     drive: Any = case.drive
@@ -222,13 +240,14 @@ def wrap(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
     case = wearsim.load_case(tables)
 
     def reference() -> float:
-        from wearsim.simulation.wrap import wrap_life_on
-
-        if wrap_life_on(case, 0)[1] > WRAP_STEPS:
+        if steps_life(case, 0).updates > WRAP_STEPS:
             raise wearsim.ConvergenceError("many steps")
-        finer = wearsim.load_case({**tables, "sprocket": {**tables["sprocket"], "nodes": 1201}})
-        nodes = wrap_life_on(finer, 1)[0] - wrap_life_on(case, 1)[0]
-        return extrapolated(wrap_life_on(case, 2)[0], wrap_life_on(case, 3)[0]) + 2.0 * nodes
+        sprocket = tables["sprocket"]
+        double = {**sprocket, "nodes": 2 * sprocket["nodes"] - 1}
+        finer = wearsim.load_case({**tables, "sprocket": double})
+        lives = [float(steps_life(case, level).cycles[-1]) for level in (1, 3, 4)]
+        nodes = float(steps_life(finer, 1).cycles[-1]) - lives[0]
+        return extrapolated(lives[1], lives[2]) + 2.0 * nodes
 
     return case, reference
 

@@ -67,7 +67,7 @@ def simulate_wrap(
         A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
-    law, criteria, horizon = _problem(case, contact)
+    law, criteria, horizon = wrap_problem(case, contact)
     warp = law.running_in
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
@@ -122,8 +122,21 @@ def simulate_wrap(
     )
 
 
-def _problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
-    """Return law, limits and horizon in cycles of constant coefficient."""
+def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
+    """Return what a wrap asks of the wear engine.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    contact : WrapContact
+        Its contact.
+
+    Returns
+    -------
+    tuple
+        Law, limits and the horizon in cycles of constant coefficient.
+    """
     warp = running_in(case.wear, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
     criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
@@ -148,7 +161,7 @@ def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> Grid
         Of the three runs.
     """
     contact = wrap_contact(case, drive)
-    run_on = partial(_on_grid, *_problem(case, contact), life_tolerance)
+    run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
     return grid_study(contact.thinned(), run_on)
 
 
