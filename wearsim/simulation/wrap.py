@@ -21,11 +21,11 @@ from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
 from wearsim.sizing.rating import rating, rating_warnings
-from wearsim.wear.accuracy import GridStudy, grid_study
+from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
-from wearsim.wear.halving import advance_dwelling, halve_steps, run_together
+from wearsim.wear.halving import advance_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, difference
@@ -251,21 +251,18 @@ def _run(
 ) -> tuple[DwellingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
-    thin = contact.thinned()
-    levels = ((thin, 1), (thin, 0), (thin.coarsened(), 0))
-    fine, coarse, sparse = run_together(levels, law, criteria, horizon, progress=progress)
-    run, error = halve_steps(
-        thin, law, criteria, horizon, tolerance / amplification, (coarse, fine), progress=progress
+    run, error = advance_dwelling(
+        contact.thinned(), law, criteria, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
         check, end = run, float(run.cycles[-1])
         until = horizon if check.met else end
         run = _per_cycle(case, contact, law, criteria, until, end, progress)
         error += difference(run, check)
-    error = amplification * (error + difference(coarse, sparse))
+    error *= amplification
     if error > tolerance:
         warnings.append(
-            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"
+            f"{exceeds(error, tolerance)}: use more nodes or phases, or a larger run.life_tolerance"
         )
     return run, error
 
