@@ -8,7 +8,7 @@ Drives are drawn by kind, ``SEED`` and number. References share neither grids no
 what they judge:
 
 - strand: lives on 801 and 1601 even points, extrapolated with the first power of the spacing;
-- pair: the same on four and eight times the points of the case;
+- pair: the same on two and four times the points of the case;
 - table: its functions on eight times the rows;
 - wrap: steps three and four times halved, extrapolated, and what twice the points move the life by, twice.
 """
@@ -227,7 +227,7 @@ def pair(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
     def on(fineness: int) -> float:
         return points_life(case, points=fineness * (drive.points - 1) + 1)
 
-    return case, lambda: extrapolated(on(4), on(8))
+    return case, lambda: extrapolated(on(2), on(4))
 
 
 def table(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
@@ -336,8 +336,9 @@ def main() -> None:
     kinds = sys.argv[1:] or list(KINDS)
     rows = [row for row in read() if row.kind not in kinds] if FILE.exists() else []
     for kind in kinds:
-        rows += judge_all(kind)
-        write(rows)
+        for row in judge_all(kind):
+            rows.append(row)
+            write(rows)
     picture(rows)
     for kind in KINDS:
         ratios = [row.ratio for row in rows if row.kind == kind]
