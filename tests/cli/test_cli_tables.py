@@ -29,13 +29,14 @@ def objects(schema):
 OPTIONAL = (
     "chain_life_hours", "sprocket_life_hours", "service", "km", "tonnes", "days", "date", "grid",
     "solve_for", "pinion_fatigue_life_hours", "wheel_fatigue_life_hours",
-    "sprocket_fatigue_life_hours", "governing_life", "governing_life_hours",
+    "sprocket_fatigue_life_hours", "governing_life", "governing_life_hours", "overloaded",
+    "ratings",
 )  # fmt: skip
 
 
 def test_result_schema_is_closed_and_described(cli):
     found = list(objects(json.loads(cli("schema", "--result").out)))
-    assert len(found) == 7
+    assert len(found) == 8
     for part in found:
         assert part["additionalProperties"] is False
         always = [name for name in part["properties"] if name not in OPTIONAL]

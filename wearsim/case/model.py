@@ -33,6 +33,8 @@ class Block:
         Tension that the chain's own speed adds [N], 0 on a straight strand.
     wear_factor : float
         On the wear coefficient of the tooth.
+    joint_factor : float
+        On that of the chain's joints, which a straight strand does not have.
     """
 
     share: float
@@ -40,6 +42,7 @@ class Block:
     tension: float
     centrifugal: float
     wear_factor: float
+    joint_factor: float
 
 
 def heaviest(blocks: tuple[Block, ...]) -> Block:

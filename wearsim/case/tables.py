@@ -102,8 +102,8 @@ def header_faults(
 
     Examples
     --------
-    >>> header_faults(["x_mm"], ["x_mm", "y_mm"], [])
-    ["column 'y_mm' is missing"]
+    >>> header_faults(["x_mm"], ["x_mm", "load_N"], [])
+    ["column 'load_N' is missing"]
     """
     known = [*required, *optional]
     found = [

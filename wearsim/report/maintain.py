@@ -34,12 +34,12 @@ def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
             "replace_at_percent": _percent(policy),
             "turned": policy.turned,
             "chain_life_hours": policy.chain_hours,
-            "chains_per_sprocket": policy.chains,
-            "last_chain_used": policy.last_chain_used,
+            "chains_per_sprocket": _known(policy, policy.chains),
+            "last_chain_used": _known(policy, policy.last_chain_used),
             "sprocket_life_hours": _hours(policy.sprocket),
             "life_reached": isinstance(policy.sprocket, Life),
             "hours_run": policy.hours,
-            "stops": policy.stops,
+            "stops": _known(policy, policy.stops),
             "cost_per_1000_h": policy.cost,
             "numerical_error": policy.numerical_error,
         }
@@ -174,6 +174,11 @@ def save_maintenance(plan: MaintenancePlan, folder: Path, force: bool) -> None:
         save_figure(maintenance_figure(plan), place, "maintenance")
 
 
+def _known(policy: Policy, value: float) -> float | None:
+    """Return what belongs to the life of a sprocket, None where that was not reached."""
+    return value if isinstance(policy.sprocket, Life) else None
+
+
 def _percent(policy: Policy) -> float:
     return float(f"{100.0 * policy.replace_at:.12g}")
 
@@ -215,7 +220,10 @@ def _answers(plan: MaintenancePlan) -> list[str]:
         turned = ", sprocket turned" if cheapest.turned else ""
         return [f"cheapest: a new chain at {_percent(cheapest):g} %{turned}"]
     if any(isinstance(policy.sprocket, LowerBound) for policy in plan.policies):
-        return ["> : the sprocket's limit was not reached, raise run.horizon_hours"]
+        return [
+            "> : the sprocket's limit was not reached, so its cost is not known (raise run.horizon_hours, "
+            "or see the warnings)"
+        ]
     return ["no cost without maintenance.chain_price and maintenance.sprocket_price"]
 
 

@@ -1,6 +1,6 @@
 """A table of [[duty]]."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -21,6 +21,7 @@ class DutyBlock(Table):
     torque_N_m: Positive | None = None
     speed_rpm: Speed
     wear_factor: PositiveNumber = 1.0
+    applies_to: Literal["all", "teeth", "joints"] = "all"
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
