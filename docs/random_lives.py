@@ -19,6 +19,9 @@ import numpy as np
 import wearsim
 from wearsim.catalogue.tables import chains
 from wearsim.result import Life, WearResult
+from wearsim.simulation.pointwise import pointwise_mechanism
+from wearsim.simulation.task import task
+from wearsim.wear import trajectory
 
 SEED, CASES = 20261121, 200
 
@@ -258,7 +261,10 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
             result = wearsim.simulate(case)
             tighter = replace(case.run, life_tolerance=0.1 * drawn.tolerance)
             stage = "with a tenth of the tolerance"
-            tight = wearsim.simulate(replace(case, run=tighter))
+            contact = pointwise_mechanism(case).contact
+            loose, tight = (
+                task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter)
+            )
             stage = "with that on twice the points"
             finer = wearsim.load_case(drawn.tables(2 * drawn.points - 1))
             fine = wearsim.simulate(replace(finer, run=tighter))
@@ -266,7 +272,7 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
         refused[reason(stage, error)] += 1
         return None
     complaints = tuple(str(warning.message) for warning in caught)
-    errors = difference(result, tight), difference(result, fine)
+    errors = trajectory.difference(loose, tight), difference(result, fine)
     return Measured(name, drawn, result, *errors, complaints)
 
 

@@ -1,10 +1,14 @@
 """Writing to disk: beside and renamed, so that a place holds the old, the new or nothing."""
 
 import contextlib
+import glob
 import os
+import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import IO
 
 from wearsim.errors import OutputError
 
@@ -121,6 +125,8 @@ def _own(entry: Path) -> bool:
 def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     """Give a temporary folder that takes its final name when all of it is written.
 
+    What a killed process left of the same folder is cleared away first.
+
     Parameters
     ----------
     folder : pathlib.Path
@@ -138,11 +144,16 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     OutputError
         The place is taken or cannot be written.
     """
+    with contextlib.suppress(OSError):
+        _clear_beside(folder.resolve())
     check_folder(folder, force)
     folder = folder.resolve()
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as beside:
+        with (
+            tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as beside,
+            _held(Path(beside)),
+        ):
             new, old = Path(beside) / "new", Path(beside) / "old"
             new.mkdir()
             yield new
@@ -158,6 +169,48 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
         if isinstance(error, OutputError):
             raise
         raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
+
+
+_LOCK = "writer.lock"
+"""File in a folder beside that its writer holds locked as long as it lives."""
+
+
+@contextlib.contextmanager
+def _held(beside: Path) -> Iterator[None]:
+    """Hold the lock of a folder beside, named only when it is held; none where there are no locks."""
+    with (beside / "unheld").open("wb") as file:
+        with contextlib.suppress(OSError):
+            if _lock(file):
+                os.rename(file.name, beside / _LOCK)
+        yield
+
+
+def _lock(file: IO[bytes]) -> bool:
+    """Lock a file if nobody holds it; the system takes the lock back from a process that ends."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def _clear_beside(folder: Path) -> None:
+    """Remove what killed writers left beside a folder; what they had moved aside comes back."""
+    prefix = f".{folder.name}."
+    for lock in folder.parent.glob(f"{glob.escape(prefix)}*/{_LOCK}"):
+        beside, old = lock.parent, lock.parent / "old"
+        if "." in beside.name.removeprefix(prefix):
+            continue  # Beside another folder.
+        with contextlib.suppress(OSError), lock.open("rb") as file:
+            if not _lock(file):
+                continue
+            if old.exists() and not folder.exists():
+                os.rename(old, folder)
+            shutil.rmtree(beside, ignore_errors=True)
 
 
 def write_file(path: Path, content: str | bytes, force: bool) -> None:

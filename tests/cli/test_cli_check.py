@@ -9,7 +9,7 @@ def test_complete_case(cli, drive):
     assert done.code == 0
     lines = done.out.splitlines()
     assert lines[0] == f"{path}: ok"
-    assert "  assumes  run.horizon_hours = 50000.0 (default)" in lines
+    assert "  assumes  run.horizon_hours = 1e+06 (default: until a limit is met)" in lines
     assert done.err == ""
 
 

@@ -59,12 +59,12 @@ def test_every_fault_of_the_blocks_with_its_line(cli, case):
     }
     done = cli("check", path)
     assert done.code == 2
-    for wrong, key in (
-        ("tension_N = -6000", "duty.1.tension_N"),
-        ("speed_rpm = 0", "duty.2.speed_rpm"),
+    for wrong, key, least in (
+        ("tension_N = -6000", "duty.1.tension_N", "greater than 0"),
+        ("speed_rpm = 0", "duty.2.speed_rpm", "greater than or equal to 0.000001"),
     ):
         (number,) = [number for number, text in lines.items() if text == wrong]
-        assert f"{path}:{number}: {key}: must be greater than 0" in done.err
+        assert f"{path}:{number}: {key}: must be {least}" in done.err
 
 
 def test_shares_that_do_not_sum_point_at_the_first_block(cli, case):

@@ -95,3 +95,11 @@ def test_wrap_case_is_one_of_the_chains_standard_and_loads(cli, tmp_path, chain,
     assert (case["mechanism"]["kind"], case["sprocket"]["profile"]) == ("wrap", form)
     assert cli("check", path).code == 0
     assert cli("loads", path).code == 0
+
+
+@pytest.mark.parametrize("chain", ["06B-1", "08B-2", "12B-1", "40", "16B-3"])
+@pytest.mark.parametrize("teeth", ["17", "25"])
+def test_a_wrap_to_start_from_is_within_its_ratings(cli, tmp_path, chain, teeth):
+    path = tmp_path / "drive.toml"
+    cli("init", "--kind", "wrap", "--chain", chain, "--teeth", teeth, "--out", path)
+    assert "OUTSIDE" not in cli("check", path).out

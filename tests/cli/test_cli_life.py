@@ -55,7 +55,7 @@ def test_answer_on_screen(cli, drive):
         " from the root",
         "MPa",
         "Assumes 1 the roller does not turn",
-        "run.horizon_hours = 50000.0",
+        "run.horizon_hours = 1e+06",
         "Warnings ",
         f"Next wearsim compare {path} --out reports/drive",
     ):

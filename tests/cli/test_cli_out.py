@@ -107,5 +107,5 @@ def test_lock_holds_overrides_and_runs_again_to_the_same_life(cli, drive, tmp_pa
 
 def test_lock_holds_the_raised_horizon(cli, drive, tmp_path):
     out = tmp_path / "out"
-    cli("life", drive(), "--out", out, "--require-hours", 60000)
-    assert "horizon_hours = 60000.0" in (out / "case.lock.toml").read_text()
+    cli("life", drive(), "--out", out, "--require-hours", 2e6)
+    assert "horizon_hours = 2000000.0" in (out / "case.lock.toml").read_text()

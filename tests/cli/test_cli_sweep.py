@@ -190,6 +190,9 @@ def test_shipped_studies(cli, path):
     done = cli("sweep", path, "--dry-run")
     assert done.code == 0
     assert done.out.startswith("cases        ")
+    done, found = lives(cli, path)
+    assert (done.code, done.err) == (0, "")
+    assert len(found) == 20 and all(life > 0.0 for _, life in found)
 
 
 def test_dollars_are_no_formulas(cli, sweep, tmp_path):

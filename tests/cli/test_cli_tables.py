@@ -31,7 +31,7 @@ OPTIONAL = (
     "solve_for", "pinion_fatigue_life_hours", "wheel_fatigue_life_hours",
     "sprocket_fatigue_life_hours", "governing_life", "governing_life_hours",
     "governing_life_hours_at_least", "chain_life_hours_at_least", "sprocket_life_hours_at_least",
-    "chains_run", "service_at_least",
+    "chains_run", "service_at_least", "overloaded", "ratings",
 )  # fmt: skip
 
 

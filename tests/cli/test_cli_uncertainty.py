@@ -6,6 +6,10 @@ import re
 
 import pytest
 
+from wearsim.case.document import read_document
+from wearsim.case.load import load_case
+from wearsim.study.scatter import plain_document
+
 SCATTER = """\
 [uncertainty]
 "wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = %s}
@@ -242,3 +246,18 @@ def test_missed_hours_are_told_beside_failures(cli, case):
     done = cli("uncertainty", case(more), "--samples", 16, "--require-hours", 1e6)
     assert done.code == 5
     assert "is below 1e+06 h" in done.err
+
+
+def test_cases_of_a_study_keep_the_joints_of_their_condition():
+    """Without the condition's name they would be well lubricated; dry joints have 7e-9 mm2/N."""
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "08B-1"},
+        "sprocket": {"teeth": 19, "profile": "iso606"},
+        "load": {"tension_N": 800.0, "speed_rpm": 100.0},
+        "wear": {"condition": "hardened, dry"},
+    }
+    document = read_document(tables, ())
+    plain = plain_document(document, load_case(tables)).data
+    assert plain["wear"] == {"specific_wear_rate_mm2_per_N": 1e-8}
+    assert load_case(plain).drive.joint.coefficient == 7e-9

@@ -226,7 +226,7 @@ def test_inputs_tell_where_they_come_from(cli, drive, tmp_path):
     found = {row[1]: row[2:6] for row in sheet.iter_rows(min_row=2, values_only=True)}
     assert found["load.power_kW"] == (2.5, "kW", "given", None)
     assert found["run.horizon_hours"][1:3] == ("h", "taken")
-    assert found["run.horizon_hours"][3] == "default"
+    assert found["run.horizon_hours"][3] == "default: until a limit is met"
     assert found["sprocket.engaged_every"][2] == "default"
     assert found["sprocket.contact_end_mm"][2:] == ("taken", "0.16 pitch")
     assert "ISO 606" in found["chain.designation"][3]

@@ -65,7 +65,7 @@ TAKEN = {
     "wear.law": "archard",
     "run.method": "advance",
     "run.life_tolerance": 1e-3,
-    "run.horizon_hours": 50000.0,
+    "run.horizon_hours": 1e6,
 }
 
 
@@ -122,3 +122,67 @@ def test_pull_from_power_torque_and_tension_agree(load):
         for text in ("power_kW = 3", f"torque_N_m = {torque}", f"tension_N = {torque / radius}")
     ]
     assert pulls == pytest.approx([torque / radius] * 3, rel=1e-12)
+
+
+WRAPPED = MINIMAL.replace("evolute", "iso606")
+JOINT = "joint.specific_wear_rate_mm2_per_N"
+
+
+def joint_text(case):
+    (text,) = [text for text in case.assumptions if text.startswith(JOINT)]
+    return text
+
+
+@pytest.mark.parametrize(
+    ("condition", "rate", "words"),
+    [
+        ("hardened, oiled", 1.2e-10, "9e-11 to 1.5e-10; clean and well lubricated"),
+        ("normalised, greased", 1.8e-10, "order of magnitude by a ratio: typical 1.5 times"),
+        ("unhardened, dry", 7e-9, "order of magnitude by ratios: low 8.8 times that of oil"),
+        ("soil-contaminated", 1e-8, "order of magnitude, no joint measured"),
+    ],
+)
+def test_joints_take_the_state_of_the_teeth_and_say_from_where(load, condition, rate, words):
+    case = load(WRAPPED.replace("hardened, oiled", condition))
+    assert case.drive.joint.coefficient == rate
+    assert f"{JOINT} = {rate:.6g} (wear condition {condition!r}: " in joint_text(case)
+    assert words in joint_text(case)
+    assert case.warnings == ()
+
+
+def test_joints_without_a_condition_are_well_lubricated_and_say_so(load):
+    case = load(
+        WRAPPED.replace('condition = "hardened, oiled"', "specific_wear_rate_mm2_per_N = 1e-8")
+    )
+    assert case.drive.joint.coefficient == 1.2e-10
+    assert "as in 'hardened, oiled', none is named" in joint_text(case)
+
+
+@pytest.mark.parametrize(
+    ("condition", "rate", "words"),
+    [
+        ("hardened, dry", 1.2e-10, "is a rate of lubricated joints: remove it, which takes 7e-09,"),
+        ("soil-contaminated", 9.9e-10, "joints in that state have 1e-09 to 1e-07 mm2/N"),
+        ("hardened, oiled", 7e-9, "is a rate of dry or contaminated joints: remove it"),
+        (
+            "normalised, greased",
+            1.01e-9,
+            "the teeth are lubricated, and joints in that state have 9e-11",
+        ),
+        ("hardened, dry", 1e-9, None),
+        ("soil-contaminated", 1e-6, None),
+        ("hardened, oiled", 1e-9, None),
+        ("normalised, greased", 1e-12, None),
+    ],
+)
+def test_two_states_of_lubrication_are_warned_of_by_name(load, condition, rate, words):
+    """Lubricated joints have at most 1e-9 mm2/N, dry and contaminated ones at least that."""
+    joint = f"[joint]\nspecific_wear_rate_mm2_per_N = {rate}\n"
+    case = load(WRAPPED.replace("hardened, oiled", condition) + joint)
+    assert case.drive.joint.coefficient == rate
+    if words is None:
+        assert case.warnings == ()
+        return
+    (warning,) = case.warnings
+    assert warning.startswith(f"wear.condition = {condition!r} contradicts {JOINT} = {rate:g}: ")
+    assert words in warning

@@ -224,6 +224,14 @@ BASES |= {
             {"share_of_cycles": 0.5, "power_kW": 2, "speed_rpm": 50},
         ],
     ),
+    "wrap duty": edited(
+        WRAP,
+        load=None,
+        duty=[
+            {"share_of_cycles": 0.5, "tension_N": 800, "speed_rpm": 200, "wear_factor": 2},
+            {"share_of_cycles": 0.5, "tension_N": 400, "speed_rpm": 200},
+        ],
+    ),
     "log": edited(STRAND, load={"duty_file": "duty.csv"}),
     "regime": edited(STRAND, load={"tension_N": 5000, "speed_rpm": 100, "regime": "II"}),
 }
@@ -482,6 +490,7 @@ CHANGES |= {
     "duty.torque_N_m": [("duty torque", 301), ("duty", 300, "duty.1.torque_N_m")],
     "duty.speed_rpm": [("duty", 51), ("duty of cycles", 51)],
     "duty.wear_factor": [("duty", 2), ("duty", 0, "duty.1.wear_factor")],
+    "duty.applies_to": [("wrap duty", "joints"), ("duty", "joints", "duty.1.applies_to")],
     "load.regime": [("regime", "III"), ("duty", "I", "load.regime")],
     "load.duty_file": [("log", "other_duty.csv"), ("strand", "duty.csv", "load.tension_N")],
     "fatigue.load_factor": [

@@ -255,6 +255,23 @@ def test_wear_conditions_are_bands_around_a_typical_value():
     assert wear_conditions()["hardened, oiled"].typical == 5e-11
     for condition in wear_conditions().values():
         assert 0.0 < condition.low < condition.typical < condition.high
+        assert 0.0 < condition.joint_low < condition.joint_typical < condition.joint_high
+        assert condition.joint_source.strip()
+
+
+def test_lubricated_joints_wear_less_than_dry_and_contaminated_ones():
+    """One rate tells the two states apart: 1e-9 mm2/N, the end of the boundary-lubricated range."""
+    for condition in wear_conditions().values():
+        most, least = condition.joint_high, condition.joint_low
+        assert most <= 1e-9 if condition.lubricated else least >= 1e-9
+
+
+def test_dry_joints_by_hand():
+    """8.8 times 1.2e-10, the rig's 4.4e-5 mm3/(N m), and the geometric mean of both."""
+    dry = wear_conditions()["hardened, dry"]
+    assert dry.joint_low == pytest.approx(0.903 / 0.103 * 1.2e-10, rel=0.05)
+    assert dry.joint_high == pytest.approx(4.4e-5 * 1e-3)
+    assert dry.joint_typical == pytest.approx((dry.joint_low * dry.joint_high) ** 0.5, rel=0.01)
 
 
 @pytest.mark.parametrize(

@@ -112,6 +112,20 @@ class TestShares:
         ]
 
 
+def test_equal_blocks_keep_the_factors_of_teeth_and_joints(case):
+    """Factors 2, 3 and 5 with shares 0.2, 0.6 and 0.2 on all, the teeth and the joints.
+
+    Teeth 0.2 * 2 + 0.6 * 3 + 0.2 * 1, joints 0.2 * 2 + 0.6 * 1 + 0.2 * 5.
+    """
+    acts = ("2", 'all"'), ("3", 'teeth"'), ("5", 'joints"')
+    given = "".join(
+        blocks((share, 5000, 100)) + f'wear_factor = {factor}\napplies_to = "{on}\n'
+        for share, (factor, on) in zip((0.2, 0.6, 0.2), acts, strict=True)
+    )
+    (block,) = case(given, overrides=["mechanism.kind=wrap"]).drive.blocks
+    assert (block.wear_factor, block.joint_factor) == pytest.approx((2.4, 2.0), rel=1e-15)
+
+
 def test_power_and_torque_of_a_block_are_those_of_load(case):
     """P/(omega R) with R = 20 p/(2 pi): 3 kW at 100 rpm pull 3543.3 N, 280 N m pull 3463.2 N."""
     found = case(
@@ -323,9 +337,20 @@ class TestFaults:
                 "duty.1.share_of_time: .*greater than 0",
             ),
             (GOOD.replace("time = 0.5", "time = 1.5", 1), 1, "duty.1.share_of_time: .*less than"),
-            (GOOD.replace("rpm = 100", "rpm = 0", 1), 3, "duty.1.speed_rpm: .*greater than 0"),
+            (
+                GOOD.replace("rpm = 100", "rpm = 0", 1),
+                3,
+                r"duty.1.speed_rpm: .*or equal to 0\.000001",
+            ),
             (GOOD.replace("speed_rpm = 100\n", "", 1), 0, "duty.1.speed_rpm: this key is required"),
             (GOOD + "wear_factor = 0\n", 8, "duty.2.wear_factor: .*greater than 0"),
+            (
+                GOOD + 'wear_factor = 2\napplies_to = "joints"\n',
+                9,
+                r"duty.2.applies_to: joints wear only where a chain wraps the sprocket, here kind = "
+                r"'strand': take 'all' or 'teeth', or mechanism.kind = 'wrap'",
+            ),
+            (GOOD + 'applies_to = "rollers"\n', 8, "duty.2.applies_to: .*'teeth'"),
             (GOOD + "wear_faktor = 2\n", 8, "duty.2.wear_faktor: unknown key; .*wear_factor"),
             (GOOD.replace("= 3000", "= 1e9"), 6, "duty.2.tension_N: .*tensile strength"),
             ("[duty]\nspeed_rpm = 1\n", 1, r"duty: must be tables under headers \[\[duty\]\]"),

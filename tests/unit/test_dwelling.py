@@ -15,7 +15,7 @@ from wearsim.wear.advance import run_advance
 from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.dwelling import run_dwelling
-from wearsim.wear.halving import advance_dwelling, run_together
+from wearsim.wear.halving import advance_dwelling, halving_error, run_together
 from wearsim.wear.law import archard, drozdov
 from wearsim.wear.per_cycle import run_per_cycle
 
@@ -257,16 +257,25 @@ def test_one_failing_run_fails_all():
 
 
 def test_steps_are_halved_until_the_life_settles():
-    loose, change = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 1e-2)
-    tight, less = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 3e-4)
-    assert change <= 5e-3 and less <= 1.5e-4
+    new = Start(np.zeros((1, 151)), NEW_CHAIN, 1)
+    loose, change = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 0.1, new)
+    tight, less = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 5e-4, new)
+    assert less <= 5e-4 < change <= 0.1
     assert tight.updates > loose.updates
     assert tight.cycles[-1] == pytest.approx(loose.cycles[-1], rel=5e-3)
 
 
+def test_error_of_halved_steps_adds_up_what_all_runs_tell():
+    """Lives 1.3, 1.1 and 1 of steps 4, 2 and 1: 0.3/3 + 0.1/1; 1 % on half the points."""
+    runs = [replace(run_dwelling(Seat(), LAW, LIMIT, 1e9, 0), cycles=np.array([0.0, life]))
+            for life in (1.3, 1.1, 1.0)]  # fmt: skip
+    assert halving_error(runs, 0.01) == pytest.approx(2.25 * (0.1 + 0.1 + 0.01), rel=1e-12)
+    assert halving_error(runs[1:], 0.01) == pytest.approx(4.0 * (0.1 + 0.01), rel=1e-12)
+
+
 def test_dispatch_by_the_kind_of_contact():
     advance, change = run_advance(Seat(), LAW, LIMIT, 1e9, 1e-3)
-    assert change <= 5e-4
+    assert 0.0 < change < 0.03
     law = archard(1e4 * RATE)
     per_cycle = run_per_cycle(Seat(), law, LIMIT, 1e9, 10)
     assert per_cycle.updates == np.ceil(0.1 * per_cycle.cycles[-1]) > 5

@@ -1,13 +1,16 @@
 """Pictures: what must be seen lies inside the frames, and panels are alike."""
 
 import copy
+from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import wearsim
 from wearsim.report.figures import flanks_figure
 from wearsim.report.maintain_figure import maintenance_figure
+from wearsim.report.sweep_figures import sweep_figures
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain import MaintenancePlan, Policy
 
@@ -70,3 +73,33 @@ def test_a_single_elongation_of_maintenance(last):
     words = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert words[0] == "sprocket not turned"
     assert ("limit not reached" in words[1]) == isinstance(last, LowerBound)
+    mark = figure.axes[0].get_lines()[-1]
+    assert mark.get_ydata() == [last.hours_run]
+    shape = ("o", "tab:orange") if isinstance(last, Life) else ("^", "white")
+    assert (mark.get_marker(), mark.get_markerfacecolor()) == shape
+
+
+def test_bounds_of_a_sweep_are_open_arrows_with_their_sign():
+    """Of 2 x 2 lives one is a bound: no curve passes it, and its cell has a sign."""
+    table = pd.DataFrame(
+        {
+            "load.tension_N": [1.0, 1.0, 2.0, 2.0],
+            "load.speed_rpm": [1.0, 2.0, 1.0, 2.0],
+            "life_hours": [np.nan, 40.0, 30.0, 20.0],
+            "hours_run": [50.0, 40.0, 30.0, 20.0],
+            "error": "",
+        }
+    )
+    tables = {"load.tension_N": [1.0, 2.0], "load.speed_rpm": [1.0, 2.0]}
+    axes = [("load.tension_N",), ("load.speed_rpm",)]
+    sweep = SimpleNamespace(axes=axes, design=SimpleNamespace(keys=list(tables)))
+    figures = sweep_figures(sweep, table)
+    lines = figures["curves"].axes[0].get_lines()
+    curves = [line for line in lines if line.get_marker() == "o"]
+    arrows = [line for line in lines if line.get_marker() == "^" and len(line.get_ydata())]
+    assert 50.0 not in np.concatenate([line.get_ydata() for line in curves])
+    assert [list(line.get_ydata()) for line in arrows] == [[50.0]]
+    cells = [text.get_text() for text in figures["heat_map"].axes[0].texts]
+    assert sorted(cells) == ["20", "30", "40", "> 50"]
+    marks = [line for line in figures["parallel"].axes[0].get_lines() if line.get_marker() == "^"]
+    assert marks[0].get_markerfacecolor() == "white" and len(marks) == 2  # and in the legend

@@ -206,7 +206,10 @@ def test_sprocket_whose_limit_is_not_reached(without_counts):
     text = maintenance_text(found)
     assert "> 5 h" in text
     assert "raise run.horizon_hours" in text
-    assert policy_rows(found)[0]["sprocket_life_hours"] is None
+    (row,) = policy_rows(found)
+    assert (row["life_reached"], row["hours_run"]) == (False, 5.0)
+    of_a_life = ("sprocket_life_hours", "chains_per_sprocket", "last_chain_used", "stops")
+    assert [row[name] for name in of_a_life] == [None] * 4
 
 
 def test_a_run_goes_on_from_where_another_ended():

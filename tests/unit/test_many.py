@@ -124,7 +124,10 @@ def test_coefficients_scale_the_life_without_another_run(monkeypatch: pytest.Mon
     rates = [f"wear.specific_wear_rate_mm2_per_N={5e-11 * factor!r}" for factor in (1.0, 2.0, 7.0)]
     cases = [strand(rate, "run.horizon_hours=1e6") for rate in rates]
     found = list(simulate_many([*cases, strand(rates[1], "load.tension_N=5001")], 1))
-    assert sum(runs) == 2
+    made = sum(runs)
+    runs.clear()
+    list(simulate_many([cases[0], strand("load.tension_N=5001")], 1))
+    assert made == sum(runs) > 0
     lives = [one.life.cycles for one in found if isinstance(one, CaseLife)]
     assert lives[1] == pytest.approx(lives[0] / 2.0, rel=1e-15)
     assert lives[2] == pytest.approx(lives[0] / 7.0, rel=1e-15)

@@ -2,6 +2,8 @@
 
 import os
 import stat
+import subprocess
+import sys
 
 import pytest
 
@@ -138,3 +140,70 @@ def test_failed_file_leaves_the_old_one(tmp_path, monkeypatch, error):
         write_file(path, "new", force=True)
     assert tree(tmp_path) == ["x.csv"]
     assert path.read_text() == "old"
+
+
+WRITER = """\
+import sys
+from pathlib import Path
+from wearsim import output
+rename = output.os.rename
+
+def stuck(source, target):
+    rename(source, target)
+    if str(target).endswith("old"):
+        print("ready", flush=True)
+        sys.stdin.read()
+
+output.os.rename = stuck
+with output.new_folder(Path(sys.argv[1]), force=True) as place:
+    (place / "history.csv").write_text("killed")
+    if not Path(sys.argv[1]).exists():
+        print("ready", flush=True)
+        sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def writer():
+    """Function that starts a process which stops in the middle of writing a folder."""
+    started = []
+
+    def start(run):
+        pipe = subprocess.PIPE
+        process = subprocess.Popen([sys.executable, "-c", WRITER, run], stdin=pipe, stdout=pipe)
+        started.append(process)
+        assert process.stdout.readline() == b"ready\n"
+        return process
+
+    yield start
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def test_what_a_killed_process_left_is_cleared_away(tmp_path, writer):
+    """A living writer's folder and that of another place stay."""
+    run, other = tmp_path / "run", tmp_path / "run.b"
+    writer(run)
+    for process in (writer(run), writer(other)):
+        process.kill()
+        process.communicate()
+    assert len(list(tmp_path.glob(".run.*"))) == 3
+    fill(run)
+    living, of_other = sorted(tmp_path.glob(".run.*"), key=lambda path: ".run.b" in path.name)
+    assert (living / "new" / "history.csv").read_text() == "killed"
+    assert of_other.name.startswith(".run.b.")
+    assert (run / "history.csv").read_text() == "new"
+
+
+def test_result_that_a_killed_process_moved_aside_comes_back(tmp_path, writer):
+    run = tmp_path / "run"
+    fill(run)
+    process = writer(run)
+    assert not run.exists()
+    process.kill()
+    process.communicate()
+    with pytest.raises(OutputError, match="must not exist yet"), new_folder(run, force=False):
+        pass
+    assert tree(tmp_path) == ["run", "run/history.csv"]
+    assert (run / "history.csv").read_text() == "new"

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ import shapely
 
 import wearsim
 from wearsim.geometry.drive_layout import DriveLayout, layout_with_links
-from wearsim.report.answer import answer, ending
+from wearsim.report.answer import answer, ending, grouped, limit_state
+from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
 from wearsim.report.html import page, writer
 from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
@@ -22,7 +24,7 @@ from wearsim.report.html.margins import margins
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.html.writer import page_names, save_report
-from wearsim.result import WearResult
+from wearsim.result import LimitState, WearResult
 
 STRAND = {
     "format_version": 1,
@@ -136,6 +138,73 @@ def test_a_run_that_moved_still_has_its_case(tmp_path):
     assert case.drive.tooth.tip_radius == pytest.approx(
         wearsim.load_case(source).drive.tooth.tip_radius, rel=1e-12
     )
+
+
+@pytest.fixture(scope="module")
+def goes_on():
+    """A wrap whose run goes on, with two more chains, after the life of the first."""
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "ANSI 40"},
+        "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 101},
+        "mechanism": {"kind": "wrap", "phases": 1},
+        "drive": {"mate_teeth": 20, "links": 114, "slack_tension_N": 50},
+        "joint": {"pitch": "uniform", "specific_wear_rate_mm2_per_N": 5e-9},
+        "load": {"tension_N": 1000, "speed_rpm": 100},
+        "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+        "stop": {"critical_depth_mm": 0.1, "elongation_percent": 1},
+        "run": {"life_tolerance": 0.1},
+    }
+    return wearsim.simulate(wearsim.load_case(tables))
+
+
+def test_the_tooth_is_drawn_at_the_life_that_is_stated(goes_on):
+    """The run goes on after the chain's life: what is drawn is as deep as the history is then."""
+    hours, columns = goes_on.life.hours, goes_on.history_columns
+    assert goes_on.stop == "elongation_percent" and 2.0 * hours < goes_on.hours_run
+    depth = float(np.interp(hours, columns["time_hours"], columns["max_depth_mm"]))
+    assert depth < 0.7 * goes_on.max_depth
+    stated = f"{grouped(hours)} h (life, ended by the chain)"
+    (chart,) = tooth_charts(goes_on)
+    assert chart.title == f"flank before and after {stated}"
+    assert float(chart.slider["depth"].removesuffix(" mm")) == pytest.approx(depth, rel=0.02)
+    moved = np.hypot(chart.slider["dx"], chart.slider["dy"])
+    assert moved.max() == pytest.approx(depth, rel=0.02)
+    along = along_chart([goes_on], ["x"]).figure.traces[0]
+    assert max(along["y"]) == pytest.approx(depth, rel=0.02)
+    (panel,) = flanks_figure([goes_on]).axes
+    assert panel.get_title().endswith(f"after {stated}")
+    label = panel.get_legend().get_texts()[-1].get_text()
+    assert float(label.split()[1]) == pytest.approx(depth, rel=0.02)
+
+
+def test_a_bound_is_an_open_arrow_with_its_sign(strand, gears):
+    """The strand ends at its horizon of 100 h, the gears at their limit."""
+    bound, life = (lives_chart([one], ["x"]).figure.traces[0] for one in (strand, gears))
+    assert bound["marker"]["symbol"] == "triangle-right-open"
+    assert (bound["mode"], bound["text"]) == ("markers+text", ["&gt; 100 h"])
+    assert (life["marker"]["symbol"], life["mode"]) == ("circle", "markers")
+    mark = history_chart([strand], ["x"]).figure.traces[-1]
+    assert mark["marker"]["symbol"] == "triangle-right-open"
+
+
+def test_jumping_reads_as_safe_or_not(goes_on):
+    """Slack tension of 50 N: 2e-6, 10, 40 and 50 N needed."""
+    case, found = case_of(goes_on), []
+    for needed in (2e-6, 10.0, 40.0, 50.0):
+        state = LimitState("min_slack_tension_N", 50.0, needed)
+        told = replace(goes_on, limits=(goes_on.limits[0], state))
+        assert limit_state(state, told.inputs) in " ".join(answer(told, "x.toml").split())
+        last = margins(told, case)[-1]
+        found.append((last.name, last.value, last.limit, last.unit))
+    assert found == [
+        ("jumping: safe, margin more than 1000 times", "below 0.05", "50", "N"),
+        ("jumping: safe, margin 5 times", "10", "50", "N"),
+        ("jumping: margin only 1.2 times", "40", "50", "N"),
+        ("jumping: no margin", "50", "50", "N"),
+    ]
+    own = {**goes_on.inputs, "stop": {"min_slack_tension_N": 50.0}}
+    assert limit_state(state, own).endswith("(slack tension: 50 N needed, 50 N allowed)")
 
 
 def test_a_life_that_the_wheel_ends_is_told():

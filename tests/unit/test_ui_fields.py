@@ -49,6 +49,6 @@ def test_kinds_of_fields():
     assert "16B-1" in fields["chain.designation"].proposals
     assert "hardened, oiled" in fields["wear.condition"].proposals
     assert fields["sprocket.teeth"].required and not fields["sprocket.nodes"].required
-    assert fields["run.horizon_hours"].default == "50000"
+    assert fields["run.horizon_hours"].default == "1e+06"
     assert fields["wear.law"].default == "archard"
     assert fields["maintenance.turn_sprocket"].default == "false"

@@ -261,15 +261,20 @@ class TestWrap:
         assert fast.cycles == pytest.approx(slow.cycles, rel=1e-4)
         assert fast.hours == pytest.approx(slow.hours / 2, rel=1e-4)
 
-    def test_factor_on_every_block_is_one_on_the_coefficient(self):
+    @pytest.mark.parametrize(
+        ("applies_to", "teeth", "joints"),
+        [("all", 2.0, 2.0), ("teeth", 2.0, 1.0), ("joints", 1.0, 2.0)],
+    )
+    def test_factor_on_every_block_is_one_on_the_coefficient(self, applies_to, teeth, joints):
         duty = [block(0.5, 1300, 80, 2.0), block(0.5, 600, 80, 2.0)]
-        factor = wrap(duty=duty).parts
+        factor = wrap(duty=[{**entry, "applies_to": applies_to} for entry in duty]).parts
         rate = wrap(
             duty=[{**entry, "wear_factor": 1.0} for entry in duty],
-            wear={"specific_wear_rate_mm2_per_N": 2e-9},
+            wear={"specific_wear_rate_mm2_per_N": teeth * 1e-9},
+            joint={"specific_wear_rate_mm2_per_N": joints * 1e-10},
         ).parts
         assert factor["sprocket"].cycles == pytest.approx(rate["sprocket"].cycles, rel=1e-12)
-        assert factor["chain"].cycles == rate["chain"].cycles
+        assert factor["chain"].cycles == pytest.approx(rate["chain"].cycles, rel=1e-12)
 
     def test_idling_hardly_wears(self):
         """Half of the cycles near the slack tension: a life of about twice, not more."""

@@ -28,9 +28,13 @@ CHAIN = {
 
 
 def load_case(
-    teeth: int, mate: int, links: int, role: str, tight: float, slack: float, rpm: float, rate: float,
-    elongation: float = 2.0, pitch: str = "alternating", horizon: float = 1e6,
+    teeth: int, mate: int, links: int, role: str, tight: float, slack: float, rpm: float,
+    rate: float | None, elongation: float = 2.0, pitch: str = "alternating", horizon: float = 1e6,
+    condition: str | None = None, duty: list[dict[str, float | str]] | None = None,
 ) -> wearsim.Case:  # fmt: skip
+    joint = {} if rate is None else {"specific_wear_rate_mm2_per_N": rate}
+    load = {"duty": duty} if duty else {"load": {"tension_N": tight, "speed_rpm": rpm}}
+    wear = {"condition": condition} if condition else {"specific_wear_rate_mm2_per_N": 5e-11}
     return wearsim.load_case(
         {
             "format_version": 1,
@@ -38,11 +42,11 @@ def load_case(
             "sprocket": {"teeth": teeth, "profile": "ansi_b29", "role": role, "nodes": 101},
             "mechanism": {"kind": "wrap", "phases": 2},
             "drive": {"mate_teeth": mate, "links": links, "slack_tension_N": slack},
-            "joint": {"pitch": pitch, "specific_wear_rate_mm2_per_N": rate},
-            "load": {"tension_N": tight, "speed_rpm": rpm},
-            "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+            "joint": {"pitch": pitch, **joint},
+            "wear": wear,
             "stop": {"elongation_percent": elongation},
             "run": {"horizon_hours": horizon, "life_tolerance": 0.1},
+            **load,
         }
     )
 
@@ -106,6 +110,42 @@ def test_chain_life_is_linear_in_k_limit_and_links(factor: float) -> None:
     links = 240 if factor > 1 else 140
     other = load_case(19, 57, links, "driver", 900.0, 60.0, 500.0, 1e-10, 0.6)
     assert chain_hours(other) == pytest.approx(hours * links / 120, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("applies_to", "joints"), [(None, (3.0, 0.5)), ("joints", (3.0, 0.5)), ("teeth", (1.0, 1.0))]
+)
+def test_chain_under_two_states_of_lubrication(
+    validated: Callable[..., None], applies_to: str | None, joints: tuple[float, float]
+) -> None:
+    """1/L = sum c_i w_i/L_i with the closed forms L_i of both blocks alone, c_i parts of the time.
+
+    Factors 3 and 0.5 act on the joints unless the blocks say that they are for the teeth.
+    """
+    parts = (0.3, 900.0, 500.0, 3.0), (0.7, 400.0, 200.0, 0.5)
+    duty = [
+        {"share_of_time": share, "tension_N": tight, "speed_rpm": rpm, "wear_factor": factor}
+        | ({"applies_to": applies_to} if applies_to else {})
+        for share, tight, rpm, factor in parts
+    ]
+    hours = chain_hours(load_case(19, 57, 120, "driver", 0.0, 60.0, 0.0, 1e-10, duty=duty))
+    alone = [closed_form(19, 57, 120, tight, 60.0, rpm, 1e-10, 2.0) for _, tight, rpm, _ in parts]
+    worn = [
+        part[0] * factor / life for part, factor, life in zip(parts, joints, alone, strict=True)
+    ]
+    source, shown = "1/L = sum c_i w_i/L_i by hand", applies_to is None
+    validated("hours of a chain, two states", hours, 1.0 / sum(worn), 1e-9, source, "h", page=shown)
+
+
+@pytest.mark.parametrize(
+    ("condition", "times"),
+    [("hardened, oiled", 1.0), ("normalised, greased", 1.5), ("hardened, dry", 7e-9 / 1.2e-10)],
+)
+def test_joints_are_in_the_state_of_the_teeth(condition: str, times: float) -> None:
+    """Chain life goes with 1/k: 1.2e-10 with oil, 1.5 times that greased, 7e-9 mm2/N dry."""
+    oiled = closed_form(19, 57, 120, 900.0, 60.0, 500.0, 1.2e-10, 2.0)
+    case = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, None, condition=condition)
+    assert chain_hours(case) == pytest.approx(oiled / times, rel=1e-9)
 
 
 @pytest.mark.parametrize("pitch", ["uniform", "alternating"])

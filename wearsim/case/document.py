@@ -29,6 +29,9 @@ class CaseText:
     text: str
 
 
+_DEEPEST = 20
+"""Tables and lists within one another that any input needs, and some more."""
+
 Source = str | Path | CaseText | Mapping[str, Any]
 
 
@@ -77,6 +80,7 @@ def read_document(source: Source, overrides: Sequence[str]) -> Document:
     """
     if isinstance(source, Mapping):
         file, name, text, folder = "case", "case", "", Path()
+        _check_depth(dict(source), file)
         data = copy.deepcopy(dict(source))
     else:
         path = source.path if isinstance(source, CaseText) else Path(source)
@@ -171,13 +175,41 @@ def _read(path: Path) -> str:
 
 def _parsed(path: Path, text: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place.group(1)) if place else text.count("\n") + 1
         raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
     except (ValueError, RecursionError) as error:
         raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
+    _check_depth(data, str(path), text)
+    return data
+
+
+def _check_depth(data: dict[str, Any], file: str, text: str = "") -> None:
+    """Raise where tables or lists lie deeper within one another than any input needs."""
+    depth, level = 0, list[Any]([data])
+    while level:
+        depth += 1
+        level = [
+            entry
+            for place in level
+            for entry in (place.values() if isinstance(place, Mapping) else place)
+            if isinstance(entry, Mapping | list)
+        ]
+    if depth <= _DEEPEST:
+        return
+    lines = [line.partition("#")[0] for line in text.splitlines()]
+    deep = (number for number, line in enumerate(lines, 1) if _opened(line) >= _DEEPEST)
+    message = (
+        f"at most {_DEEPEST} tables or lists may lie within one another, not {depth}: remove some"
+    )
+    raise CaseError([Fault(message, "", file, next(deep, 0))])
+
+
+def _opened(line: str) -> int:
+    """Tables and lists that a line opens."""
+    return sum(line.count(sign) for sign in ".[{")
 
 
 def _bare(raw: str) -> float | str:
@@ -204,3 +236,4 @@ def _override(data: dict[str, Any], item: str) -> None:
         if not isinstance(place, dict):
             raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
     place[last] = value
+    _check_depth(data, f"--set {tables[0] if tables else last}")

@@ -132,7 +132,7 @@ def _blocks(
     def _block(load: LoadBlock) -> Block:
         speed = 2.0 * math.pi * centrode * load.speed_rpm / 60.0
         pull = load.part * effective_pull(load, speed, centrode)
-        return Block(load.share, load.speed_rpm, pull, 0.0, load.wear_factor)
+        return Block(load.share, load.speed_rpm, pull, 0.0, load.wear_factor, load.joint_factor)
 
     blocks, rated = (tuple(map(_block, loads)) for loads in (duty.blocks, duty.rated))
     pull, least = heaviest(blocks).tension, min(block.tension for block in blocks)

@@ -37,6 +37,8 @@ class LoadBlock:
         Of that key.
     wear_factor : float
         On the wear coefficient of the tooth.
+    joint_factor : float
+        On that of the chain's joints.
     key : str
         Of the case, for faults.
     part : float
@@ -50,6 +52,7 @@ class LoadBlock:
     kind: str
     value: float
     wear_factor: float
+    joint_factor: float
     key: str
     part: float = 1.0
     measured: bool = False
@@ -100,7 +103,7 @@ def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
         faults.add(key, "a table of loads already holds the load of a cycle: remove this")
         return None
     if tables.duty:
-        return _given(case)
+        return _given(case, kind)
     if load.duty_file is not None:
         return _logged(case, load.duty_file, _MOST_BLOCKS if kind == "wrap" else 0, chain)
     if "load" not in tables.model_fields_set:
@@ -113,7 +116,7 @@ def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
         return None
     if name is None or kind == "prescribed":
         return Duty((), load.speed_rpm, ())
-    block = LoadBlock(1.0, load.speed_rpm, name, getattr(load, name), 1.0, f"load.{name}")
+    block = LoadBlock(1.0, load.speed_rpm, name, getattr(load, name), 1.0, 1.0, f"load.{name}")
     return Duty(_regime(case, block), load.speed_rpm, (block,))
 
 
@@ -132,8 +135,8 @@ def _regime(case: Resolution, block: LoadBlock) -> tuple[LoadBlock, ...]:
     return tuple(replace(block, share=share, part=part) for part, share in parts)
 
 
-def _given(case: Resolution) -> Duty | None:
-    """Return the blocks of [[duty]]."""
+def _given(case: Resolution, kind: str) -> Duty | None:
+    """Return the blocks of [[duty]] on a mechanism of this kind."""
     tables, faults = case.tables, case.faults
     before, blocks = faults.count, tables.duty
     for key in sorted(tables.load.model_fields_set):
@@ -142,6 +145,12 @@ def _given(case: Resolution) -> Duty | None:
     kinds = ("share_of_time", "share_of_cycles")
     first = next(kind for kind in kinds if getattr(blocks[0], kind) is not None)
     for number, block in enumerate(blocks, start=1):
+        if block.applies_to == "joints" and kind != "wrap":
+            faults.add(
+                f"duty.{number}.applies_to",
+                f"joints wear only where a chain wraps the sprocket, here kind = {kind!r}: "
+                "take 'all' or 'teeth', or mechanism.kind = 'wrap'",
+            )
         if getattr(block, first) is None:
             other = kinds[1 - kinds.index(first)]
             faults.add(
@@ -176,7 +185,8 @@ def _load_block(block: DutyBlock, number: int, share: float) -> LoadBlock:
         speed_rpm=block.speed_rpm,
         kind=kind,
         value=getattr(block, kind),
-        wear_factor=block.wear_factor,
+        wear_factor=1.0 if block.applies_to == "joints" else block.wear_factor,
+        joint_factor=1.0 if block.applies_to == "teeth" else block.wear_factor,
         key=f"duty.{number}.{kind}",
     )
 
@@ -196,18 +206,26 @@ def _shares_of_cycles(
 
 
 def _joined(blocks: Iterable[LoadBlock]) -> tuple[LoadBlock, ...]:
-    """Join blocks of the same load and speed: shares add up, the factor on wear is their mean."""
+    """Join blocks of the same load and speed: shares add up, the factors on wear are their means."""
     found: dict[tuple[str, float, float], LoadBlock] = {}
     for block in blocks:
         same = found.get((block.kind, block.value, block.speed_rpm))
         if same is not None:
-            share = same.share + block.share
-            weighed = same.share * same.wear_factor + block.share * block.wear_factor
-            equal = same.wear_factor == block.wear_factor
-            factor = same.wear_factor if equal else weighed / share
-            block = replace(same, share=share, wear_factor=factor)
+            block = replace(
+                same,
+                share=same.share + block.share,
+                wear_factor=_mean(same, block, same.wear_factor, block.wear_factor),
+                joint_factor=_mean(same, block, same.joint_factor, block.joint_factor),
+            )
         found[block.kind, block.value, block.speed_rpm] = block
     return tuple(found.values())
+
+
+def _mean(one: LoadBlock, other: LoadBlock, first: float, second: float) -> float:
+    """Return the mean of a number of two blocks by their shares; equal ones stay to the last digit."""
+    if first == second:
+        return first
+    return (one.share * first + other.share * second) / (one.share + other.share)
 
 
 def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None:
@@ -241,6 +259,7 @@ def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None
             kind="tension_N",
             value=block.tension,
             wear_factor=1.0,
+            joint_factor=1.0,
             key=key,
             measured=True,
         )

@@ -86,6 +86,7 @@ def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) ->
         title=tables.title or _title(tables.gear),
         inputs=case.inputs,
         files=(),
+        input_files={},
         drive=GearDrive(
             pair=pair,
             face_width=tables.gear.face_width_mm,

@@ -33,6 +33,8 @@ class Block:
         Tension that the chain's own speed adds [N], 0 on a straight strand.
     wear_factor : float
         On the wear coefficient of the tooth.
+    joint_factor : float
+        On that of the chain's joints, which a straight strand does not have.
     """
 
     share: float
@@ -40,6 +42,7 @@ class Block:
     tension: float
     centrifugal: float
     wear_factor: float
+    joint_factor: float
 
 
 def heaviest(blocks: tuple[Block, ...]) -> Block:
@@ -431,7 +434,9 @@ class Case:
     inputs : mapping
         All tables with every default taken, as an input file would give them.
     files : tuple of pathlib.Path
-        CSV files that it read.
+        CSV files and drawings that it read.
+    input_files : mapping
+        Their text by their names, as they were then.
     drive : StrandDrive, PrescribedDrive, WrapDrive or GearDrive
         What touches the flank.
     modulus : float
@@ -463,6 +468,7 @@ class Case:
     title: str
     inputs: Mapping[str, Any]
     files: tuple[Path, ...]
+    input_files: Mapping[str, str]
     drive: Drive
     modulus: float
     speed_rpm: float

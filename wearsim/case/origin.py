@@ -55,9 +55,9 @@ def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[In
 
     Examples
     --------
-    >>> (row,) = input_rows({"run": {"horizon_hours": 50000.0}}, [])
+    >>> (row,) = input_rows({"run": {"horizon_hours": 1e6}}, [])
     >>> row.key, row.value, row.unit, row.origin
-    ('run.horizon_hours', 50000.0, 'h', 'default')
+    ('run.horizon_hours', 1000000.0, 'h', 'default')
     """
     defaults = {
         key: field.get_default(call_default_factory=True)

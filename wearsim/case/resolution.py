@@ -1,5 +1,6 @@
 """A case while it is being completed: the record of what was given, taken and doubted."""
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +67,20 @@ class Record:
         path = self.folder / name
         self.files.append(path)
         return path
+
+    def texts(self) -> dict[str, str]:
+        """Return the text of the files by their names; the cases of a study share it.
+
+        Returns
+        -------
+        dict
+            Bytes that are no UTF-8 as lone surrogates.
+        """
+        found = {}
+        for path in self.files:
+            text = path.read_text(encoding="utf-8-sig", errors="surrogateescape")
+            found[path.name] = sys.intern(text)
+        return found
 
 
 class Resolution(Record):

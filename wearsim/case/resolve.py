@@ -25,7 +25,7 @@ from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
-WRAP_TOLERANCE = 1e-2
+WRAP_TOLERANCE = 3e-2
 """Relative tolerance of a life on a wrap by default, as it costs more."""
 
 
@@ -81,6 +81,7 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
         title=tables.title or _title(case, kind),
         inputs=case.inputs,
         files=tuple(case.files),
+        input_files=case.texts(),
         drive=drive,
         modulus=modulus,
         speed_rpm=duty.speed_rpm,

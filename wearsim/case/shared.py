@@ -20,8 +20,11 @@ FLANK_NODES = 201
 
 _PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
 
-_TOLD = {"wear": ("law",), "run": ("method", "horizon_hours")}
-"""Defaults of the schema itself that matter for the life."""
+_TOLD = {
+    "wear": {"law": "default"},
+    "run": {"method": "default", "horizon_hours": "default: until a limit is met"},
+}
+"""Defaults of the schema itself that matter for the life, and what is said of them."""
 
 
 def take_defaults(case: Record, tables: Table) -> None:
@@ -36,9 +39,9 @@ def take_defaults(case: Record, tables: Table) -> None:
     """
     for table, keys in _TOLD.items():
         model = getattr(tables, table)
-        for key in keys:
+        for key, why in keys.items():
             if key not in model.model_fields_set:
-                case.assumptions.append(f"{table}.{key} = {getattr(model, key)} (default)")
+                case.take(f"{table}.{key}", getattr(model, key), why)
 
 
 def modulus_of(case: Record, bodies: Mapping[str, MaterialTable]) -> float:

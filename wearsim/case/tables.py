@@ -10,8 +10,9 @@ import numpy as np
 
 from wearsim.case.duty_log import Log
 from wearsim.case.messages import Faults
+from wearsim.case.units import LEAST, MOST
 from wearsim.catalogue.tables import nearest
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile import Vector, chord_lengths
 
 _MOST_ROWS = 200_000
 
@@ -101,8 +102,8 @@ def header_faults(
 
     Examples
     --------
-    >>> header_faults(["x_mm"], ["x_mm", "y_mm"], [])
-    ["column 'y_mm' is missing"]
+    >>> header_faults(["x_mm"], ["x_mm", "load_N"], [])
+    ["column 'load_N' is missing"]
     """
     known = [*required, *optional]
     found = [
@@ -141,6 +142,9 @@ def _cells(
                 faults.add(
                     key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})"
                 )
+            elif row[-1] and not LEAST <= abs(row[-1]) <= MOST:
+                text = f"{name} must be 0 or from {LEAST:g} to {MOST:g} in size (got {cell!r})"
+                faults.add(key, f"{path.name}:{number}: {text}")
         values.append(row)
     return values
 
@@ -169,7 +173,8 @@ def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] |
     if x.size < 11:
         faults.add(key, f"{path.name}: a flank needs at least 11 points, has {x.size}")
         return None
-    same = np.flatnonzero(np.hypot(np.diff(x), np.diff(y)) == 0.0)
+    # Along the flank, where steps too small for its length are lost.
+    same = np.flatnonzero(np.diff(chord_lengths(x, y)) == 0.0)
     for index in same:
         faults.add(key, f"{path.name}:{index + 3}: the point repeats the one before: remove it")
     radius = np.hypot(x, y)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import pint
 
 
-_LEAST, _MOST = 1e-30, 1e15
+LEAST, MOST = 1e-30, 1e15
 """Sizes of a quantity between which numbers stay numbers in every formula."""
 
 _NUMBER_AND_UNIT = re.compile(
@@ -105,8 +105,8 @@ def _number(value: object, info: ValidationInfo) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise ValueError("must be a finite number")
-    if number and not _LEAST <= abs(number) <= _MOST:
-        raise ValueError(f"must be 0 or from {_LEAST:g} to {_MOST:g} in size")
+    if number and not LEAST <= abs(number) <= MOST:
+        raise ValueError(f"must be 0 or from {LEAST:g} to {MOST:g} in size")
     return number
 
 
@@ -146,6 +146,14 @@ def _numbers(value: object, info: ValidationInfo) -> tuple[float, ...]:
     entries = value if isinstance(value, list | tuple) else [value]
     return tuple(_number(entry, info) for entry in entries)
 
+
+Speed = Annotated[
+    float,
+    BeforeValidator(_number),
+    Field(ge=1e-6),
+    WithJsonSchema(_schema(True, minimum=1e-6)),
+]
+"""Speed of a wheel that turns [rpm]: at least once in two years."""
 
 Series = Annotated[
     tuple[float, ...],

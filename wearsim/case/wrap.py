@@ -8,7 +8,7 @@ from wearsim.case.gap import gap_shape
 from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
 from wearsim.case.resolution import Resolution
 from wearsim.case.schema import DriveTable, JointTable
-from wearsim.catalogue.tables import Chain
+from wearsim.catalogue.tables import Chain, WearCondition, wear_conditions
 from wearsim.errors import GeometryError
 from wearsim.geometry.chain_length import even_links, handbook_links
 from wearsim.geometry.drive_layout import DriveLayout, layout_with_centre, layout_with_links
@@ -19,7 +19,8 @@ SAG_PERCENT = 2.0
 LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
 PHASES = 16
-JOINT_WEAR_RATE = 1.2e-10
+WELL_LUBRICATED = "hardened, oiled"
+"""Wear condition whose joints a drive has where its case names none."""
 
 
 def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive | None:
@@ -84,20 +85,22 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout),
-        service_factor=_factor(case, "service", "smooth load; raises the power in the ratings"),
+        service_factor=_factor(case, "service", "smooth load", "power"),
         exploitation_factor=_factor(
-            case, "exploitation", "steady, drip oil, one shift; raises the pressure in the ratings"
+            case, "exploitation", "steady, drip oil, one shift", "joint pressure"
         ),
         chain=chain,
     )
 
 
-def _factor(case: Resolution, name: str, why: str) -> float:
+def _factor(case: Resolution, name: str, why: str, what: str) -> float:
     key = f"{name}_factor"
     given: float | None = getattr(case.tables.drive or DriveTable(), key)
+    effect = f"it changes the {what} in the ratings, not the wear"
     if given is None:
-        case.take(f"drive.{key}", 1.0, why)
+        case.take(f"drive.{key}", 1.0, f"{why}; {effect}")
         return 1.0
+    case.assumptions.append(f"{name} factor {given:g}: {effect}")
     return given
 
 
@@ -210,7 +213,9 @@ def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Blo
     if load.measured:
         tight = max(tight, slack)
     centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
-    return Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor)
+    return Block(
+        load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor
+    )
 
 
 def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:
@@ -275,11 +280,6 @@ def _bush_diameter(case: Resolution, chain: Chain) -> float:
 
 def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
     table = case.tables.joint or JointTable()
-    coefficient = table.specific_wear_rate_mm2_per_N
-    if coefficient is None:
-        coefficient = JOINT_WEAR_RATE
-        why = "clean and well lubricated, 0.9e-10 to 1.5e-10 by the rating at 15 000 h"
-        case.take("joint.specific_wear_rate_mm2_per_N", coefficient, why)
     if table.pitch is None:
         case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
     limit = case.tables.stop.elongation_percent
@@ -288,8 +288,40 @@ def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
         limit = float(f"{limit:.4g}")
         case.take("stop.elongation_percent", limit, "3 %, or 200 % over the larger number of teeth")
     return JointInput(
-        coefficient=coefficient,
+        coefficient=_joint_rate(case, table.specific_wear_rate_mm2_per_N),
         bearing_area=chain.bearing_area,
         alternating=_alternating(case),
         elongation_limit=0.01 * limit,
+    )
+
+
+def _joint_rate(case: Resolution, given: float | None) -> float:
+    """Return the wear rate of the joints: the user's, or that of the state that the teeth are in."""
+    name = case.tables.wear.condition
+    state = wear_conditions()[name or WELL_LUBRICATED]
+    if given is None:
+        of = f"wear condition {name!r}" if name else f"as in {state.condition!r}, none is named"
+        case.take(
+            "joint.specific_wear_rate_mm2_per_N",
+            state.joint_typical,
+            f"{of}: {state.joint_low:g} to {state.joint_high:g}; {state.joint_source}",
+        )
+        return state.joint_typical
+    if name is not None:
+        _doubt_joint_rate(case, state, given)
+    return given
+
+
+def _doubt_joint_rate(case: Resolution, state: WearCondition, given: float) -> None:
+    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
+    alike = [row for row in wear_conditions().values() if row.lubricated == state.lubricated]
+    low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
+    if given <= high if state.lubricated else given >= low:
+        return
+    kinds = ("dry or contaminated", "lubricated")
+    case.warnings.append(
+        f"wear.condition = {state.condition!r} contradicts joint.specific_wear_rate_mm2_per_N = "
+        f"{given:g}: the teeth are {kinds[state.lubricated]}, and joints in that state have {low:g} to "
+        f"{high:g} mm2/N; this is a rate of {kinds[not state.lubricated]} joints: remove it, which takes "
+        f"{state.joint_typical:g}, or name another condition"
     )

@@ -93,16 +93,22 @@ class Material:
 
 @dataclass(frozen=True)
 class WearCondition:
-    """A typical state of surface and lubricant with its specific wear rate.
+    """A typical state of surface and lubricant with its specific wear rates.
 
     Attributes
     ----------
     condition : str
         As in the table.
     low, typical, high : float
-        Specific wear rate k [mm2/N].
+        Specific wear rate k of a tooth [mm2/N].
     source : str
         Where the numbers come from.
+    lubricated : bool
+        Whether oil or grease reaches teeth and joints, and no dirt.
+    joint_low, joint_typical, joint_high : float
+        Specific wear rate of pin and bush together in that state [mm2/N].
+    joint_source : str
+        Where the numbers of the joints come from.
     """
 
     condition: str
@@ -110,6 +116,11 @@ class WearCondition:
     typical: float
     high: float
     source: str
+    lubricated: bool
+    joint_low: float
+    joint_typical: float
+    joint_high: float
+    joint_source: str
 
 
 def rows(table: str) -> list[dict[str, str]]:
@@ -306,6 +317,11 @@ def wear_conditions() -> dict[str, WearCondition]:
             float(row["typical_mm2_per_N"]),
             float(row["high_mm2_per_N"]),
             row["source"],
+            row["lubricated"] == "yes",
+            float(row["joint_low_mm2_per_N"]),
+            float(row["joint_typical_mm2_per_N"]),
+            float(row["joint_high_mm2_per_N"]),
+            row["joint_source"],
         )
         for row in rows("wear_conditions")
     }

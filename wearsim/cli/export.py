@@ -43,7 +43,7 @@ _LONGER = 1000.0
 )  # fmt: skip
 @click.option(
     "--template", type=click.Path(path_type=Path), metavar="FILE",
-    help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and hold between the teeth.",
+    help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and put in between the teeth.",
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="Replace the files.")
 @overrides
@@ -61,7 +61,7 @@ def export(
 
     DXF and SVG hold outlines on layers of their own, circles and a note; CSV the points; STEP a
     solid (pip install 'wearsim[step]'). A worn wheel of a case is worn first, until its limit.
-    --template writes the outline of the gap at the wear limit, with a bar to check the print.
+    --template writes a gauge of the gap at the wear limit, with a bar to check the print.
     """
     if out is None and template is None:
         raise click.UsageError("give --out FILE, --template FILE or both")

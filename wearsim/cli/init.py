@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 _FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
 """Tooth form that goes with the series of a chain; ISO 606 with the others."""
 
+_SAFETY = {"strand": 10.0, "wrap": 20.0}
+"""Breaking load over the pull of a starting case."""
+
 
 @click.command(short_help="A commented case to start from.")
 @click.option(
@@ -63,10 +66,10 @@ def new_case(chain: str, teeth: int, kind: str) -> str:
         TOML with every key explained.
     """
     case = _seed(chain, teeth, kind)
-    # A chain speed of 1 m/s and a tenth of what the chain's strength allows.
+    # A chain speed of 1 m/s, and a pull that keeps a wrap within its ratings.
     pitch, tensile = _size(case)
     speed = float(f"{60_000.0 / (pitch * teeth):.2g}")
-    power = float(f"{tensile / 10.0 * pitch * teeth * speed / 6e7:.2g}")
+    power = float(f"{tensile / _SAFETY[kind] * pitch * teeth * speed / 6e7:.2g}")
     template = Path(__file__).with_name("templates") / f"{kind}.toml"
     return template.read_text(encoding="utf-8").format(
         teeth=teeth, power=power, speed=speed, **_values(case)

@@ -100,6 +100,12 @@ class Contact:
     offset_form: bool
     least_curvature: float = 0.0
 
+    @property
+    def end_spacing(self) -> float:
+        """Mean distance of the two first and of the two last points [mm]."""
+        steps = np.diff(self.arc_length)
+        return 0.5 * float(steps[0] + steps[-1])
+
     def coarsened(self) -> "Contact":
         """Return the same contact on about every second point.
 
@@ -148,6 +154,29 @@ class Mechanism(Protocol):
     @property
     def contact(self) -> Contact:
         """The flank and its contact."""
+
+    def other_grids(self) -> tuple[Contact, ...]:
+        """Return the new flank on other points, whose lives tell how wrong that on its own is.
+
+        Returns
+        -------
+        tuple of Contact
+            Cheaper ones, none with the same spacing at the ends.
+        """
+
+    def refined(self, level: int) -> "Mechanism | None":
+        """Return the same mechanism on a flank that tells its life better.
+
+        Parameters
+        ----------
+        level : int
+            From 1, each better than the one before.
+
+        Returns
+        -------
+        Mechanism or None
+            None where the points are all that is known of the flank.
+        """
 
     def mate_columns(self, depth: Vector) -> "dict[str, Vector]":
         """Return columns of a mate that wears with the flank.

@@ -1,6 +1,7 @@
 """The outline of a gap from a DXF drawing of a whole wheel or of one gap."""
 
 import math
+import struct
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -17,9 +18,12 @@ from wearsim.geometry.profile import Vector
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
+    from ezdxf.entities.circle import Circle
     from ezdxf.entities.dxfgfx import DXFGraphic
+    from ezdxf.entities.ellipse import Ellipse
     from ezdxf.entities.lwpolyline import LWPolyline
     from ezdxf.entities.polyline import Polyline
+    from ezdxf.entities.spline import Spline
 
 OFF_CENTRE = 1e-3
 """Distance [mm] of a wheel's centroid from the origin that is taken as none."""
@@ -44,6 +48,18 @@ _MILLIMETRES = {
     13: ("microns", 1e-3),
     14: ("dm", 100.0),
 }
+_FARTHEST = 1e6
+"""Distance of edges from the origin, and length of curves [mm], beyond which nothing is a sprocket's."""
+
+_MOST_PARTS = 2000.0
+"""Into which an edge is cut."""
+
+_UNREADABLE = (
+    *(OSError, ValueError, LookupError, TypeError, AttributeError),
+    *(ArithmeticError, RecursionError, AssertionError, EOFError, struct.error),
+)
+"""What the reader of damaged files raises beside its own errors."""
+
 _EDGES = frozenset({"LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
 
 
@@ -122,7 +138,8 @@ def outline_from_dxf(
     notes: list[str] = []
     document = _document(path, notes)
     factor = _unit(document, path, notes)
-    edges = _flattened(_entities(document, path, layer), factor, sagitta, path, notes)
+    with np.errstate(all="ignore"):  # What overflows lies too far away.
+        edges = _flattened(_entities(document, path, layer), factor, sagitta, path, notes)
     chains, junctions = _joined(edges, tolerance, notes)
     chains = [_Chain(_filled(chain), chain.closed) for chain in chains]
     outline = _wheel_gap(chains, teeth, centre, path, notes)
@@ -143,24 +160,19 @@ def _document(path: Path, notes: list[str]) -> "Drawing":
     from ezdxf.lldxf.const import DXFError
 
     try:
-        return readfile(path)
+        document = readfile(path)
+        document.modelspace()  # A damaged file may hold none.
+        return document
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise GeometryError(
             f"{path}: must be a DXF file, but cannot be opened ({error.strerror}): check the path"
         ) from None
-    except (DXFError, OSError, ValueError, KeyError, IndexError, TypeError, AttributeError):
+    except (DXFError, *_UNREADABLE):
         pass
     try:
         document, auditor = recover.readfile(path)
-    except (
-        DXFError,
-        OSError,
-        ValueError,
-        KeyError,
-        IndexError,
-        TypeError,
-        AttributeError,
-    ) as error:
+        document.modelspace()
+    except (DXFError, *_UNREADABLE) as error:
         raise GeometryError(
             f"{path}: must be a DXF file, but cannot be read ({error}): export it anew"
         ) from None
@@ -222,7 +234,7 @@ def _flattened(
                 unknown[kind] += 1
         except (ValueError, ArithmeticError) as error:
             raise GeometryError(
-                f"{path}: every {kind} must be a curve, but #{entity.dxf.handle} is not "
+                f"{path}: every {kind} must be a curve of a wheel, but #{entity.dxf.handle} is not "
                 f"({error}): remove it"
             ) from None
     found = ", ".join(f"{number} {kind}" for kind, number in sorted(unknown.items()))
@@ -246,11 +258,34 @@ def _points(entity: "DXFGraphic", factor: float, sagitta: float) -> Vector:
     if isinstance(entity, Line):
         points = np.array([entity.dxf.start, entity.dxf.end])[:, :2] * factor
     elif isinstance(entity, Circle | Ellipse | Spline):
+        length = _length(entity) * factor
+        if not length <= _FARTHEST:
+            raise ValueError(f"{length:.3g} mm long, of a wheel at most {_FARTHEST:g} mm")
         vertices = [(vertex.x, vertex.y) for vertex in entity.flattening(sagitta / factor)]
         points = np.array(vertices, dtype=float).reshape(-1, 2) * factor
     else:
         raise ValueError(f"{entity.dxftype()} in a polyline")
-    return _without_repeats(points)
+    return _near(points)
+
+
+def _length(entity: "Circle | Ellipse | Spline") -> float:
+    """Length of a curve in the unit of the drawing, that of its frame where it is not known."""
+    from ezdxf.entities.arc import Arc
+    from ezdxf.entities.circle import Circle
+    from ezdxf.entities.ellipse import Ellipse
+
+    if isinstance(entity, Circle):
+        ends = (
+            (entity.dxf.start_angle, entity.dxf.end_angle)
+            if isinstance(entity, Arc)
+            else (0.0, 0.0)
+        )
+        return float(abs(entity.dxf.radius) * math.radians((ends[1] - ends[0]) % 360.0 or 360.0))
+    if isinstance(entity, Ellipse):
+        turn = (entity.dxf.end_param - entity.dxf.start_param) % math.tau
+        return float(entity.dxf.major_axis.magnitude) * (turn or math.tau)
+    frame = np.array(entity.control_points if len(entity.control_points) else entity.fit_points)
+    return float(np.hypot(*np.diff(frame[:, :2], axis=0).T).sum())
 
 
 def _vertices(entity: "LWPolyline | Polyline", factor: float) -> Vector:
@@ -259,7 +294,14 @@ def _vertices(entity: "LWPolyline | Polyline", factor: float) -> Vector:
 
     rows = entity.points_in_wcs() if isinstance(entity, Polyline) else entity.vertices_in_wcs()
     points = np.array([(vertex.x, vertex.y) for vertex in rows]).reshape(-1, 2) * factor
-    return _without_repeats(np.concatenate([points, points[:1]]) if entity.is_closed else points)
+    return _near(np.concatenate([points, points[:1]]) if entity.is_closed else points)
+
+
+def _near(points: Vector) -> Vector:
+    """Points without repeats that lie where a sprocket can."""
+    if not (np.abs(points) <= _FARTHEST).all():
+        raise ValueError(f"it must lie within {_FARTHEST:g} mm of the origin")
+    return _without_repeats(points)
 
 
 def _without_repeats(points: Vector) -> Vector:
@@ -345,8 +387,8 @@ def _filled(chain: _Chain) -> Vector:
     beside = np.maximum(lengths[:-2] * ~sharp[:-1], lengths[2:] * ~sharp[1:])
     is_straight = (np.abs(bent) * length**2 < 8.0 * _FLAT) | (length > 3.0 * beside)
     bent[is_straight] = 0.0
-    fine = np.ceil(np.minimum(length / _LINE_STEP, 2000.0))
-    alike = np.maximum(length // max(_LINE_STEP, float(np.median(length))), 1.0)
+    fine = np.ceil(np.minimum(length / _LINE_STEP, _MOST_PARTS))
+    alike = (length // max(_LINE_STEP, float(np.median(length)))).clip(1.0, _MOST_PARTS)
     steps = np.where(is_straight, fine, alike).astype(int)
     edge = np.repeat(np.arange(steps.size), steps)
     share = (np.arange(edge.size) - np.repeat(np.cumsum(steps) - steps, steps)) / steps[edge]

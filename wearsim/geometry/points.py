@@ -69,7 +69,8 @@ def _smoothing_spline(x: Vector, y: Vector, chord: Vector, noise: float) -> "BSp
             with warnings.catch_warnings():
                 warnings.simplefilter("error", RuntimeWarning)
                 spline, _ = make_splprep([x, y], u=chord, k=5, s=loosened * x.size * noise**2)
-        except RuntimeWarning:
+        except (RuntimeWarning, ValueError, RuntimeError):
+            # FITPACK gives up in all of these ways.
             continue
         return spline
     raise GeometryError(

@@ -1,7 +1,7 @@
 """A pair of spur gears whose flanks wear each other."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,9 @@ from wearsim.kernels.gear_rows import COLUMNS
 _LEAST_CURVATURE = 0.04
 """Of the least relative curvature of the new flanks: where a worn step leaves a hollow of less, the
 mate bridges it, with a contact at most five times as wide as on new flanks."""
+
+_ELSEWHERE = 0.7
+"""Points of a grid whose places are others, over those of the flank."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,6 +157,35 @@ class GearPairMechanism:
     def flank(self) -> Profile:
         """The pinion's flank from the place where contact starts to its tip."""
         return self.mesh.flank
+
+    def other_grids(self) -> tuple[Contact, ...]:
+        """Return the flank on every second point, on every fourth, and on points elsewhere.
+
+        A kink beside a point stays there when every second one is left out.
+
+        Returns
+        -------
+        tuple of Contact
+            Three.
+        """
+        half = self.contact.coarsened()
+        elsewhere = replace(self, points=round(_ELSEWHERE * self.points))
+        return half, half.coarsened(), elsewhere.contact
+
+    def refined(self, level: int) -> "GearPairMechanism | None":
+        """Return the pair on twice as many points.
+
+        Parameters
+        ----------
+        level : int
+            From 1.
+
+        Returns
+        -------
+        GearPairMechanism or None
+            None above 1: the time of a run grows with the third power of the points.
+        """
+        return replace(self, points=2 * self.points - 1) if level == 1 else None
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return the wheel's flank as it wears, at the points that meet those of the pinion.

@@ -97,6 +97,26 @@ class PrescribedMechanism:
             offset_form=True,
         )
 
+    def other_grids(self) -> tuple[Contact, ...]:
+        """Return the flank on every second row and on every fourth.
+
+        Returns
+        -------
+        tuple of Contact
+            Two.
+        """
+        half = self.contact.coarsened()
+        return half, half.coarsened()
+
+    def refined(self, level: int) -> None:
+        """Return nothing: between the rows of a table nothing is known.
+
+        Parameters
+        ----------
+        level : int
+            Not used.
+        """
+
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return nothing: rollers do not wear.
 

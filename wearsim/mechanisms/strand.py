@@ -1,7 +1,7 @@
 """Rollers of a straight strand on any flank: the source's picture, a pin rack."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -99,6 +99,37 @@ class StrandMechanism:
             slip_curvature_exponent=1.0,
             offset_form=False,
         )
+
+    def other_grids(self) -> tuple[Contact, ...]:
+        """Return the flank on half as many points, crowded at its ends, and on every second.
+
+        Where the load sets in and ends, lives converge with the first power of the spacing; in
+        between with the second.
+
+        Returns
+        -------
+        tuple of Contact
+            Two.
+        """
+        return self._crowded((self.profile.x.size + 1) // 2).contact, self.contact.coarsened()
+
+    def refined(self, level: int) -> "StrandMechanism":
+        """Return the flank on points that crowd at its ends: as many, twice as many and so on.
+
+        Parameters
+        ----------
+        level : int
+            From 1.
+
+        Returns
+        -------
+        StrandMechanism
+            Of 2^(level - 1) (K - 1) + 1 points.
+        """
+        return self._crowded(2 ** (level - 1) * (self.profile.x.size - 1) + 1)
+
+    def _crowded(self, points: int) -> "StrandMechanism":
+        return replace(self, profile=self.profile.crowded(points))
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return nothing: rollers do not wear.

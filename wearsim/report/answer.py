@@ -7,13 +7,21 @@ from collections.abc import Mapping
 from typing import Any
 
 from wearsim.report.service import service_measures
-from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result import Life, LimitState, LowerBound, WearResult
+from wearsim.sizing.selection import Finding
 
 _WIDTH = 100
 _LABEL = 13
 
 BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
+OVERLOADED = "Overloaded:"
 """Labels of findings that a page shows in its own way."""
+
+JUMPING = "min_slack_tension_N"
+"""Limit of which the margin is a factor: what is needed lies far below it on most drives."""
+
+_FAR, _SAFE = 1000.0, 2.0
+"""Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
@@ -64,6 +72,22 @@ def hours(life: Life | LowerBound) -> str:
     return f"> {grouped(life.hours_run)} h"
 
 
+def headline(result: WearResult) -> str:
+    """Return the life in hours, with the word where the drive is overloaded.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    str
+        Such as ``2 650 h`` or ``2 650 h (overloaded)``.
+    """
+    return f"{hours(result.life)} (overloaded)" if result.overloaded else hours(result.life)
+
+
 def limit_text(name: str, value: float) -> str:
     """Return a limit in words.
 
@@ -101,8 +125,81 @@ def limit_name(name: str) -> tuple[str, str]:
     tuple of str
         Such as ``critical depth`` and ``mm``.
     """
+    if name == JUMPING:
+        return "slack tension needed not to jump", "N"
     words, _, unit = name.rpartition("_")
     return words.replace("_", " "), {"percent": "%", "hours": "h"}.get(unit, unit)
+
+
+def limit_state(state: LimitState, inputs: Mapping[str, Any]) -> str:
+    """Return in words how far a limit is used.
+
+    Parameters
+    ----------
+    state : LimitState
+        The limit and what its quantity has come to.
+    inputs : mapping
+        Tables of the case.
+
+    Returns
+    -------
+    str
+        Such as ``elongation_percent 2 of 3``, or what `jumping` says.
+    """
+    if state.name == JUMPING:
+        whose = "allowed" if JUMPING in inputs["stop"] else "there"
+        return jumping(state.value, state.limit, whose)
+    return f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
+
+
+def jumping(needed: float, limit: float, whose: str = "there") -> str:
+    """Return in words how sure it is that a chain does not jump.
+
+    Parameters
+    ----------
+    needed : float
+        Slack tension below which it jumps [N].
+    limit : float
+        Slack tension that there is, or that the user allows to be needed [N], above 0.
+    whose : str
+        ``there`` or ``allowed``.
+
+    Returns
+    -------
+    str
+        With both tensions and the factor between them.
+
+    Examples
+    --------
+    >>> jumping(5.0, 60.0)
+    'jumping: safe, margin 12 times (slack tension: 5 N needed, 60 N there)'
+    >>> jumping(4e-6, 60.0)
+    'jumping: safe, margin more than 1000 times (slack tension: below 0.06 N needed, 60 N there)'
+    """
+    if needed >= limit * (1.0 - 1e-9):
+        margin = "no margin"
+    else:
+        called = "safe, margin" if _SAFE * needed <= limit else "margin only"
+        factor = grouped(limit / needed, 2) if needed * _FAR > limit else f"more than {_FAR:.0f}"
+        margin = f"{called} {factor} times"
+    amount = slack_needed(needed, limit)
+    return f"jumping: {margin} (slack tension: {amount} N needed, {grouped(limit, 3)} N {whose})"
+
+
+def slack_needed(needed: float, limit: float) -> str:
+    """Return the slack tension below which a chain jumps, without digits where it is next to none.
+
+    Parameters
+    ----------
+    needed, limit : float
+        That tension, and what it is compared with [N].
+
+    Returns
+    -------
+    str
+        Such as ``5`` or ``below 0.06``.
+    """
+    return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
 
 
 def answer(result: WearResult, source: str) -> str:
@@ -130,7 +227,7 @@ def answer(result: WearResult, source: str) -> str:
 
 
 def findings(result: WearResult) -> list[tuple[str, str]]:
-    """Return what a run has found, the life first.
+    """Return what a run has found, the life first; before it that the drive is overloaded.
 
     Parameters
     ----------
@@ -143,6 +240,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
         Labels with their texts.
     """
     return [
+        *(((OVERLOADED, overload_text(result)),) if result.overloaded else ()),
         ("Life", _life(result)),
         (BAND, _band(result)),
         *_service(result),
@@ -153,7 +251,34 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
     ]
 
 
+def overload_text(result: WearResult) -> str:
+    """Return by how much a drive is outside the ratings of its load.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result.
+
+    Returns
+    -------
+    str
+        Such as ``plate fatigue 118.2 % of the rating; the hours are for wear only``; empty where
+        it is overloaded by none.
+    """
+    if not result.overloaded:
+        return ""
+    found = ", ".join(_overload(finding) for finding in result.overloaded)
+    return f"{found} of the rating; the hours are for wear only"
+
+
+def _overload(finding: Finding) -> str:
+    name = f"{finding.name} (indicative)" if finding.note else finding.name
+    return f"{name} {grouped(100.0 * finding.used)} %"
+
+
 def _removed(result: WearResult) -> str:
+    if not result.removed_area > 0.0:
+        return "less than the coordinates of the flank can tell"
     closes = abs(result.worn_area / result.removed_area - 1.0)
     return (
         f"{result.removed_area:.4g} mm2 between new and worn outline, {result.worn_area:.4g} mm2 summed "
@@ -200,10 +325,7 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
     """Lives of chain and sprocket, and how far every limit is used when the life ends."""
     if len(result.limits) < 2:
         return []
-    used = ", ".join(
-        f"{state.name} {grouped(state.value, 3)} of {grouped(state.limit, 3)}"
-        for state in result.limits
-    )
+    used = ", ".join(limit_state(state, result.inputs) for state in result.limits)
     limits = [(LIMITS, f"at the end of the life {used}")]
     if "chain" not in result.parts:
         return limits
@@ -385,5 +507,7 @@ def _worst(result: WearResult) -> str:
         place = f"pinion, {place} from where contact starts to its tip"
     if kind == "wrap":
         place = f"{_depth(result.max_depth)} mm {place} from the gap's right tip"
+        if result.life.hours_run < result.hours_run:
+            place += f", after {grouped(result.hours_run)} h"
     pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
     return f"{place}; peak pressure {pressures}"

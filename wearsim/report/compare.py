@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wearsim.output import new_folder
-from wearsim.report.answer import governing_text, hours, limit_text
+from wearsim.report.answer import governing_text, headline, hours, limit_text
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, WearResult, life_keys
 
@@ -90,7 +90,7 @@ def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[st
         start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
         cells = [
             result.title,
-            hours(result.life),
+            headline(result),
             limit_text(result.stop, result.stop_value),
             f"{hours(result.life_high)} / {hours(result.life_low)}",
             f"{ratio:.3g}" if ratio == ratio else "-",

@@ -14,8 +14,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
 from wearsim.report.figure_text import literal
-from wearsim.report.flank_view import outline, run_time, snapshot
-from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
+from wearsim.report.flank_view import at_life, life_time, outline, snapshot
+from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
 from wearsim.result import Life, WearResult
 
 FIGURES = ("flanks", "along_flank", "depth_over_hours")
@@ -85,7 +85,7 @@ def picture_bytes(figure: Figure, kind: str) -> bytes:
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:
-    """Return the flanks before and after, the depth enlarged, with the roller.
+    """Return the flanks new and at the end of their lives, the depth enlarged, with the roller.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def flanks_figure(results: list[WearResult]) -> Figure:
 
 
 def _draw_flank(panel: Axes, result: WearResult) -> None:
-    flank = worn_flanks(result)[0]
+    flank = flanks_of_life(result)[0]
     new, extent, deepest = flank.new, flank.extent, flank.deepest
     x, y = flank.enlarged(flank.x[-1], flank.y[-1])
     panel.fill(*outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
@@ -119,7 +119,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
     panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
     panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {flank.factor}")
-    label = f"deepest, {result.max_depth:.3g} mm"
+    label = f"deepest, {flank.depth[-1].max():.3g} mm"
     panel.plot(x[deepest], y[deepest], "o", color="tab:red", markersize=5, label=label)
     reach = 1.6 * extent
     left = new.x.min() - (0.2 if "sprocket" in result.parts else 0.7) * extent
@@ -134,7 +134,7 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")
     title = textwrap.fill(result.title, 42)
-    panel.set_title(literal(f"{title}\nafter {run_time(result)}"), fontsize=9)
+    panel.set_title(literal(f"{title}\nafter {life_time(result)}"), fontsize=9)
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
@@ -153,7 +153,7 @@ def _draw_mate(panel: Axes, result: WearResult, flank: WornFlank) -> tuple[float
 
 
 def along_flank_figure(results: list[WearResult]) -> Figure:
-    """Return depth, pressure and sliding speed along the flanks at the end of the run.
+    """Return depth, pressure and sliding speed along the flanks at the end of their lives.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
     figure = Figure(figsize=(8.0, 2.2 + 2.1 * len(shown)), layout="constrained")
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
-        first, last = snapshot(result, 0), snapshot(result, -1)
+        first, last = snapshot(result, 0), at_life(result)
         (line,) = panels[0].plot(
             last["arc_length_mm"], last["depth_mm"], label=literal(result.title)
         )
@@ -196,7 +196,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
         text = "solid: pinion, dotted: wheel where it meets that place"
         panels[0].set_title(text, fontsize=9, loc="left")
     if len(shown) > 1:
-        panels[1].set_title("solid: at the end of the run, dashed: new", fontsize=9, loc="left")
+        panels[1].set_title("solid: at the end of the life, dashed: new", fontsize=9, loc="left")
     panels[-1].set_xlabel(
         "arc length from the root of the flank (from the gap's right tip on a wrap), mm"
     )
@@ -214,7 +214,7 @@ def depth_figure(results: list[WearResult]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        A dot marks a life, an arrow a run that went on.
+        A dot marks a limit of the sprocket, an open arrow a run that ends before it.
     """
     shown = [("max_depth_mm", "greatest depth, mm")]
     if any("elongation_percent" in result.history_columns for result in results):
@@ -228,16 +228,16 @@ def depth_figure(results: list[WearResult]) -> Figure:
             if name in result.history_columns:
                 panel.plot(time, result.history_columns[name], color=line.get_color())
         reached = result.parts.get("sprocket", result.life)
-        mark = "o" if isinstance(reached, Life) else ">"
+        mark, inside = ("o", line.get_color()) if isinstance(reached, Life) else (">", "white")
         depth = result.history_columns["max_depth_mm"]
-        panels[0].plot(time[-1], depth[-1], mark, color=line.get_color())
+        panels[0].plot(time[-1], depth[-1], mark, color=line.get_color(), mfc=inside)
     for panel, (_, label) in zip(panels, shown, strict=True):
         panel.set_ylabel(label)
         panel.set_xlim(left=0.0)
         panel.set_ylim(bottom=0.0)
         panel.grid(alpha=0.3)
     panels[-1].set_xlabel("running time, h")
-    title = "dot: limit of the sprocket reached; arrow: run ends at the horizon"
+    title = "dot: limit of the sprocket reached; open arrow: run ends before it"
     panels[0].set_title(title, fontsize=9, loc="left")
     panels[0].legend(frameon=False, fontsize=8)
     return figure

@@ -38,7 +38,7 @@ def case_of(result: WearResult) -> Case:
     """
     with tempfile.TemporaryDirectory() as folder:
         for name, text in result.input_files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8")
+            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         return load_case(with_files(result.inputs, folder))
 
 
@@ -129,8 +129,8 @@ def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
     return np.append(x, (-across, 0.0, across)), np.append(y, (up, 0.0, up))
 
 
-def run_time(result: WearResult) -> str:
-    """Return how long a result ran and why it ended.
+def life_time(result: WearResult) -> str:
+    """Return the time at which pictures show a flank as worn, and what it is.
 
     Parameters
     ----------
@@ -140,13 +140,32 @@ def run_time(result: WearResult) -> str:
     Returns
     -------
     str
-        Such as ``15 150 h (life)``.
+        Such as ``15 150 h (life)``: that of the answer, on a wrap perhaps the chain's.
     """
-    if "sprocket" in result.parts:
-        reached = "sprocket worn" if isinstance(result.parts["sprocket"], Life) else "run ends"
-    else:
-        reached = "life" if isinstance(result.life, Life) else "limit not reached"
-    return f"{grouped(result.hours_run)} h ({reached})"
+    what = "life" if isinstance(result.life, Life) else "limit not reached"
+    if result.stop == "elongation_percent":
+        what += ", ended by the chain"
+    return f"{grouped(result.life.hours_run)} h ({what})"
+
+
+def at_life(result: WearResult) -> dict[str, Vector]:
+    """Return the columns of the flank at the end of the life; of the kind of gap that wears most.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result; the run of a wrap may go on after the life of its chain.
+
+    Returns
+    -------
+    dict
+        Arrays by the names of the columns of ``flank.csv``, on the line between two snapshots.
+    """
+    times, end = np.unique(result.flank_columns["cycles"]), result.life.cycles_run
+    last = int(np.clip(np.searchsorted(times, end), 1, times.size - 1))
+    part = min(1.0, float((end - times[last - 1]) / (times[last] - times[last - 1])))
+    before, after = snapshot(result, last - 1), snapshot(result, last)
+    return {name: (1.0 - part) * before[name] + part * after[name] for name in after}
 
 
 def snapshot(result: WearResult, index: int) -> dict[str, Vector]:

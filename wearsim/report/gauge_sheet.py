@@ -212,16 +212,17 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
     )
     return [
         f"Go/no-go gauge of wear: {case.title} (case {case.name}; {what})",
-        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point.",
+        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge is "
+        f"as wide as such a gap; elsewhere it keeps {gauges[0].clearance:.2g} mm off the new teeth.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
         "by 10 mm, else do not use this sheet.",
         f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
-        "3. Hold it into the gap between two teeth, edge U against the side that carries no load, edge W "
-        "to the side that does, and let its shoulders come down on both tips.",
-        "4. It does not come down to the tips: not worn out yet. It rests on the tips and touches along "
-        "W: worn to the limit, replace. It rests on the tips and light shows along W: worn beyond it.",
-        "Dashed: the new tooth. Dash-dotted: the pitch circle. Hold it to the gap worn most. "
-        f"wearsim {wearsim.__version__}",
+        "3. Put it in from the side of the wheel, along the axis, never from above, where it can catch "
+        "between the tips: edge W to the side of the gap that carries the load, edge U to the other, both "
+        "shoulders on the tips. Try the gap worn most.",
+        "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
+        "with both shoulders on the tips; light along W then shows wear beyond the limit.",
+        f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {wearsim.__version__}",
     ]
 
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.report.answer import grouped
+from wearsim.report.answer import grouped, jumping
 from wearsim.simulation.loads import ToothLoads
 
 _COLUMNS = (
@@ -104,8 +104,9 @@ def loads_table(found: ToothLoads) -> str:
         f"{columns['radius_shift_mm'][row]:7.3f} {columns['contact_arc_length_mm'][row]:8.2f}"
         for row in range(found.loads.force.size)
     ]
-    lines.append(
-        f"  slack strand {grouped(found.slack)} N, jumps below {grouped(found.smallest_slack)} N; "
-        f"{grouped(found.centrifugal)} N more in every link from the chain's own speed"
-    )
+    lines += [
+        f"  {jumping(found.smallest_slack, found.slack)}",
+        f"  slack strand {grouped(found.slack)} N; "
+        f"{grouped(found.centrifugal)} N more in every link from the chain's own speed",
+    ]
     return "\n".join(lines)

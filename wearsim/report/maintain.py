@@ -223,7 +223,10 @@ def _answers(plan: MaintenancePlan) -> list[str]:
         turned = ", sprocket turned" if cheapest.turned else ""
         return [f"cheapest: a new chain at {_percent(cheapest):g} %{turned}"]
     if any(isinstance(policy.sprocket, LowerBound) for policy in plan.policies):
-        return ["> : the sprocket's limit was not reached, raise run.horizon_hours"]
+        return [
+            "> : the sprocket's limit was not reached, so its cost is not known (raise run.horizon_hours, "
+            "or see the warnings)"
+        ]
     return ["no cost without maintenance.chain_price and maintenance.sprocket_price"]
 
 

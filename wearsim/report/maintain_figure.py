@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -21,7 +22,7 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Policies with a turned sprocket are dashed; an arrow marks a life that was not reached.
+        Policies with a turned sprocket are dashed; open arrows mark bounds of a life not reached.
     """
     priced = any(policy.cost is not None for policy in plan.policies)
     figure = Figure(figsize=(7.0, 7.6 if priced else 5.2), layout="constrained")
@@ -53,11 +54,12 @@ def _draw(panels: list[Axes], policies: list[Policy], turned: bool, priced: bool
     ]
     if priced:
         shown.append([math.nan if policy.cost is None else policy.cost for policy in policies])
-    reached = [isinstance(policy.sprocket, Life) for policy in policies]
+    reached = np.array([isinstance(policy.sprocket, Life) for policy in policies])
     label = "sprocket turned" if turned else "sprocket not turned"
     for panel, values in zip(panels, shown, strict=True):
-        panel.plot(at, values, style, color=colour)
-        for mark, wanted, what in (("o", True, ""), ("^", False, ", limit not reached: at least")):
-            some = [(x, y) for x, y, met in zip(at, values, reached, strict=True) if met == wanted]
-            if some:
-                panel.plot(*zip(*some, strict=True), mark, color=colour, label=label + what)
+        if reached.any():
+            lives = np.where(reached, values, math.nan)
+            panel.plot(at, lives, f"o{style}", color=colour, label=label)
+        if not reached.all():
+            bounds, told = np.where(reached, math.nan, values), f"{label}, > : limit not reached"
+            panel.plot(at, bounds, "^", color=colour, mfc="white", label=told)

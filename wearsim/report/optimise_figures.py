@@ -11,6 +11,9 @@ from wearsim.study.trials import MAXIMISED, Candidate, Outcome
 
 _MOST_LINES = 500
 
+_BOUND = "> : limit not reached"
+"""In legends: a life that is a bound, an open arrow."""
+
 
 def optimise_figures(outcome: Outcome) -> dict[str, Figure]:
     """Return the pictures that suit an optimisation, by file stem.
@@ -36,6 +39,11 @@ def _feasible(outcome: Outcome) -> list[Candidate]:
     return [one for one in outcome.candidates if one.feasible]
 
 
+def _is_bound(one: Candidate, name: str) -> bool:
+    """Whether a measure is a life that was not reached."""
+    return name == "life_hours" and not one.reached
+
+
 def _convergence(outcome: Outcome) -> Figure:
     names = outcome.study.objectives
     figure = Figure(figsize=(7.0, 1.2 + 2.6 * len(names)), layout="constrained")
@@ -45,7 +53,17 @@ def _convergence(outcome: Outcome) -> Figure:
     for panel, name in zip(panels, names, strict=True):
         values = np.array([one.measures[name] for one in tried])
         better = np.maximum if name in MAXIMISED else np.minimum
-        panel.plot(numbers, values, ".", color="0.65", markersize=4, label="feasible design")
+        bound = np.array([_is_bound(one, name) for one in tried], bool)
+        panel.plot(
+            numbers[~bound],
+            values[~bound],
+            ".",
+            color="0.65",
+            markersize=4,
+            label="feasible design",
+        )
+        if bound.any():
+            panel.plot(numbers[bound], values[bound], "^", color="0.65", mfc="white", label=_BOUND)
         panel.step(
             [*numbers, len(outcome.candidates)],
             [*better.accumulate(values), better.reduce(values)],
@@ -80,6 +98,11 @@ def _front(outcome: Outcome) -> Figure:
             x = [one.measures[across] for one in designs]
             y = [one.measures[up] for one in designs]
             panel.scatter(x, y, label=label, **style)
+            bounds = [_is_bound(one, across) or _is_bound(one, up) for one in designs]
+            if any(bounds):
+                marked = np.column_stack([x, y])[bounds].T
+                panel.scatter(*marked, marker="^", s=60, facecolor="white", edgecolor=style["color"],
+                              label=f"{label}, {_BOUND}")  # fmt: skip
         panel.set_xlabel(axis_label(across))
         panel.set_ylabel(axis_label(up))
         panel.grid(alpha=0.3)
@@ -109,6 +132,10 @@ def _parallel(outcome: Outcome) -> Figure:
             places, line, color="tab:red" if top else "0.7", alpha=0.9 if top else 0.35,
             linewidth=1.4 if top else 0.7,
         )  # fmt: skip
+        for place, name in enumerate(columns):
+            if _is_bound(one, name):
+                colour = "tab:red" if top else "0.7"
+                panel.plot(place, line[place], "^", color=colour, mfc="white", markersize=8)
     labels = [axis_label(key).replace(".", ".\n", 1) for key in columns]
     panel.set_xticks(places, labels, fontsize=8)
     panel.set_yticks([])
@@ -117,5 +144,7 @@ def _parallel(outcome: Outcome) -> Figure:
     panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
     panel.plot([], [], color="tab:red", label="best")
     panel.plot([], [], color="0.7", label="feasible")
-    panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+    if any(_is_bound(one, name) for one in rows for name in columns):
+        panel.plot([], [], "^", color="0.7", mfc="white", label=_BOUND)
+    panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     return figure

@@ -2,12 +2,14 @@
 
 import math
 import textwrap
+from collections.abc import Sequence
 from typing import Any
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.geometry.drive_layout import Meetings, polygon_effect
 from wearsim.report.answer import grouped
 from wearsim.sizing.rating import rated_drive, rating, rules_without_limit
+from wearsim.sizing.selection import Finding
 
 _WIDTH = 100
 
@@ -32,6 +34,57 @@ def rating_json(case: Case) -> dict[str, Any]:
         "rating": [{key: getattr(finding, key) for key in keys} for finding in rating(case)],
         "notes": drive_notes(case),
     }
+
+
+RATING_HEAD = ["rating", "value", "allowed", "margin", "used", "whose rule"]
+"""Heads of the columns of `rating_cells`."""
+
+
+def rating_cells(ratings: Sequence[Finding]) -> list[list[str]]:
+    """Return the ratings of a result in words, those outside marked.
+
+    Parameters
+    ----------
+    ratings : sequence of Finding
+        Of a result.
+
+    Returns
+    -------
+    list of list of str
+        The cells of a row per rating.
+    """
+    rows = []
+    for finding in ratings:
+        unit = f" {finding.unit}" if finding.unit else ""
+        side = "at least" if finding.at_least else "at most"
+        state = "" if finding.ok else ", outside"
+        rows.append(
+            [
+                finding.name,
+                f"{grouped(finding.value)}{unit}",
+                f"{side} {grouped(finding.limit)}{unit}",
+                f"{grouped(finding.margin)}{unit}",
+                f"{grouped(100.0 * finding.used)} %{state}",
+                rule(finding),
+            ]
+        )
+    return rows
+
+
+def rule(finding: Finding) -> str:
+    """Return whose rule a rating is, which load it is about, and why it is only indicative.
+
+    Parameters
+    ----------
+    finding : Finding
+        A rating.
+
+    Returns
+    -------
+    str
+        One line.
+    """
+    return "; ".join(text for text in (finding.source, finding.load, finding.note) if text)
 
 
 def rating_table(case: Case) -> str:

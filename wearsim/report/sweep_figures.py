@@ -103,18 +103,19 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
         colour = f"C{number}"
         panel.plot(
             group[key],
-            _hours(group),
+            group["life_hours"],
             "-o",
             color=colour,
             markersize=4,
             label=literal(shown) or None,
         )
         bound = group[group["life_hours"].isna()]
-        panel.plot(bound[key], _hours(bound), "^", color=colour, markersize=9)
+        panel.plot(bound[key], bound["hours_run"], "^", color=colour, mfc="white", markersize=9)
     if (table["life_hours"].isna() & (table["error"] == "")).any():
-        panel.plot([], [], "^", color="0.4", label="limit not reached: at least")
+        panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
     panel.set_xlabel(axis_label(key))
     panel.set_ylabel("life, h")
+    panel.margins(y=0.1)
     panel.set_ylim(bottom=0.0)
     panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
     panel.grid(alpha=0.3)
@@ -125,6 +126,7 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
 
 def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     hours = table.assign(hours=_hours(table)).pivot(index=up, columns=across, values="hours")
+    reached = table.pivot(index=up, columns=across, values="life_hours").notna().to_numpy()
     figure = Figure(figsize=(7.0, 5.2), layout="constrained")
     panel = figure.subplots()
     norm = _scale(table)
@@ -135,7 +137,8 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     if cells.size <= _MOST_NUMBERS:
         for (row, column), value in np.ndenumerate(cells):
             dark = value < np.sqrt(_least(table) * _hours(table).max())
-            text = "failed" if np.isnan(value) else grouped(float(f"{value:.3g}"))
+            sign = "" if reached[row, column] else "> "
+            text = "failed" if np.isnan(value) else sign + grouped(float(f"{value:.3g}"))
             panel.text(
                 column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=8,
                 color="white" if dark else "black",
@@ -156,7 +159,10 @@ def _scale(table: pd.DataFrame) -> LogNorm:
 
 
 def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
-    """Every case a line through its values and its life, all scales from least to greatest."""
+    """Every case a line through its values and its life, all scales from least to greatest.
+
+    An open arrow is a life that was not reached.
+    """
     rows = table[table["error"] == ""].assign(life=_hours)
     rows = rows.iloc[:: max(1, len(rows) // _MOST_LINES)].sort_values("life")
     columns = [*keys, "life"]
@@ -167,8 +173,14 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
         [scaled_heights(panel, at, rows[key]) for at, key in enumerate(columns)]
     )
     colours = mpl.colormaps["viridis"](norm(rows["life"].to_numpy()))
-    for line, colour in zip(heights, colours, strict=True):
+    bounds = rows["life_hours"].isna()
+    for line, colour, bound in zip(heights, colours, bounds, strict=True):
         panel.plot(np.arange(len(columns)), line, color=colour, alpha=0.6, linewidth=1.0)
+        if bound:
+            panel.plot(len(columns) - 1, line[-1], "^", color=colour, mfc="white", markersize=8)
+    if bounds.any():
+        panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
+        panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     labels = [axis_label(key).replace(".", ".\n", 1) for key in keys] + ["life, h"]
     panel.set_xticks(np.arange(len(columns)), labels, fontsize=8)
     panel.set_yticks([])

@@ -42,7 +42,7 @@ class WornFlank:
 
     @property
     def deepest(self) -> int:
-        """Point that is worn most at the end of the run."""
+        """Point that is worn most at the last snapshot."""
         return int(self.depth[-1].argmax())
 
     @property
@@ -72,6 +72,27 @@ class WornFlank:
         )
         return x, y, depth
 
+    def until(self, cycles: float) -> "WornFlank":
+        """Return the flank as it wears up to a time.
+
+        Parameters
+        ----------
+        cycles : float
+            Loading cycles, above 0.
+
+        Returns
+        -------
+        WornFlank
+            Its last snapshot is that of the time.
+        """
+        end = np.array([min(cycles, self.cycles[-1])])
+        before, last = self.cycles < end[0], self.at(end)
+        x, y, depth = (
+            np.vstack([values[before], ends])
+            for values, ends in zip((self.x, self.y, self.depth), last, strict=True)
+        )
+        return WornFlank(self.name, np.append(self.cycles[before], end), x, y, depth)
+
     def enlarged(self, x: Vector, y: Vector) -> tuple[Vector, Vector]:
         """Return points with their distance from the new flank enlarged.
 
@@ -87,6 +108,22 @@ class WornFlank:
         """
         new_x, new_y = self.x[0], self.y[0]
         return new_x + self.factor * (x - new_x), new_y + self.factor * (y - new_y)
+
+
+def flanks_of_life(result: WearResult) -> list[WornFlank]:
+    """Return the flank up to the end of the life, of gears those of both wheels.
+
+    Parameters
+    ----------
+    result : WearResult
+        The result; the run of a wrap may go on after the life of its chain.
+
+    Returns
+    -------
+    list of WornFlank
+        One or two.
+    """
+    return [flank.until(result.life.cycles_run) for flank in worn_flanks(result)]
 
 
 def worn_flanks(result: WearResult) -> list[WornFlank]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from wearsim.geometry.profile import Vector
 from wearsim.output import new_folder
 from wearsim.result.life import Life, LimitState, LowerBound
 from wearsim.result.parquet import write_parquet
+from wearsim.sizing.selection import Finding
 
 if TYPE_CHECKING:
     from wearsim.result.wear_result import WearResult
@@ -88,7 +89,7 @@ def write_result(result: WearResult, folder: Path, force: bool, parquet: bool) -
         (place / "case.lock.toml").write_text(_lock(result), encoding="utf-8")
         for name, text in result.input_files.items():
             (place / _INPUTS).mkdir(exist_ok=True)
-            (place / _INPUTS / name).write_text(text, encoding="utf-8")
+            (place / _INPUTS / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         result.history.to_csv(place / "history.csv", index=False)
         result.flank.to_csv(place / "flank.csv", index=False)
         if parquet:
@@ -159,6 +160,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         **{name: _life(life) for name, life in stored["lives"].items()},
         "parts": {name: _life(life) for name, life in stored["parts"].items()},
         "limits": tuple(LimitState(**state) for state in stored["limits"]),
+        "ratings": tuple(map(_rating, stored["ratings"])) if kind == "wrap" else (),
         "max_depth": stored["max_depth_mm"],
         "max_depth_arc_length": stored["max_depth_arc_length_mm"],
         "removed_area": stored["removed_area_mm2"],
@@ -169,7 +171,8 @@ def _stored(folder: Path) -> dict[str, Any]:
         "warnings": tuple(stored["warnings"]),
         "inputs": inputs,
         "input_files": {
-            name: (folder / _INPUTS / name).read_text(encoding="utf-8") for name in _named(inputs)
+            name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
+            for name in _named(inputs)
         },
         "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS[kind]),
         "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS[kind]),
@@ -179,6 +182,10 @@ def _stored(folder: Path) -> dict[str, Any]:
 
 def _life(stored: dict[str, float]) -> Life | LowerBound:
     return Life(**stored) if "hours" in stored else LowerBound(**stored)
+
+
+def _rating(stored: dict[str, Any]) -> Finding:
+    return Finding(**{field.name: stored[field.name] for field in fields(Finding)})
 
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:

@@ -15,6 +15,7 @@ from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.life import Life, LimitState, LowerBound, first_life, life_keys
+from wearsim.sizing.selection import Finding, overloading
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,6 +67,8 @@ class WearResult:
         materials are given: hours until pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
         Every limit and what its quantity has come to at the end of the life.
+    ratings : tuple of Finding
+        What the handbooks allow of the drive, on a wrap; empty otherwise.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
     inputs : mapping
@@ -101,6 +104,7 @@ class WearResult:
     life_tolerance: float
     parts: Mapping[str, Life | LowerBound]
     limits: tuple[LimitState, ...]
+    ratings: tuple[Finding, ...]
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     inputs: Mapping[str, Any]
@@ -128,6 +132,11 @@ class WearResult:
     def earliest_life(self) -> Life | LowerBound:
         """The life that governs, by wear or by contact fatigue; a bound where none ends."""
         return self.fatigue.get(self.governing or "", self.life)
+
+    @property
+    def overloaded(self) -> tuple[Finding, ...]:
+        """Those of `ratings` that overload the drive; the lives do not count them."""
+        return overloading(self.ratings)
 
     @cached_property
     def history(self) -> pd.DataFrame:
@@ -168,6 +177,7 @@ class WearResult:
             "stop_value": self.stop_value,
             **self._parts(),
             "limits": [asdict(state) for state in self.limits],
+            **self._rated(),
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
             "flank_length_mm": float(self.flank_columns["arc_length_mm"][-1]),
@@ -199,6 +209,14 @@ class WearResult:
             keys["governing_life"] = self.governing
             keys |= life_keys("governing_life_hours", self.earliest_life)
         return keys
+
+    def _rated(self) -> dict[str, Any]:
+        if not self.ratings:
+            return {}
+        return {
+            "overloaded": [_rating(finding) for finding in self.overloaded],
+            "ratings": [_rating(finding) for finding in self.ratings],
+        }
 
     def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:
         """Write the result into a folder, all of it or nothing.
@@ -260,3 +278,8 @@ def environment() -> dict[str, str]:
         "platform": f"{platform.system()} {platform.machine()}",
         **{name: metadata.version(name) for name in libraries},
     }
+
+
+def _rating(finding: Finding) -> dict[str, Any]:
+    more = {"margin": finding.margin, "used_percent": 100.0 * finding.used, "ok": finding.ok}
+    return {**asdict(finding), **more}

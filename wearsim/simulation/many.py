@@ -2,7 +2,7 @@
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -10,14 +10,15 @@ from itertools import islice
 import numpy as np
 
 from wearsim.case.model import Case, WrapDrive
-from wearsim.contact.engagement import Mechanism
+from wearsim.contact.engagement import Contact
 from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
+from wearsim.simulation.grids import LEVELS, Search, Settled, settle
 from wearsim.simulation.pointwise import pointwise_mechanism
-from wearsim.simulation.task import task
+from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
+from wearsim.wear.accuracy import depth_missed
 from wearsim.wear.many import Flank, Worn, advance_many
-from wearsim.wear.running_in import RunningIn
 
 _BATCH = 32
 """Flanks of one compiled call."""
@@ -40,7 +41,7 @@ class CaseLife:
         Key of the limit that was met, ``horizon_hours`` where none was; the name of a life by
         contact fatigue that ends before, such as ``sprocket_fatigue``.
     numerical_error : float
-        Relative error of the life by its steps; that of the grid is not estimated.
+        Relative error of the life by its steps and its grid, as `simulate` states it.
     warnings : tuple of str
         What is doubtful about the case and the worn flank.
     """
@@ -53,35 +54,101 @@ class CaseLife:
 
 
 @dataclass(frozen=True, eq=False)
-class _Job:
-    """A case that goes into a batch."""
+class _Wanted:
+    """A flank of a case on one grid, for a batch."""
 
-    case: Case
-    mechanism: Mechanism
-    flank: Flank
-    limit: str
-    running_in: RunningIn
-    coefficient: float
+    asked: Task
+
+    @property
+    def flank(self) -> Flank:
+        asked, limit = self.asked, self.asked.criteria[0].limit
+        horizon = asked.horizon * asked.law.coefficient
+        return Flank(asked.contact, asked.law, limit, horizon, asked.life_tolerance)
 
     @property
     def kind(self) -> tuple[object, ...]:
         """What the flanks of one compiled call have in common."""
-        contact = self.flank.contact
+        contact = self.asked.contact
         return contact.kernel, contact.profile.x.size, contact.columns.shape
 
     @property
     def wear(self) -> tuple[object, ...]:
         """What the wear depends on but for the coefficient, which only scales the cycles."""
-        flank, contact = self.flank, self.flank.contact
+        asked, contact = self.asked, self.asked.contact
         arrays = (
             contact.profile.x,
             contact.profile.y,
             contact.constants,
             contact.columns,
-            flank.law.unit_numbers(contact.kind),
+            asked.law.unit_numbers(contact.kind),
         )
-        numbers = contact.modulus, flank.critical_depth, flank.life_tolerance
+        numbers = contact.modulus, asked.criteria[0].limit, asked.life_tolerance
         return (*self.kind, *numbers, *(array.tobytes() for array in arrays))
+
+    def run(self, worn: Worn) -> "_GridRun | None":
+        """Return what came of it; None where that does not tell all of the case's own life."""
+        asked, coefficient = self.asked, self.asked.law.coefficient
+        horizon = asked.horizon * coefficient
+        # Of cases that share a run, one that ends at its own horizon was run to another's.
+        if worn.horizon > horizon and (1.0 + asked.life_tolerance) * worn.time > horizon:
+            return None
+        constant = np.array([worn.time if worn.reached else horizon]) / coefficient
+        return _GridRun(asked, worn, float(asked.running_in.running_cycles(constant)[0]))
+
+
+@dataclass(frozen=True, eq=False)
+class _GridRun:
+    """A run on one grid."""
+
+    asked: Task
+    worn: Worn
+    cycles: float
+
+    @property
+    def spacing(self) -> float:
+        return self.asked.contact.end_spacing
+
+    @property
+    def own_error(self) -> float:
+        missed = depth_missed(self.worn.x, self.worn.y, self.worn.depth)
+        return self.worn.change * self.asked.running_in.amplification + missed
+
+    def change(self, other: "_GridRun") -> float:
+        if self.worn.reached and other.worn.reached:
+            return abs(other.cycles / self.cycles - 1.0)
+        if self.worn.reached or other.worn.reached:
+            raise _AloneError
+        return abs(float(other.worn.depth.max()) / float(self.worn.depth.max()) - 1.0)
+
+
+class _AloneError(Exception):
+    """A case whose runs in batches do not tell its life."""
+
+
+class _Job:
+    """A case on its way through batches: the flanks that it wants worn next, or its life."""
+
+    def __init__(self, case: Case) -> None:
+        self._case = case
+        mechanism, tolerance = pointwise_mechanism(case), case.run.life_tolerance
+        self._search: Search[_GridRun] = settle(mechanism, tolerance, LEVELS)
+        self.settled: Settled[_GridRun] | None = None
+        self.wanted = self._wanted(next(self._search))
+
+    def _wanted(self, contacts: list[Contact]) -> list[_Wanted]:
+        return [_Wanted(task(self._case, contact)) for contact in contacts]
+
+    def send(self, runs: Sequence[_GridRun | None]) -> None:
+        """Go on with what came of the flanks; without one of them the case runs alone."""
+        self.wanted = []
+        if None in runs:
+            return
+        try:
+            self.wanted = self._wanted(self._search.send(list(runs)))
+        except StopIteration as end:
+            self.settled = end.value
+        except _AloneError:
+            return
 
 
 def simulate_many(
@@ -133,11 +200,15 @@ def simulate_many(
             if len(under_way) > _AHEAD or not chunk:
                 if not under_way:
                     return
-                yield from _lives(*under_way.popleft())
+                chunk, jobs, batches = under_way.popleft()
+                while batches:
+                    _collect(jobs, batches)
+                    batches = _submit(pool, jobs)
+                yield from map(_life, chunk, jobs)
 
 
-_Batch = tuple[list[list[_Job]], "Future[list[Worn | None]]"]
-"""Jobs of equal wear, one list a flank, and what comes of the flanks."""
+_Batch = tuple[list[list[_Wanted]], "Future[list[Worn | None]]"]
+"""Flanks of equal wear, one list a run, and what comes of the runs."""
 
 
 def _job(case: Case) -> _Job | None:
@@ -146,26 +217,19 @@ def _job(case: Case) -> _Job | None:
     if alone or case.run.method != "advance":
         return None
     try:
-        mechanism = pointwise_mechanism(case)
-        asked = task(case, mechanism.contact)
+        job = _Job(case)
     except WearsimError:
         return None
-    if len(asked.criteria) > 1:
-        return None
-    limit, coefficient = asked.criteria[0], asked.law.coefficient
-    flank = Flank(
-        asked.contact, asked.law, limit.limit, asked.horizon * coefficient, asked.life_tolerance
-    )
-    return _Job(case, mechanism, flank, limit.name, asked.running_in, coefficient)
+    return None if len(job.wanted[0].asked.criteria) > 1 else job
 
 
 def _submit(pool: ThreadPoolExecutor, jobs: list[_Job | None]) -> list[_Batch]:
-    """Hand jobs to the pool: those of equal wear as one, until the longest of their horizons."""
-    equal: dict[tuple[object, ...], list[_Job]] = {}
+    """Hand flanks to the pool: those of equal wear as one, until the longest of their horizons."""
+    equal: dict[tuple[object, ...], list[_Wanted]] = {}
     for job in jobs:
-        if job is not None:
-            equal.setdefault(job.wear, []).append(job)
-    kinds: dict[tuple[object, ...], list[list[_Job]]] = {}
+        for wanted in job.wanted if job is not None else ():
+            equal.setdefault(wanted.wear, []).append(wanted)
+    kinds: dict[tuple[object, ...], list[list[_Wanted]]] = {}
     for group in equal.values():
         kinds.setdefault(group[0].kind, []).append(group)
     batches = []
@@ -173,44 +237,51 @@ def _submit(pool: ThreadPoolExecutor, jobs: list[_Job | None]) -> list[_Batch]:
         for first in range(0, len(groups), _BATCH):
             part = groups[first : first + _BATCH]
             flanks = [
-                replace(group[0].flank, horizon=max(job.flank.horizon for job in group))
+                replace(group[0].flank, horizon=max(wanted.flank.horizon for wanted in group))
                 for group in part
             ]
             batches.append((part, pool.submit(advance_many, flanks)))
     return batches
 
 
-def _lives(
-    cases: list[Case], jobs: list[_Job | None], batches: list[_Batch]
-) -> Iterator[CaseLife | WearsimError]:
-    found: dict[int, Worn] = {}
+def _collect(jobs: list[_Job | None], batches: list[_Batch]) -> None:
+    """Wait for batches and hand the jobs what came of their flanks."""
+    found: dict[int, Worn | None] = {}
     for groups, future in batches:
         for group, worn in zip(groups, future.result(), strict=True):
-            if worn is not None:
-                found.update((id(job), worn) for job in group)
-    for case, job in zip(cases, jobs, strict=True):
-        worn = found.get(id(job))
-        life = _life(job, worn) if job is not None and worn is not None else None
-        yield life or _alone(case)
+            found.update((id(wanted), worn) for wanted in group)
+    for job in jobs:
+        if job is not None and job.wanted:
+            worn_flanks = [found[id(wanted)] for wanted in job.wanted]
+            job.send(
+                [
+                    None if worn is None else wanted.run(worn)
+                    for wanted, worn in zip(job.wanted, worn_flanks, strict=True)
+                ]
+            )
 
 
-def _life(job: _Job, worn: Worn) -> CaseLife | None:
-    """Return the life of a job; None where that of the batch does not tell all of it."""
-    reached = worn.reached and worn.time <= job.flank.horizon
-    # Of jobs that share a run, one that ends at its own horizon was run to another's.
-    near = 1.0 + job.flank.life_tolerance
-    if worn.horizon > job.flank.horizon and near * worn.time > job.flank.horizon:
-        return None
-    constant = np.array([worn.time if reached else job.flank.horizon]) / job.coefficient
-    cycles = float(job.running_in.running_cycles(constant)[0])
-    life = life_of(cycles, job.case.cycles_per_hour, reached)
-    warnings = [*job.case.warnings, *wide_contact(job.flank.contact, worn.half_width)]
-    if reached:
-        warnings += few_cycles(cycles)
-    warnings += low_contact_ratio_in_the_end(job.mechanism.worn_contact_ratio(worn.x, worn.y))
-    stop = job.limit if reached else "horizon_hours"
-    error = worn.change * job.running_in.amplification
-    return CaseLife(job.case.name, life, stop, error, tuple(warnings))
+def _life(case: Case, job: _Job | None) -> CaseLife | WearsimError:
+    """Return the life of a case: of its job, or alone where that does not tell all of it."""
+    if job is None or job.settled is None:
+        return _alone(case)
+    settled, run = job.settled, job.settled.run
+    worn, contact = run.worn, run.asked.contact
+    warnings = [
+        *case.warnings,
+        *settled.warnings(case.run.life_tolerance),
+        *wide_contact(contact, worn.half_width),
+    ]
+    if worn.reached:
+        warnings += few_cycles(run.cycles)
+    warnings += low_contact_ratio_in_the_end(settled.mechanism.worn_contact_ratio(worn.x, worn.y))
+    return CaseLife(
+        case.name,
+        life_of(run.cycles, case.cycles_per_hour, worn.reached),
+        run.asked.criteria[0].name if worn.reached else "horizon_hours",
+        settled.error,
+        tuple(warnings),
+    )
 
 
 def _alone(case: Case) -> CaseLife | WearsimError:

@@ -1,6 +1,6 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,15 +11,13 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
+from wearsim.simulation.grids import LEVELS, Search, Settled, settle
 from wearsim.simulation.law import running_in_assumptions
 from wearsim.simulation.limits import limit_states
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, validity
-from wearsim.wear.accuracy import GridStudy, grid_error, grid_study
+from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
-
-_OTHER_GRID = 0.7
-"""Points of a grid whose places are others, over those of the flank."""
 
 
 def simulate_points(case: Case) -> WearResult:
@@ -42,12 +40,9 @@ def simulate_points(case: Case) -> WearResult:
     ConvergenceError
         The life would be wrong.
     """
-    mechanism = pointwise_mechanism(case)
-    asked = task(case, mechanism.contact)
     warnings = list(case.warnings)
-    run, step_error = _run(case, asked, warnings)
-    check_fold(mechanism.contact, run)
-    error = step_error + _grid_error(case, mechanism.contact, run, step_error, warnings)
+    settled = _settled(case, pointwise_mechanism(case), warnings)
+    mechanism, asked, run = settled.mechanism, settled.run.asked, settled.run.trajectory
     history, flank = _tables(case, mechanism, run)
     warnings += validity(mechanism.contact, history, flank)
     low, high = _band(case, asked, run, warnings)
@@ -76,18 +71,20 @@ def simulate_points(case: Case) -> WearResult:
         speed_rpm=case.speed_rpm,
         method=case.run.method,
         updates=run.updates,
-        numerical_error=error,
+        numerical_error=settled.error,
         life_tolerance=case.run.life_tolerance,
         parts=fatigue,
         limits=limit_states(asked.criteria, run.x[-1], run.y[-1], run.depth[-1]),
+        ratings=(),
         assumptions=(
             *mechanism.assumptions(),
             *running_in_assumptions(asked.running_in),
+            *settled.assumptions(),
             *case.assumptions,
         ),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
-        input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
+        input_files=case.input_files,
         history_columns=history,
         flank_columns=flank,
         environment=environment(),
@@ -180,17 +177,59 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
     )
 
 
-def _run(case: Case, asked: Task, warnings: list[str]) -> tuple[Trajectory, float]:
-    """Return the run of a case, and the error of its steps."""
+@dataclass(frozen=True, eq=False)
+class _GridRun:
+    """A run on one grid."""
+
+    asked: Task
+    trajectory: Trajectory
+    step_error: float
+
+    @property
+    def spacing(self) -> float:
+        return self.asked.contact.end_spacing
+
+    @property
+    def own_error(self) -> float:
+        run = self.trajectory
+        return self.step_error + depth_missed(run.x[-1], run.y[-1], run.depth[-1])
+
+    def change(self, other: "_GridRun") -> float:
+        return difference(self.trajectory, other.trajectory)
+
+
+def _settled(case: Case, mechanism: Mechanism, warnings: list[str]) -> Settled[_GridRun]:
+    """Find the life on points on which it is within its tolerance, or say that it is not."""
+    advances = case.run.method == "advance"
+    tolerance, levels = case.run.life_tolerance, LEVELS if advances else 0
+    search: Search[_GridRun] = settle(mechanism, tolerance, levels)
+    contacts = next(search)
+    first = _GridRun(task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
+    found: list[_GridRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
+    while True:
+        try:
+            contacts = search.send(found)
+        except StopIteration as end:
+            settled: Settled[_GridRun] = end.value
+            break
+        found = [_run_on(case, contact) for contact in contacts]
+    warnings += settled.warnings(tolerance)
+    return settled
+
+
+def _first_run(case: Case, contact: Contact, warnings: list[str]) -> tuple[Trajectory, float]:
+    """Return the run of a case on its own points, and the error of its steps."""
+    asked = task(case, contact)
     if case.run.method == "advance":
-        return asked.run()
+        run, error = asked.run()
+        check_fold(contact, run)
+        return run, error
     from wearsim.wear.per_cycle import run_per_cycle
 
     run = asked.run_in(
-        run_per_cycle(
-            asked.contact, asked.law, asked.criteria, asked.horizon, case.run.cycles_per_update
-        )
+        run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, case.run.cycles_per_update)
     )
+    check_fold(contact, run)
     try:
         check, change = asked.run()
     except WearsimError as reason:
@@ -201,29 +240,15 @@ def _run(case: Case, asked: Task, warnings: list[str]) -> tuple[Trajectory, floa
     return run, change + difference(run, check)
 
 
-def _grid_error(
-    case: Case, contact: Contact, run: Trajectory, step_error: float, warnings: list[str]
-) -> float:
-    """Return the error of the grid, and warn where it and that of the steps are too large."""
-    tolerance = case.run.life_tolerance
+def _run_on(case: Case, contact: Contact) -> _GridRun | None:
+    """Return the run on other points; None where there is none."""
+    asked = task(case, contact)
     try:
-        error = grid_error(run, contact, lambda grid: task(case, grid).run()[0])
-        if isinstance(case.drive, GearDrive):
-            # A kink beside a point stays there when every second one is left out.
-            fewer = replace(case.drive, points=round(_OTHER_GRID * case.drive.points))
-            other = pointwise_mechanism(replace(case, drive=fewer)).contact
-            error = max(error, 1.5 * difference(run, task(case, other).run()[0]))
-    except WearsimError as reason:
-        warnings.append(
-            f"the error of the grid could not be estimated on half the points, 100 % is stated: {reason}"
-        )
-        return 1.0 - step_error
-    if step_error + error > tolerance:
-        warnings.append(
-            f"numerical error {step_error + error:.1g} exceeds the tolerance {tolerance:g}: use more "
-            "nodes (rows of a table)"
-        )
-    return error
+        run, error = asked.run()
+        check_fold(contact, run)
+    except WearsimError:
+        return None
+    return _GridRun(asked, run, error)
 
 
 def _tables(

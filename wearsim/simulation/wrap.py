@@ -20,12 +20,12 @@ from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
-from wearsim.sizing.rating import rating_warnings
-from wearsim.wear.accuracy import GridStudy, grid_study
+from wearsim.sizing.rating import rating, rating_warnings
+from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
-from wearsim.wear.halving import advance_dwelling, halve_steps, run_together
+from wearsim.wear.halving import advance_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, difference
@@ -67,10 +67,11 @@ def simulate_wrap(
         A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
-    law, criteria, horizon = _problem(case, contact)
+    law, criteria, horizon = wrap_problem(case, contact)
     warp = law.running_in
     warnings = [*case.warnings, *rating_warnings(case)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
+    warnings += _gave_up(run, horizon)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
     chain = _chain_life(case, contact, horizon, warp)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
@@ -106,6 +107,7 @@ def simulate_wrap(
         life_tolerance=case.run.life_tolerance,
         parts=parts,
         limits=_limits(contact, drive, criteria, run, life),
+        ratings=rating(case),
         assumptions=(
             *contact.assumptions(),
             *running_in_assumptions(warp),
@@ -113,15 +115,28 @@ def simulate_wrap(
         ),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
-        input_files={path.name: path.read_text(encoding="utf-8-sig") for path in case.files},
+        input_files=case.input_files,
         history_columns=history,
         flank_columns=flank,
         environment=environment(),
     )
 
 
-def _problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
-    """Return law, limits and horizon in cycles of constant coefficient."""
+def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
+    """Return what a wrap asks of the wear engine.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    contact : WrapContact
+        Its contact.
+
+    Returns
+    -------
+    tuple
+        Law, limits and the horizon in cycles of constant coefficient.
+    """
     warp = running_in(case.wear, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
     criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
@@ -146,7 +161,7 @@ def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> Grid
         Of the three runs.
     """
     contact = wrap_contact(case, drive)
-    run_on = partial(_on_grid, *_problem(case, contact), life_tolerance)
+    run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
     return grid_study(contact.thinned(), run_on)
 
 
@@ -186,7 +201,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
     per_loop = math.fsum(
         block.share
         * elongation_per_loop(
-            joint.coefficient,
+            block.joint_factor * joint.coefficient,
             (
                 (block.tension + block.centrifugal) / joint.bearing_area,
                 (drive.slack + block.centrifugal) / joint.bearing_area,
@@ -236,22 +251,30 @@ def _run(
 ) -> tuple[DwellingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
-    thin = contact.thinned()
-    levels = ((thin, 1), (thin, 0), (thin.coarsened(), 0))
-    fine, coarse, sparse = run_together(levels, law, criteria, horizon, progress=progress)
-    run, error = halve_steps(
-        thin, law, criteria, horizon, tolerance / amplification, (coarse, fine), progress=progress
+    run, error = advance_dwelling(
+        contact.thinned(), law, criteria, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
-        check = run
-        run = _per_cycle(case, contact, law, criteria, horizon, float(check.cycles[-1]), progress)
+        check, end = run, float(run.cycles[-1])
+        until = horizon if check.met else end
+        run = _per_cycle(case, contact, law, criteria, until, end, progress)
         error += difference(run, check)
-    error = amplification * (error + difference(coarse, sparse))
+    error *= amplification
     if error > tolerance:
         warnings.append(
-            f"numerical error {error:.1g} exceeds the tolerance {tolerance:g}: use more nodes or phases"
+            f"{exceeds(error, tolerance)}: use more nodes or phases, or a larger run.life_tolerance"
         )
     return run, error
+
+
+def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
+    """Warn of a run that ended neither at a limit nor at its horizon."""
+    if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
+        return []
+    return [
+        f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
+        "the sprocket outlives them, its own limit was not reached"
+    ]
 
 
 def _per_cycle(

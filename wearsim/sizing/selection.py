@@ -1,5 +1,6 @@
 """Is a chain drive inside its rating: one finding for each rule of the handbooks."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from wearsim.errors import CaseError, Fault
@@ -30,6 +31,9 @@ RULES = (
     "safety against breaking",
 )
 """Names of the findings in the order of `assess`."""
+
+_CAPACITY = RULES[:4]
+"""Those of them that say how much load a chain carries."""
 
 LEAST_SAFETY = 7.0
 """Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
@@ -142,9 +146,49 @@ class Finding:
         return self.limit / self.value if self.at_least else self.value / self.limit
 
     @property
+    def margin(self) -> float:
+        """What is left to the limit in `unit`, below 0 outside."""
+        return self.value - self.limit if self.at_least else self.limit - self.value
+
+    @property
     def ok(self) -> bool:
         """Whether the value keeps to the limit."""
         return self.value >= self.limit if self.at_least else self.value <= self.limit
+
+
+def overloading(ratings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """Return the ratings that a drive is overloaded by.
+
+    Those outside but for the recommended speed, above which a drive may run, and the elongation,
+    which is a limit of its own. Where a rating of the load applies as it stands, those that are
+    only indicative overload no drive by themselves.
+
+    Parameters
+    ----------
+    ratings : sequence of Finding
+        All of a drive.
+
+    Returns
+    -------
+    tuple of Finding
+        Empty where it is not overloaded.
+
+    Examples
+    --------
+    >>> plates = Finding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
+    >>> pressure = Finding("joint pressure", 26.0, 22.5, "MPa", "GOST practice", "indicative")
+    >>> overloading([plates, pressure])
+    ()
+    >>> [finding.name for finding in overloading([pressure])]
+    ['joint pressure']
+    """
+    outside = tuple(
+        finding
+        for finding in ratings
+        if not finding.ok and finding.name in RULES and finding.name != "recommended speed"
+    )
+    judged = any(finding.name in _CAPACITY and not finding.note for finding in ratings)
+    return () if judged and all(finding.note for finding in outside) else outside
 
 
 def elongation_limit(teeth: int, adjustable: bool = True) -> float:

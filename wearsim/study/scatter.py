@@ -22,6 +22,8 @@ PUBLISHED_SIGMA = 0.5
 as +-40 to 60 % (Podra and Andersson 1999)."""
 
 
+_JOINT = "joint.specific_wear_rate_mm2_per_N"
+
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
 
 
@@ -189,7 +191,7 @@ def coefficient_key(case: Case) -> str:
 
 def _coefficients(case: Case) -> list[str]:
     """Wear coefficients of the teeth and, on a wrap, of the joints."""
-    joints = ["joint.specific_wear_rate_mm2_per_N"] if isinstance(case.drive, WrapDrive) else []
+    joints = [_JOINT] if isinstance(case.drive, WrapDrive) else []
     return [coefficient_key(case), *joints]
 
 
@@ -228,8 +230,8 @@ def plain_document(document: Document, case: Case) -> Document:
     Returns
     -------
     Document
-        Without [uncertainty], the wear coefficient by its own key, files by their whole paths,
-        the horizon that of the case.
+        Without [uncertainty], the wear coefficients by their own keys, files by their whole
+        paths, the horizon that of the case.
     """
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
     if "condition" in data["wear"]:
@@ -237,6 +239,8 @@ def plain_document(document: Document, case: Case) -> Document:
         data = replaced(
             {**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient
         )
+        if isinstance(case.drive, WrapDrive):
+            data = replaced(data, _JOINT.split("."), case.drive.joint.coefficient)
     for table, key in FILE_KEYS:
         if key in data.get(table, {}):
             path = (document.folder / data[table][key]).resolve()

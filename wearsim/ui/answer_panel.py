@@ -5,7 +5,16 @@ from collections.abc import Sequence
 from nicegui import ui
 
 from wearsim.errors import Fault
-from wearsim.report.answer import BAND, LIMITS, ending, findings, hours, told_apart
+from wearsim.report.answer import (
+    BAND,
+    LIMITS,
+    OVERLOADED,
+    ending,
+    findings,
+    hours,
+    overload_text,
+    told_apart,
+)
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
 from wearsim.result import Life, WearResult
@@ -142,6 +151,8 @@ class AnswerPanel:
             ui.label(result.title).classes("ws-title").props("role=heading aria-level=2")
             ui.label(hours(result.life)).classes("ws-hours")
             ui.label(ending(result) + ("" if reached else " (limit not reached)"))
+            if result.overloaded:
+                ui.label(f"{OVERLOADED} {overload_text(result)}").classes("ws-overloaded")
             with ui.element("dl").classes("ws-band"):
                 for what, life in (
                     ("at the high end of the wear coefficient", result.life_low),
@@ -164,7 +175,7 @@ class AnswerPanel:
             _head("Findings")
             with ui.element("dl").classes("ws-findings"):
                 for label, text in findings(result):
-                    if label not in (BAND, LIMITS):
+                    if label not in (BAND, LIMITS, OVERLOADED):
                         _text("dt", label)
                         _text("dd", text)
             _head("Assumptions")

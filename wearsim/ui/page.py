@@ -10,7 +10,7 @@ from nicegui import background_tasks, ui
 from wearsim.case.document import CaseText
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
-from wearsim.report.answer import hours
+from wearsim.report.answer import headline
 from wearsim.report.html.drive_view import tooth_load_chart
 from wearsim.result import WearResult
 from wearsim.ui.answer_panel import AnswerPanel
@@ -173,7 +173,7 @@ class CasePage:
         result = await self._step(version, lambda: life(case, is_stale, told))
         self._result = (version, case, result)
         self._show_sound(case)
-        self._header.show_life(hours(result.life))
+        self._header.show_life(headline(result))
         self._header.show_state("drawing", "of the present input, drawing")
         self._answer.show_life(result)
         if not is_slow(case):
@@ -189,7 +189,7 @@ class CasePage:
         self._answer.show_loads(loads)
         rough = await self._step(version, lambda: estimate(source, case, is_stale))
         if rough is not None:
-            self._header.show_life(f"about {hours(rough.life)}")
+            self._header.show_life(f"about {headline(rough)}")
             self._header.show_state("estimate", "first estimate, computing")
 
     def _show_sound(self, case: Case) -> None:

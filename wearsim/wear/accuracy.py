@@ -1,7 +1,7 @@
 """How wrong a life may be numerically: by its steps and by its grid."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -9,49 +9,70 @@ import numpy as np
 
 from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
-from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector
-from wearsim.wear.trajectory import Trajectory, depth_at, difference
+from wearsim.wear.trajectory import Trajectory, depth_at
 
 AnyContact = TypeVar("AnyContact", Contact, Dwelling)
 
+SAFETY = 1.25
+"""On the error of a grid: with it the stated error holds for 99 of 100 random drives."""
 
-def grid_error(run: Trajectory, contact: Contact, run_on: Callable[[Contact], Trajectory]) -> float:
-    """Return how wrong a life may be by its grid.
 
-    It is how much the life moves when every second point of the flank is left out, or half of
-    how much it moves when that is done again, if that is more: kinks of the load make lives
-    converge by leaps, and one small move may be an accident. What the deepest of all points
-    misses of the depth between the points comes on top.
+def grid_error(spacing: float, others: Iterable[tuple[float, float]]) -> float:
+    """Return how wrong a life is by its grid at most, as lives on other grids tell it.
+
+    Where an error grows in proportion to the spacing h at the ends of the flank, a life that
+    moves by d on a grid of spacing h' is wrong by d h / |h' - h|. Kinks of the load make lives
+    converge by leaps, and errors of both ends may cancel by accident on one grid: so what all
+    the grids tell is added up.
+
+    Equation physics.md (A5).
 
     Parameters
     ----------
-    run : Trajectory
-        The run on all points.
-    contact : Contact
-        The flank and its contact.
-    run_on : callable
-        Makes the same run on another grid.
+    spacing : float
+        Of the points at the ends [mm].
+    others : iterable of tuple of float
+        That of other grids [mm], and the relative difference of the life there.
 
     Returns
     -------
     float
-        Relative error, an estimate.
+        Relative error, held in tests on random cases.
 
-    Raises
-    ------
-    WearsimError
-        There is no life on half the points. Where there is none on a quarter of them, twice
-        the first move stands for both.
+    Examples
+    --------
+    Every second point moves the life by 1 %, every fourth by 3 %:
+
+    >>> round(grid_error(0.1, [(0.2, 0.01), (0.4, 0.03)]) / SAFETY, 6)
+    0.02
     """
-    half = contact.coarsened()
-    middle = run_on(half)
-    near = difference(run, middle)
-    try:
-        far = difference(middle, run_on(half.coarsened()))
-    except WearsimError:
-        far = 4.0 * near
-    return max(near, 0.5 * far) + depth_missed(run.x[-1], run.y[-1], run.depth[-1])
+    told = (change * spacing / abs(other - spacing) for other, change in others)
+    return SAFETY * math.fsum(told)
+
+
+def exceeds(error: float, tolerance: float) -> str:
+    """Return in words that an error is larger than its tolerance, with digits enough to see it.
+
+    Parameters
+    ----------
+    error, tolerance : float
+        Relative, the error the larger.
+
+    Returns
+    -------
+    str
+        Both numbers.
+
+    Examples
+    --------
+    >>> exceeds(0.0312, 0.01)
+    'numerical error 0.031 exceeds the tolerance 0.01'
+    >>> exceeds(0.01004, 0.01)
+    'numerical error 0.01004 exceeds the tolerance 0.01'
+    """
+    digits = next(d for d in range(2, 18) if float(f"{error:.{d}g}") > tolerance)
+    return f"numerical error {error:.{digits}g} exceeds the tolerance {tolerance:g}"
 
 
 def depth_missed(x: Vector, y: Vector, depth: Vector) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.dwelling import ChainWear, Dwelling
-from wearsim.errors import ConvergenceError, JumpError
+from wearsim.errors import JumpError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
 from wearsim.wear.bodies import Bodies, Start, State
@@ -39,7 +39,7 @@ Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
 _MOST_STEPS = 10_000
-"""Steps of one run at level 0; a sprocket of some chains takes some hundreds."""
+"""Steps of one run at level 0, those of about 60 chains; a run of more ends there, at no limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,12 +142,11 @@ class _Pace:
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
         return cycles
 
+    def is_spent(self, bodies: Bodies) -> bool:
+        """Whether the run has taken all of its steps."""
+        return not self.given and bodies.updates >= _MOST_STEPS * self.refined
+
     def _by_depth(self, bodies: Bodies, law: Law) -> float:
-        if bodies.updates > _MOST_STEPS * self.refined:
-            raise ConvergenceError(
-                f"wear at cycle {bodies.cycles:.6g}: the run must end within {_MOST_STEPS} steps, but "
-                f"is at chain {bodies.chain} and {bodies.depth.max():.3g} mm: lower run.horizon_hours"
-            )
         cycles = self.depth / (self.rate or _first_rate(bodies, law))
         longest = _LONGEST_STEP * self.limit / self.refined
         self.depth = min(self.depth * _GROWTH ** (1.0 / self.refined), longest)
@@ -220,7 +219,8 @@ def run_dwelling(
 ) -> DwellingTrajectory:
     """Wear outlines and chain until a criterion is met or the horizon is reached.
 
-    At its elongation limit the chain is replaced by a new one.
+    At its elongation limit the chain is replaced by a new one. A run by depth that takes too
+    many steps, those of about 60 chains, ends before its horizon.
 
     Parameters
     ----------
@@ -258,7 +258,12 @@ def run_dwelling(
     pace = _Pace(criteria[0].limit, level, cycles_per_step)
     record.add(bodies)
     met, end = None, horizon * (1.0 - 1e-12)
-    while met is None and bodies.cycles < end and watch(_done(criteria, bodies, horizon)):
+    while (
+        met is None
+        and bodies.cycles < end
+        and not pace.is_spent(bodies)
+        and watch(_done(criteria, bodies, horizon))
+    ):
         before = bodies.state()
         cycles = min(pace.cycles(bodies, law), horizon - bodies.cycles)
         try:
@@ -274,7 +279,8 @@ def run_dwelling(
             bodies.replace_chain()
             pace.restart()
         else:
-            record.add(bodies, last=met is not None or not bodies.cycles < end)
+            record.add(bodies, last=met is not None)
+    record.add(bodies, last=True)
     return record.trajectory(bodies, met)
 
 

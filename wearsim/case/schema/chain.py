@@ -1,6 +1,8 @@
 """The table [chain]."""
 
-from pydantic import field_validator
+from typing import Annotated
+
+from pydantic import Field, field_validator
 
 from wearsim.case.schema.table import Table
 from wearsim.case.units import Positive
@@ -11,7 +13,8 @@ class ChainTable(Table):
     """A chain of the catalogue by its designation, or one of one's own by its dimensions."""
 
     designation: str | None = None
-    pitch_mm: Positive | None = None
+    pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
+    """From below the finest chains to far beyond the largest; what is outside is a slip of units."""
     roller_diameter_mm: Positive | None = None
     inner_width_mm: Positive | None = None
     pin_diameter_mm: Positive | None = None

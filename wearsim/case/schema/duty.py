@@ -1,12 +1,12 @@
 """A table of [[duty]]."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from wearsim.case.schema.load import LOAD_KEYS
 from wearsim.case.schema.table import Table
-from wearsim.case.units import Positive, PositiveNumber
+from wearsim.case.units import Positive, PositiveNumber, Speed
 
 Share = Annotated[PositiveNumber, Field(le=1.0)]
 
@@ -19,8 +19,9 @@ class DutyBlock(Table):
     tension_N: Positive | None = None
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
-    speed_rpm: Positive
+    speed_rpm: Speed
     wear_factor: PositiveNumber = 1.0
+    applies_to: Literal["all", "teeth", "joints"] = "all"
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

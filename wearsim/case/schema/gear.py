@@ -14,7 +14,7 @@ from wearsim.case.schema.synthesis import stress_conflicts
 from wearsim.case.schema.table import Table
 from wearsim.case.schema.uncertainty import Uncertainty
 from wearsim.case.schema.wear import WearTable
-from wearsim.case.units import Number, Positive, PositiveNumber, Series, Signed
+from wearsim.case.units import Number, Positive, PositiveNumber, Series, Signed, Speed
 
 Teeth = Annotated[int, Field(ge=5, le=1000)]
 
@@ -121,7 +121,7 @@ class GearLoadTable(Table):
     """Torque and speed of the pinion."""
 
     torque_N_m: Positive
-    speed_rpm: Positive
+    speed_rpm: Speed
 
 
 class GearWearTable(WearTable):

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, WithJsonSchema
 
 from wearsim.case.schema.table import Table
-from wearsim.case.units import Positive
+from wearsim.case.units import Positive, Speed
 
 LOAD_KEYS = ("tension_N", "power_kW", "torque_N_m")
 """Keys of which exactly one gives a load."""
@@ -45,7 +45,7 @@ class LoadTable(Table):
     tension_N: Positive | None = None
     power_kW: Positive | None = None
     torque_N_m: Positive | None = None
-    speed_rpm: Positive | None = None
+    speed_rpm: Speed | None = None
     regime: Regime | None = None
     duty_file: str | None = None
     duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None

@@ -14,6 +14,7 @@ class MechanismTable(Table):
     kind: Literal["strand", "prescribed", "wrap"] | None = None
     table_file: str | None = None
     phases: Annotated[int, Field(ge=1, le=720)] | None = None
-    roller_slip_fraction: Annotated[PositiveNumber, Field(le=1.0)] | None = None
+    roller_slip_fraction: Annotated[PositiveNumber, Field(ge=1e-6, le=1.0)] | None = None
+    """Below the least what slides is lost in the rounding of the flank's points."""
     friction_roller_tooth: Annotated[NotNegative, Field(le=1.0)] | None = None
     friction_roller_bush: Annotated[NotNegative, Field(le=1.0)] | None = None

@@ -14,7 +14,8 @@ class RunTable(Table):
     method: Literal["advance", "per_cycle"] = "advance"
     cycles_per_update: Annotated[int, Field(ge=1)] | None = None
     life_tolerance: Annotated[PositiveNumber, Field(ge=1e-6, le=0.1)] | None = None
-    horizon_hours: Positive = 50000.0
+    horizon_hours: Annotated[Positive, Field(ge=1e-6)] = 1e6
+    """At least some milliseconds, in which no tooth wears."""
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

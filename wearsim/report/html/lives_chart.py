@@ -22,7 +22,7 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     Returns
     -------
     Chart
-        On a logarithmic axis; an arrow is a life that was not reached.
+        On a logarithmic axis; an open arrow with its bound is a life that was not reached.
     """
     figure = panels(1)
     for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
@@ -34,10 +34,12 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
             "type": "scatter",
             "x": [rounded(life)],
             "y": [html.escape(label, quote=False)],
-            "mode": "markers",
+            "mode": "markers" if reached else "markers+text",
+            "text": ["" if reached else html.escape(hours(result.life))],
+            "textposition": "top right",
             "name": html.escape(label, quote=False),
             "showlegend": False,
-            "marker": {"size": 12, "symbol": "circle" if reached else "triangle-right"},
+            "marker": {"size": 12, "symbol": "circle" if reached else "triangle-right-open"},
             "error_x": {
                 "array": [rounded(max(high - life, 0.0))],
                 "arrayminus": [rounded(max(life - low, 0.0))],
@@ -56,8 +58,8 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     return Chart(
         name="lives",
         title="lives and their bands",
-        alt="A dot for the life of each drive with the band of its wear coefficient; an arrow where no "
-        "limit was reached. The table above holds the values.",
+        alt="A dot for the life of each drive with the band of its wear coefficient; an open arrow where "
+        "no limit was reached. The table above holds the values.",
         figure=figure,
         values=Values((), ()),
     )

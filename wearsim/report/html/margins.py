@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, StrandDrive, WrapDrive
-from wearsim.report.answer import grouped, limit_name
+from wearsim.report.answer import JUMPING, grouped, limit_name, limit_state, slack_needed
 from wearsim.result import WearResult
 
 
@@ -16,7 +16,7 @@ class Margin:
     Attributes
     ----------
     name, unit : str
-        The limit in words and its unit.
+        The limit in words, of jumping with its margin, and its unit.
     limit, value, left : str
         Its value, what the quantity has come to, and how far that is from the limit.
     used : float
@@ -52,6 +52,10 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
     found = []
     for state in result.limits:
         name, unit = limit_name(state.name)
+        value = grouped(state.value, 3)
+        if state.name == JUMPING:
+            name, _, _ = limit_state(state, result.inputs).partition(" (")
+            value = slack_needed(state.value, state.limit)
         start = _when_new(state.name, case)
         way = state.limit - start
         used = (state.value - start) / way if way else 1.0
@@ -60,7 +64,7 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
                 name=name,
                 unit=unit,
                 limit=grouped(state.limit, 3),
-                value=grouped(state.value, 3),
+                value=value,
                 left=grouped(state.left, 3),
                 used=float(np.clip(used, 0.0, 1.0)),
                 ended=state.name == result.stop,

@@ -6,7 +6,17 @@ from dataclasses import dataclass
 import wearsim
 from wearsim.case.model import Case
 from wearsim.citation import apa
-from wearsim.report.answer import BAND, LIMITS, ending, findings, grouped, hours, told_apart
+from wearsim.report.answer import (
+    BAND,
+    LIMITS,
+    OVERLOADED,
+    ending,
+    findings,
+    grouped,
+    hours,
+    overload_text,
+    told_apart,
+)
 from wearsim.report.compare import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
@@ -19,6 +29,7 @@ from wearsim.report.html.picture import picture
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
+from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.result import Life, WearResult
 
 
@@ -34,6 +45,8 @@ class DrivePage:
         Whether the page is the short one.
     life, ending : str
         The answer, and what ended it.
+    overloaded : str
+        By how much the drive is outside the ratings of its load; empty where it is not.
     reached : bool
         Whether it is a life and not a bound.
     low, high, band : str
@@ -44,6 +57,8 @@ class DrivePage:
         The rest of the answer.
     margins : list of Margin
         Of every stop criterion.
+    rating_head, ratings : list of str and list of list of str
+        The table of what the handbooks allow; without rows where they say nothing.
     tooth : list of Chart
         The flank before and after.
     charts : list of Chart
@@ -71,6 +86,7 @@ class DrivePage:
     brief: bool
     life: str
     ending: str
+    overloaded: str
     reached: bool
     low: str
     high: str
@@ -78,6 +94,8 @@ class DrivePage:
     percentiles: list[tuple[str, str]]
     findings: list[tuple[str, str]]
     margins: list[Margin]
+    rating_head: list[str]
+    ratings: list[list[str]]
     tooth: list[Chart]
     charts: list[Chart]
     sketch: Sketch | None
@@ -134,7 +152,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
     name : str
         Stem of the file.
     brief : bool
-        Leave out everything but answer, tooth, margins, assumptions and warnings.
+        Leave out everything but answer, tooth, margins, ratings, assumptions and warnings.
 
     Returns
     -------
@@ -152,13 +170,18 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         brief=brief,
         life=hours(result.life),
         ending=ending(result),
+        overloaded=overload_text(result),
         reached=isinstance(result.life, Life),
         low=hours(result.life_low),
         high=hours(result.life_high),
         band=result.band,
         percentiles=_percentiles(result, case),
-        findings=[found for found in findings(result) if found[0] not in (BAND, LIMITS)],
+        findings=[
+            found for found in findings(result) if found[0] not in (BAND, LIMITS, OVERLOADED)
+        ],
         margins=margins(result, case),
+        rating_head=RATING_HEAD,
+        ratings=rating_cells(result.ratings),
         tooth=tooth,
         charts=charts,
         sketch=None if brief else drive_sketch(case),

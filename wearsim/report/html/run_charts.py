@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wearsim.report.answer import grouped, hours
-from wearsim.report.flank_view import snapshot
+from wearsim.report.flank_view import at_life, snapshot
 from wearsim.report.html.charts import (
     Chart,
     Trace,
@@ -35,7 +35,7 @@ _ALONG = (
 
 
 def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
-    """Return depth, pressure and sliding along the flanks, at the end and new.
+    """Return depth, pressure and sliding along the flanks, at the end of the life and new.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         figure.set_axis("y", f"{what}, {unit}", row, rangemode="tozero")
     start = " or ".join(dict.fromkeys(_start(result) for result in results))
     figure.set_axis("x", "arc length, mm", len(shown))
-    more = "; solid at the end of the run, dashed when new" if len(shown) > 1 else ""
+    more = "; solid at the end of the life, dashed when new" if len(shown) > 1 else ""
     return Chart(
         name="along",
         title=f"{', '.join(what for _, what, _ in shown)} along the flank, {start}",
@@ -77,7 +77,7 @@ def _along(
     result: WearResult, column: str, unit: str, label: str, what: str, role: str
 ) -> list[Trace]:
     """One quantity at the end, and when new or of the wheel; the depth has the legend."""
-    first, last = snapshot(result, 0), snapshot(result, -1)
+    first, last = snapshot(result, 0), at_life(result)
     if column not in last:
         return []
     place, gears = last["arc_length_mm"], "wheel_depth_mm" in last
@@ -104,7 +104,7 @@ def _start(result: WearResult) -> str:
 
 
 def _along_values(result: WearResult) -> Values:
-    last = snapshot(result, -1)
+    last = at_life(result)
     columns = [("arc length, mm", last["arc_length_mm"])]
     columns += [(f"{what}, {unit}", last[name]) for name, what, unit in _ALONG if name in last]
     if "wheel_depth_mm" in last:
@@ -177,7 +177,7 @@ def _life_mark(result: WearResult, label: str, role: str) -> Trace:
         "x": [rounded(end)],
         "y": [rounded(depth)],
         "mode": "markers",
-        "marker": {"symbol": "circle" if reached else "triangle-right", "size": 10},
+        "marker": {"symbol": "circle" if reached else "triangle-right-open", "size": 10},
         "name": "life" if reached else "run ends",
         "legendgroup": label,
         "showlegend": False,

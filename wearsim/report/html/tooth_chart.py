@@ -6,9 +6,9 @@ import numpy as np
 
 from wearsim.geometry.profile import Vector
 from wearsim.report.answer import grouped
-from wearsim.report.flank_view import outline, run_time
+from wearsim.report.flank_view import life_time, outline
 from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
-from wearsim.report.worn_flank import WornFlank, mate, worn_flanks
+from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
 from wearsim.result import WearResult
 
 _AROUND = 0.22
@@ -16,7 +16,7 @@ _AROUND = 0.22
 
 
 def tooth_charts(result: WearResult) -> list[Chart]:
-    """Return the worn flank, of gears those of both wheels.
+    """Return the flank worn to the end of the life, of gears those of both wheels.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     list of Chart
         One or two, each with its slider, whose points the script of the page fills in.
     """
-    flanks = worn_flanks(result)
+    flanks = flanks_of_life(result)
     around = [*_body(result), _mate(result, flanks[0])]
     return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
 
@@ -43,7 +43,7 @@ def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
     figure.set_axis("y", "y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x")
     return Chart(
         name=name,
-        title=f"{'flank' if name == 'tooth' else name} before and after {run_time(result)}",
+        title=f"{'flank' if name == 'tooth' else name} before and after {life_time(result)}",
         alt=f"The {name} new and worn; the depth, {greatest:.3g} mm at most, is enlarged by the factor of "
         "the slider.",
         figure=figure,

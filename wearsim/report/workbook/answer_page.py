@@ -4,16 +4,26 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import governing_text, hours, limit_name
+from wearsim.report.answer import (
+    JUMPING,
+    governing_text,
+    hours,
+    limit_name,
+    limit_state,
+    overload_text,
+)
 from wearsim.report.compare import comparison_table, differing_limits
+from wearsim.report.rating import rule
 from wearsim.report.service import life_json
 from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
 from wearsim.result import Life, WearResult
 
-_NOT_SHOWN = ("schema_version", "title", "limits", "assumptions", "warnings")
+_NOT_SHOWN = (
+    "schema_version", "title", "limits", "overloaded", "ratings", "assumptions", "warnings",
+)  # fmt: skip
 _LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
 _FIRST_VALUE = 2
-_BOLD = ("life", "life_hours")
+_BOLD = ("life", "overloaded", "life_hours")
 _AT_LEAST = "_at_least"
 _MEANINGS = {
     "life": "the life in words; > where no limit was met within the running time",
@@ -69,6 +79,7 @@ def write_answer_page(
     page.freeze(1, _FIRST_VALUE)
     row = _write_rows(page, 1, _answers(results))
     row = _write_limits(page, row, results)
+    row = _write_ratings(page, row, results)
     row = _write_texts(page, row, "warnings", _warnings(results, labels), meaning)
     assumptions = _pairs(labels, [result.assumptions for result in results])
     _write_texts(page, row, "assumptions", assumptions, meaning)
@@ -81,6 +92,8 @@ def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
     rows: dict[str, list[Any]] = {"life": [_in_words(result) for result in results]}
     if any(result.fatigue for result in results):
         rows["governs"] = [governing_text(result) if result.fatigue else None for result in results]
+    if any(result.overloaded for result in results):
+        rows["overloaded"] = [overload_text(result) for result in results]
     for name in dict.fromkeys(name for answer in answers for name in answer):
         values = [answer.get(name) for answer in answers]
         if not name.endswith(_AT_LEAST) or any(value is not None for value in values):
@@ -154,6 +167,37 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
         _write_row(page, row + 1, name, unit, limits, f"limit: {_meaning(name)}")
         _write_row(page, row + 2, f"{name}, value", unit, values, come)
         _write_row(page, row + 3, f"{name}, margin", unit, margins, left)
+        row += 3
+        if name == JUMPING:
+            told = [
+                limit_state(state, result.inputs) if state else None
+                for state, result in zip(chosen, results, strict=True)
+            ]
+            _write_row(
+                page, row + 1, "  in words", "", told, "how sure it is that it does not jump"
+            )
+            row += 1
+    return row + 1
+
+
+def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
+    """Write what each rule of the handbooks allows, what the drive has, and the margin between both."""
+    found = [{finding.name: finding for finding in result.ratings} for result in results]
+    names = dict.fromkeys(name for ratings in found for name in ratings)
+    if not names:
+        return row
+    _write_section(page, row, "ratings of the drive", _FIRST_VALUE + len(results))
+    for name in names:
+        chosen = [ratings.get(name) for ratings in found]
+        first = next(finding for finding in chosen if finding)
+        rules = dict.fromkeys(rule(finding) for finding in chosen if finding)
+        values = [finding.value if finding else None for finding in chosen]
+        limits = [finding.limit if finding else None for finding in chosen]
+        margins = [finding.margin if finding else None for finding in chosen]
+        side = "least" if first.at_least else "most"
+        _write_row(page, row + 1, name, first.unit, values, "; ".join(rules))
+        _write_row(page, row + 2, f"  allowed at {side}", first.unit, limits, "")
+        _write_row(page, row + 3, "  margin", first.unit, margins, "below 0 outside the rating")
         row += 3
     return row + 1
 

@@ -1,0 +1,35 @@
+"""The answer of ``wearsim ui`` on an overloaded drive, as the page holds it."""
+
+import pytest
+
+pytest.importorskip("nicegui", reason="nicegui is not installed")
+
+from nicegui import Client, ui
+from nicegui.page import page
+
+import wearsim
+from wearsim.ui.answer_panel import AnswerPanel
+
+WRAP = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 40"},
+    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 101},
+    "mechanism": {"phases": 1},
+    "wear": {"condition": "hardened, oiled"},
+    "run": {"horizon_hours": 20, "life_tolerance": 0.1},
+}
+
+
+@pytest.mark.parametrize(("power", "words"), [(7, "Overloaded: plate fatigue 152 %, "), (4, None)])
+def test_overload_stands_below_the_hours(power, words):
+    """The rating of no. 40 with 19 teeth at 1000 rpm is 4.60 kW."""
+    load = {"power_kW": power, "speed_rpm": 1000}
+    result = wearsim.simulate(wearsim.load_case({**WRAP, "load": load}))
+    with Client(page("/answer")) as client:
+        AnswerPanel({}).show_life(result)
+        texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
+    told = [text for text in texts if "verloaded" in text]
+    assert len(told) == (words is not None)
+    if words is not None:
+        assert told[0].startswith(words)
+        assert texts.index("> 20 h") < texts.index(told[0]) < texts.index("as given")

@@ -1,0 +1,133 @@
+"""On which points a life is found: those of the case, and better ones where its error is too large."""
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import Generic, Protocol, Self, TypeVar
+
+from wearsim.contact.engagement import Contact, Mechanism
+from wearsim.wear.accuracy import exceeds, grid_error
+
+LEVELS = 2
+"""Times that a flank is refined at most."""
+
+
+class Run(Protocol):
+    """What came of a flank on one grid."""
+
+    @property
+    def spacing(self) -> float:
+        """Of its points at the ends [mm]."""
+
+    @property
+    def own_error(self) -> float:
+        """Relative error by its steps and by what lies between its points."""
+
+    def change(self, other: Self) -> float:
+        """Return the relative difference to the life, or to the depth at the horizon, of another."""
+
+
+AnyRun = TypeVar("AnyRun", bound=Run)
+
+
+@dataclass(frozen=True, eq=False)
+class Settled(Generic[AnyRun]):
+    """A life on the points that tell it best.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With the new flank on these points.
+    run : Run
+        What came of it.
+    error : float
+        Relative error by steps and grid; 1 where no other grid has a life to compare with.
+    points, first_error : int and float
+        Of the flank as the case gives it.
+    """
+
+    mechanism: Mechanism
+    run: AnyRun
+    error: float
+    points: int
+    first_error: float
+
+    @property
+    def refined_to(self) -> int:
+        """Points that were taken in place of those of the case, 0 where these were good enough."""
+        taken = self.mechanism.contact.profile.x.size
+        return taken if self.error != self.first_error else 0
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Return what was done for the tolerance; nothing where the points were good enough."""
+        if not self.refined_to:
+            return ()
+        return (
+            f"points of the flank: {self.refined_to}, chosen for the tolerance; on the {self.points} of "
+            f"the case the numerical error would be {self.first_error:.1g}",
+        )
+
+    def warnings(self, tolerance: float) -> list[str]:
+        """Return that the error exceeds a tolerance, if it does, and what to do."""
+        if self.error >= 1.0:
+            return ["the error of the grid could not be estimated on other points, 100 % is stated"]
+        if self.error <= tolerance:
+            return []
+        cure = "use more nodes (rows of a table)"
+        if self.refined_to:
+            cure = (
+                f"on {self.refined_to} points too: use more nodes, or a larger run.life_tolerance"
+            )
+        return [f"{exceeds(self.error, tolerance)}: {cure}"]
+
+
+Search = Generator[list[Contact], list[AnyRun | None], Settled[AnyRun]]
+"""Yields flanks to wear, is sent what came of them, and returns the life."""
+
+
+def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun]:
+    """Find on which points a life is within its tolerance.
+
+    A generator, so that flanks may be worn one by one or in batches: it yields those to wear
+    next, and is sent what came of them.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With the flank as the case gives it.
+    tolerance : float
+        Relative, of the life.
+    levels : int
+        Times that the flank may be refined.
+
+    Yields
+    ------
+    list of Contact
+        Flanks to wear; of the first ones the first must come to an end.
+
+    Returns
+    -------
+    Settled
+        The run of least error.
+    """
+    run, *more = yield [mechanism.contact, *mechanism.other_grids()]
+    assert run is not None
+    others = [other for other in more if other is not None]
+    error = _error(run, others) * (1.0 if len(others) == len(more) else 2.0)
+    error = min(1.0, run.own_error + error) if others else 1.0
+    best = Settled(mechanism, run, error, mechanism.contact.profile.x.size, error)
+    for level in range(1, levels + 1):
+        finer = mechanism.refined(level)
+        if best.error <= tolerance or not others or finer is None:
+            break
+        others.append(run)
+        [run] = yield [finer.contact]
+        if run is None:
+            break
+        error = run.own_error + _error(run, others)
+        if error < best.error:
+            best = Settled(finer, run, error, best.points, best.first_error)
+    return best
+
+
+def _error(run: AnyRun, others: list[AnyRun]) -> float:
+    return grid_error(run.spacing, ((other.spacing, run.change(other)) for other in others))
