@@ -1,0 +1,122 @@
+"""On which points a life is found: the search that single cases and batches share."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+
+from wearsim.simulation.grids import Search, Settled, settle
+from wearsim.wear.accuracy import SAFETY
+
+
+@dataclass(frozen=True)
+class Points:
+    """Stands for a flank: its name and the spacing at its ends."""
+
+    name: str
+    spacing: float
+
+    @property
+    def profile(self) -> Any:
+        return self
+
+    @property
+    def x(self) -> Any:
+        class Counted:
+            size = round(10.0 / self.spacing)
+
+        return Counted
+
+
+@dataclass(frozen=True)
+class Flank:
+    """Stands for a mechanism with two other grids and two refinements."""
+
+    contact: Points = Points("own", 1.0)
+    levels: int = 2
+
+    def other_grids(self) -> tuple[Points, ...]:
+        return Points("half", 2.0), Points("crowded", 0.2)
+
+    def refined(self, level: int) -> "Flank | None":
+        return Flank(Points(f"level {level}", 0.2 / 2**level)) if level <= self.levels else None
+
+
+@dataclass(frozen=True)
+class Run:
+    spacing: float
+    life: float
+    own_error: float = 0.0
+
+    def change(self, other: "Run") -> float:
+        return abs(other.life / self.life - 1.0)
+
+
+def settled(
+    lives: dict[str, float], tolerance: float, levels: int = 2, flank: Flank | None = None
+) -> tuple[Settled[Run], list[str]]:
+    """Serve a search with lives by the name of the flank; one that is left out has none."""
+    search: Search[Run] = settle(flank or Flank(), tolerance, levels)  # type: ignore[arg-type]
+    asked: list[str] = []
+    contacts: Any = next(search)
+    while True:
+        asked += [contact.name for contact in contacts]
+        runs = [
+            Run(contact.spacing, lives[contact.name]) if contact.name in lives else None
+            for contact in contacts
+        ]
+        try:
+            contacts = search.send(runs)
+        except StopIteration as end:
+            return end.value, asked
+
+
+LIVES = {"own": 1.02, "half": 1.04, "crowded": 1.004, "level 1": 1.002, "level 2": 1.001}
+"""Lives of 1 + 0.02 h."""
+
+
+def test_points_that_are_good_enough_stay() -> None:
+    found, asked = settled(LIVES, 0.06)
+    assert asked == ["own", "half", "crowded"]
+    assert found.error == pytest.approx(SAFETY * 2 * 0.02 / 1.02, rel=1e-9)
+    assert found.assumptions() == () and found.warnings(0.06) == []
+
+
+def test_flank_is_refined_until_the_tolerance_holds() -> None:
+    found, asked = settled(LIVES, 0.02)
+    assert asked == ["own", "half", "crowded", "level 1"]
+    assert found.run.life == 1.002 and 0.002 < found.error <= 0.02
+    assert "100, chosen for the tolerance; on the 10 of the case" in found.assumptions()[0]
+    assert found.warnings(0.02) == []
+
+
+def test_what_refining_does_not_reach_is_a_warning() -> None:
+    found, asked = settled(LIVES, 1e-4)
+    assert asked[-1] == "level 2" and found.run.life == 1.001
+    assert found.warnings(1e-4)[0].endswith(
+        "exceeds the tolerance 0.0001: on 200 points too: use more nodes, or a larger run.life_tolerance"
+    )
+
+
+def test_a_refined_flank_without_a_life_leaves_the_one_before() -> None:
+    lives = {name: life for name, life in LIVES.items() if name != "level 2"}
+    found, _ = settled(lives, 1e-4)
+    assert found.run.life == 1.002
+
+
+def test_the_other_grids_that_have_a_life_count_twice() -> None:
+    found, _ = settled({"own": 1.02, "half": 1.04}, 0.06)
+    assert found.error == pytest.approx(2.0 * SAFETY * 0.02 / 1.02, rel=1e-9)
+
+
+def test_without_another_life_the_error_is_unknown() -> None:
+    found, asked = settled({"own": 1.02}, 0.06)
+    assert found.error == 1.0 and asked == ["own", "half", "crowded"]
+    assert "100 % is stated" in found.warnings(0.06)[0]
+
+
+@pytest.mark.parametrize(("levels", "flank"), [(0, Flank()), (2, Flank(levels=0))])
+def test_what_may_not_be_refined_is_not(levels: int, flank: Flank) -> None:
+    found, asked = settled(LIVES, 1e-4, levels, flank)
+    assert len(asked) == 3 and found.run.life == 1.02
+    assert "use more nodes (rows of a table)" in found.warnings(1e-4)[0]
