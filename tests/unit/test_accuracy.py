@@ -1,6 +1,5 @@
 """The error of the grid: what lives on fewer points tell about those on all."""
 
-
 import numpy as np
 import pytest
 

@@ -36,7 +36,7 @@ class Flank:
     levels: int = 2
 
     def other_grids(self) -> tuple[Points, ...]:
-        return Points("half", 2.0), Points("crowded", 0.2)
+        return Points("half", 2.0), Points("fine ends", 0.2)
 
     def refined(self, level: int) -> "Flank | None":
         return Flank(Points(f"level {level}", 0.2 / 2**level)) if level <= self.levels else None
@@ -71,20 +71,20 @@ def settled(
             return end.value, asked
 
 
-LIVES = {"own": 1.02, "half": 1.04, "crowded": 1.004, "level 1": 1.002, "level 2": 1.001}
+LIVES = {"own": 1.02, "half": 1.04, "fine ends": 1.004, "level 1": 1.002, "level 2": 1.001}
 """Lives of 1 + 0.02 h."""
 
 
 def test_points_that_are_good_enough_stay() -> None:
     found, asked = settled(LIVES, 0.06)
-    assert asked == ["own", "half", "crowded"]
+    assert asked == ["own", "half", "fine ends"]
     assert found.error == pytest.approx(SAFETY * 2 * 0.02 / 1.02, rel=1e-9)
     assert found.assumptions() == () and found.warnings(0.06) == []
 
 
 def test_flank_is_refined_until_the_tolerance_holds() -> None:
     found, asked = settled(LIVES, 0.02)
-    assert asked == ["own", "half", "crowded", "level 1"]
+    assert asked == ["own", "half", "fine ends", "level 1"]
     assert found.run.life == 1.002 and 0.002 < found.error <= 0.02
     assert "100, chosen for the tolerance; on the 10 of the case" in found.assumptions()[0]
     assert found.warnings(0.02) == []
@@ -111,7 +111,7 @@ def test_the_other_grids_that_have_a_life_count_twice() -> None:
 
 def test_without_another_life_the_error_is_unknown() -> None:
     found, asked = settled({"own": 1.02}, 0.06)
-    assert found.error == 1.0 and asked == ["own", "half", "crowded"]
+    assert found.error == 1.0 and asked == ["own", "half", "fine ends"]
     assert "100 % is stated" in found.warnings(0.06)[0]
 
 

@@ -11,8 +11,9 @@ from wearsim.kernels.flank import flank_frame
 
 Vector = NDArray[np.float64]
 
-_CROWDING = 0.9
-"""Of 1, by how much points crowd at the ends of a flank; at 1 the first two would all but meet."""
+_END_PIECES, _END_PARTS = 8, 40
+"""Pieces of the first and the last interval of a flank with fine ends, and 1 over the part of the
+flank in which their number falls to 1/e."""
 
 
 def _vector(values: ArrayLike) -> Vector:
@@ -265,17 +266,17 @@ class Profile:
             new = new.recede(-new.area_from(self) / arc[-1])
         return new
 
-    def crowded(self, nodes: int) -> "Profile":
-        """Return the same flank on points that crowd at both ends.
+    def with_fine_ends(self, intervals: int) -> "Profile":
+        """Return the same flank on even intervals, of which those near both ends are divided.
 
-        Counted from 0 to 1, the points lie at u - 0.9 sin(2 pi u) / (2 pi): ten times as close at
-        the ends as in equal steps, and about half as close in the middle. Lagrange's polynomial
-        through six neighbours carries them over.
+        The first and the last are divided into eight; over a fortieth of the flank the number
+        falls to 1/e. Lagrange's polynomial through six neighbours carries the points over; where
+        they are those of this flank they stay as they are.
 
         Parameters
         ----------
-        nodes : int
-            Number of points, at least three.
+        intervals : int
+            Even ones, at least two; this flank has one less than points.
 
         Returns
         -------
@@ -284,23 +285,25 @@ class Profile:
 
         Examples
         --------
-        >>> straight = Profile(np.linspace(0.0, 1.0, 9), np.zeros(9))
-        >>> straight.crowded(5).x.round(4).tolist()
-        [0.0, 0.1068, 0.5, 0.8932, 1.0]
+        >>> straight = Profile(np.linspace(0.0, 8.0, 9), np.zeros(9))
+        >>> straight.with_fine_ends(4).x.tolist()[:10]
+        [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 4.0]
         """
-        even, last = np.linspace(0.0, 1.0, nodes), self.x.size - 1
-        at = last * (even - _CROWDING * np.sin(2.0 * np.pi * even) / (2.0 * np.pi))
+        last, even = self.x.size - 1, np.arange(intervals)
+        from_end = np.minimum(even, intervals - 1 - even)
+        pieces = _END_PIECES * np.exp(-from_end * _END_PARTS / intervals)
+        pieces = np.maximum(1, pieces.round().astype(int))
+        part = np.concatenate([np.arange(count) / count for count in pieces])
+        at = np.append((np.repeat(even, pieces) + part) * (last / intervals), last)
         near = np.arange(min(6, last + 1))
         first = np.clip(np.floor(at).astype(int) - 2, 0, last + 1 - near.size)
         way = (at - first)[:, None]
-        weight = np.ones((nodes, near.size))
+        weight = np.ones((at.size, near.size))
         for place in near:
             others = near[near != place]
             weight[:, place] = np.prod((way - others) / (place - others), axis=1)
         points = first[:, None] + near
-        x, y = ((weight * values[points]).sum(axis=1) for values in (self.x, self.y))
-        x[[0, -1]], y[[0, -1]] = self.x[[0, -1]], self.y[[0, -1]]
-        return Profile(x, y)
+        return Profile(*((weight * values[points]).sum(axis=1) for values in (self.x, self.y)))
 
     @property
     def is_simple(self) -> bool:

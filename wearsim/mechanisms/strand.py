@@ -101,7 +101,7 @@ class StrandMechanism:
         )
 
     def other_grids(self) -> tuple[Contact, ...]:
-        """Return the flank on half as many points, crowded at its ends, and on every second.
+        """Return the flank on half as many points with fine ends, and on every second point.
 
         Where the load sets in and ends, lives converge with the first power of the spacing; in
         between with the second.
@@ -111,10 +111,10 @@ class StrandMechanism:
         tuple of Contact
             Two.
         """
-        return self._crowded((self.profile.x.size + 1) // 2).contact, self.contact.coarsened()
+        return self._with_fine_ends(0.5).contact, self.contact.coarsened()
 
     def refined(self, level: int) -> "StrandMechanism":
-        """Return the flank on points that crowd at its ends: as many, twice as many and so on.
+        """Return the flank with fine ends, on its own points, on twice as many, and so on.
 
         Parameters
         ----------
@@ -124,12 +124,13 @@ class StrandMechanism:
         Returns
         -------
         StrandMechanism
-            Of 2^(level - 1) (K - 1) + 1 points.
+            The same contact on more points.
         """
-        return self._crowded(2 ** (level - 1) * (self.profile.x.size - 1) + 1)
+        return self._with_fine_ends(2.0 ** (level - 1))
 
-    def _crowded(self, points: int) -> "StrandMechanism":
-        return replace(self, profile=self.profile.crowded(points))
+    def _with_fine_ends(self, fineness: float) -> "StrandMechanism":
+        intervals = max(2, round(fineness * (self.profile.x.size - 1)))
+        return replace(self, profile=self.profile.with_fine_ends(intervals))
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
         """Return nothing: rollers do not wear.
