@@ -10,7 +10,8 @@ what they judge:
 - strand: lives on 801 and 1601 even points, extrapolated with the first power of the spacing;
 - pair: the same on two and four times the points of the case;
 - table: its functions on eight times the rows;
-- wrap: steps three and four times halved, extrapolated, and what twice the points move the life by, twice.
+- wrap: steps three and four times halved, extrapolated, and one and a half times what twice the
+  points move the life by.
 """
 
 import csv
@@ -245,9 +246,9 @@ def wrap(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
         sprocket = tables["sprocket"]
         double = {**sprocket, "nodes": 2 * sprocket["nodes"] - 1}
         finer = wearsim.load_case({**tables, "sprocket": double})
-        lives = [float(steps_life(case, level).cycles[-1]) for level in (1, 3, 4)]
-        nodes = float(steps_life(finer, 1).cycles[-1]) - lives[0]
-        return extrapolated(lives[1], lives[2]) + 2.0 * nodes
+        lives = [float(steps_life(case, level).cycles[-1]) for level in (3, 4)]
+        nodes = float(steps_life(finer, 3).cycles[-1]) - lives[0]
+        return extrapolated(*lives) + 1.5 * nodes
 
     return case, reference
 

@@ -25,7 +25,7 @@ from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
-WRAP_TOLERANCE = 3e-2
+WRAP_TOLERANCE = 5e-2
 """Relative tolerance of a life on a wrap by default, as it costs more."""
 
 
