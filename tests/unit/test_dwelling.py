@@ -259,8 +259,8 @@ def test_one_failing_run_fails_all():
 def test_steps_are_halved_until_the_life_settles():
     new = Start(np.zeros((1, 151)), NEW_CHAIN, 1)
     loose, change = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 0.1, new)
-    tight, less = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 6e-4, new)
-    assert less <= 6e-4 < change <= 0.1
+    tight, less = advance_dwelling(Seat(), LAW, LIMIT, 1e9, 8e-4, new)
+    assert less <= 8e-4 < change <= 0.1
     assert tight.updates > loose.updates
     assert tight.cycles[-1] == pytest.approx(loose.cycles[-1], rel=5e-3)
 
@@ -275,7 +275,7 @@ def test_error_of_halved_steps_adds_up_what_all_runs_tell():
 
 def test_dispatch_by_the_kind_of_contact():
     advance, change = run_advance(Seat(), LAW, LIMIT, 1e9, 1e-3)
-    assert 0.0 < change < 0.03
+    assert 0.0 < change < 0.05
     law = archard(1e4 * RATE)
     per_cycle = run_per_cycle(Seat(), law, LIMIT, 1e9, 10)
     assert per_cycle.updates == np.ceil(0.1 * per_cycle.cycles[-1]) > 5

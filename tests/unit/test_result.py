@@ -149,7 +149,8 @@ def test_snapshots_are_about_two_hundred_at_most(results):
     for kind in ("strand", "per_cycle"):
         result, _ = results(kind)
         assert 20 <= len(result.history) <= 220
-        assert len(result.flank) == 51 * len(result.history)
+        points = result.flank["node"].max()
+        assert points >= 51 and len(result.flank) == points * len(result.history)
 
 
 def test_history_ends_at_the_life(results):

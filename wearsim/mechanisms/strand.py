@@ -101,7 +101,7 @@ class StrandMechanism:
         )
 
     def other_grids(self) -> tuple[Contact, ...]:
-        """Return the flank on half as many points with fine ends, and on every second point.
+        """Return the flank on every second point, on every fourth, and on every second with fine ends.
 
         Where the load sets in and ends, lives converge with the first power of the spacing; in
         between with the second.
@@ -109,9 +109,10 @@ class StrandMechanism:
         Returns
         -------
         tuple of Contact
-            Two.
+            Three.
         """
-        return self._with_fine_ends(0.5).contact, self.contact.coarsened()
+        half = self.contact.coarsened()
+        return half, half.coarsened(), self._with_fine_ends(0.5).contact
 
     def refined(self, level: int) -> "StrandMechanism":
         """Return the flank with fine ends, on its own points, on twice as many, and so on.

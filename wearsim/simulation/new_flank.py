@@ -3,6 +3,7 @@
 import numpy as np
 
 from wearsim.case.model import Case, WrapDrive
+from wearsim.contact.engagement import Contact
 from wearsim.contact.hertz import peak_pressure
 
 
@@ -37,7 +38,22 @@ def new_peak_pressure(case: Case) -> float:
         return highest_load(wrap_contact(case, case.drive), law, None)[0]
     from wearsim.simulation.pointwise import pointwise_mechanism
 
-    contact = pointwise_mechanism(case).contact
+    return new_contact_pressure(pointwise_mechanism(case).contact)
+
+
+def new_contact_pressure(contact: Contact) -> float:
+    """Return the highest pressure on a flank that has not worn, by Hertz's theory.
+
+    Parameters
+    ----------
+    contact : Contact
+        The flank and its contact.
+
+    Returns
+    -------
+    float
+        At the points of the flank [MPa].
+    """
     flank = contact.profile
     touch = contact.engage(flank.x.copy(), flank.y.copy(), np.zeros(flank.x.size))
     relative = np.maximum(touch.relative_curvature, 0.0)

@@ -14,6 +14,7 @@ from wearsim.result.folder import with_files
 from wearsim.simulation.grids import LEVELS, Search, Settled, settle
 from wearsim.simulation.law import running_in_assumptions
 from wearsim.simulation.limits import limit_states
+from wearsim.simulation.new_flank import new_contact_pressure
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
@@ -41,15 +42,17 @@ def simulate_points(case: Case) -> WearResult:
         The life would be wrong.
     """
     warnings = list(case.warnings)
-    settled = _settled(case, pointwise_mechanism(case), warnings)
+    new = pointwise_mechanism(case)
+    settled = _settled(case, new, warnings)
     mechanism, asked, run = settled.mechanism, settled.run.asked, settled.run.trajectory
     history, flank = _tables(case, mechanism, run)
     warnings += validity(mechanism.contact, history, flank)
     low, high = _band(case, asked, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
-    peaks = history["peak_pressure_MPa"].tolist()
-    fatigue = _fatigue(case, _life(case, run), peaks[0], warnings)
+    # On the points of the case, as all that is asked of a new flank.
+    new_pressure = new_contact_pressure(new.contact)
+    fatigue = _fatigue(case, _life(case, run), new_pressure, warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
@@ -66,8 +69,8 @@ def simulate_points(case: Case) -> WearResult:
         max_depth_arc_length=float(mechanism.contact.arc_length[deepest]),
         removed_area=area_between(run.x[0], run.y[0], run.x[-1], run.y[-1]),
         worn_area=area_swept(run.x, run.y, run.depth),
-        initial_peak_pressure=peaks[0],
-        final_peak_pressure=peaks[-1],
+        initial_peak_pressure=new_pressure,
+        final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
         speed_rpm=case.speed_rpm,
         method=case.run.method,
         updates=run.updates,
