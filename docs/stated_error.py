@@ -16,7 +16,6 @@ what they judge:
 """
 
 import csv
-import math
 import sys
 import tempfile
 import warnings
@@ -322,6 +321,26 @@ def picture(rows: list[Judged]) -> None:
         figure.savefig(PICTURE, metadata={"Date": None})
 
 
+def table_of(rows: list[Judged]) -> list[str]:
+    """Return the table of the validation page."""
+    lines = [
+        "| drives | drawn | stated error holds | largest ratio | true error, median | stated, median |",
+        "|---|---|---|---|---|---|",
+    ]
+    for kind in KINDS:
+        ones = [row for row in rows if row.kind == kind]
+        if not ones:
+            continue
+        ratios = [row.ratio for row in ones]
+        true = np.median([abs(row.life / row.reference - 1.0) for row in ones])
+        cells = (
+            kind, len(ones), sum(ratio <= 1.0 for ratio in ratios), f"{max(ratios):.2f}",
+            f"{100 * true:.2g} %", f"{100 * np.median([row.stated for row in ones]):.2g} %",
+        )  # fmt: skip
+        lines.append(f"| {' | '.join(map(str, cells))} |")
+    return lines
+
+
 def judge_all(kind: str) -> Iterator[Judged]:
     """Judge drives of a kind until there are enough, in two processes."""
     wanted, found, numbers = DRIVES[kind], 0, count()
@@ -353,12 +372,7 @@ def main() -> None:
         rows = judged_again(rows)
         write(rows)
     picture(rows)
-    for kind in KINDS:
-        ratios = [row.ratio for row in rows if row.kind == kind]
-        held = sum(ratio <= 1.0 for ratio in ratios)
-        print(
-            f"{kind}: {held} of {len(ratios)} within, largest {max(ratios, default=math.nan):.2f}"
-        )
+    print("\n".join(table_of(rows)))
 
 
 if __name__ == "__main__":

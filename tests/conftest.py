@@ -1,6 +1,8 @@
 """What tests of all folders share, and the pages that a run can write from their rows."""
 
+import importlib
 import runpy
+import sys
 from pathlib import Path
 
 import pytest
@@ -45,6 +47,16 @@ def write_page(terminalreporter, exitstatus, file, kind, writer):
     page = runpy.run_path(str(DOCS / f"{writer}.py"))["page"](rows)
     Path(file).write_text(page, encoding="utf-8")
     terminalreporter.write_line(f"{file}: {len(rows)} rows")
+
+
+@pytest.fixture(scope="session")
+def stated_error():
+    """docs/stated_error.py as a module: random drives and the references of their lives."""
+    sys.path.insert(0, str(DOCS))
+    try:
+        return importlib.import_module("stated_error")
+    finally:
+        sys.path.remove(str(DOCS))
 
 
 @pytest.fixture(scope="session")

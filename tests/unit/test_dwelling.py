@@ -265,12 +265,15 @@ def test_steps_are_halved_until_the_life_settles():
     assert tight.cycles[-1] == pytest.approx(loose.cycles[-1], rel=5e-3)
 
 
-def test_error_of_halved_steps_adds_up_what_all_runs_tell():
-    """Lives 1.3, 1.1 and 1 of steps 4, 2 and 1: 0.3/3 + 0.1/1; 1 % on half the points."""
-    runs = [replace(run_dwelling(Seat(), LAW, LIMIT, 1e9, 0), cycles=np.array([0.0, life]))
-            for life in (1.3, 1.1, 1.0)]  # fmt: skip
-    assert halving_error(runs, 0.01) == pytest.approx(3.0 * (0.1 + 0.1) + 0.03, rel=1e-12)
-    assert halving_error(runs[1:], 0.01) == pytest.approx(4.0 * 0.1 + 0.03, rel=1e-12)
+def test_error_of_halved_steps_is_what_the_worst_of_the_runs_tells():
+    """Lives 1.6, 1.2 and 1 of steps 4, 2 and 1: 0.6/(2 - 1) is more than 0.2/(sqrt(2) - 1)."""
+    runs = [
+        replace(run_dwelling(Seat(), LAW, LIMIT, 1e9, 0), cycles=np.array([0.0, life]))
+        for life in (1.6, 1.2, 1.0)
+    ]
+    assert halving_error(runs, 0.01) == pytest.approx(2.75 * (0.6 + 0.01), rel=1e-12)
+    expected = 2.75 * (0.2 / (2.0**0.5 - 1.0) + 0.01)
+    assert halving_error(runs[1:], 0.01) == pytest.approx(expected, rel=1e-12)
 
 
 def test_dispatch_by_the_kind_of_contact():
