@@ -1,6 +1,7 @@
 """A flank as a row of points, with its normals and signed curvature."""
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -289,21 +290,7 @@ class Profile:
         >>> straight.with_fine_ends(4).x.tolist()[:10]
         [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 4.0]
         """
-        last, even = self.x.size - 1, np.arange(intervals)
-        from_end = np.minimum(even, intervals - 1 - even)
-        pieces = _END_PIECES * np.exp(-from_end * _END_PARTS / intervals)
-        pieces = np.maximum(1, pieces.round().astype(int))
-        part = np.concatenate([np.arange(count) / count for count in pieces])
-        at = np.append((np.repeat(even, pieces) + part) * (last / intervals), last)
-        near = np.arange(min(6, last + 1))
-        first = np.clip(np.floor(at).astype(int) - 2, 0, last + 1 - near.size)
-        way = (at - first)[:, None]
-        weight = np.ones((at.size, near.size))
-        for place in near:
-            others = near[near != place]
-            weight[:, place] = np.prod((way - others) / (place - others), axis=1)
-        points = first[:, None] + near
-        return Profile(*((weight * values[points]).sum(axis=1) for values in (self.x, self.y)))
+        return _with_fine_ends(self, intervals)
 
     @property
     def is_simple(self) -> bool:
@@ -325,3 +312,23 @@ class Profile:
         parts = shapely.node(shapely.LineString(np.column_stack([self.x, self.y])))
         where = parts.geoms[0].coords[-1]
         return int(np.hypot(self.x - where[0], self.y - where[1]).argmin())
+
+
+@lru_cache(maxsize=64)
+def _with_fine_ends(flank: Profile, intervals: int) -> Profile:
+    """Divide the intervals near the ends; cases of a study share their flank."""
+    last, even = flank.x.size - 1, np.arange(intervals)
+    from_end = np.minimum(even, intervals - 1 - even)
+    pieces = _END_PIECES * np.exp(-from_end * _END_PARTS / intervals)
+    pieces = np.maximum(1, pieces.round().astype(int))
+    part = np.concatenate([np.arange(count) / count for count in pieces])
+    at = np.append((np.repeat(even, pieces) + part) * (last / intervals), last)
+    near = np.arange(min(6, last + 1))
+    first = np.clip(np.floor(at).astype(int) - 2, 0, last + 1 - near.size)
+    way = (at - first)[:, None]
+    weight = np.ones((at.size, near.size))
+    for place in near:
+        others = near[near != place]
+        weight[:, place] = np.prod((way - others) / (place - others), axis=1)
+    points = first[:, None] + near
+    return Profile(*((weight * values[points]).sum(axis=1) for values in (flank.x, flank.y)))

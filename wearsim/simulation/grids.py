@@ -11,7 +11,7 @@ LEVELS = 2
 """Times that a flank is refined at most."""
 
 
-class Run(Protocol):
+class _Run(Protocol):
     """What came of a flank on one grid."""
 
     @property
@@ -26,7 +26,7 @@ class Run(Protocol):
         """Return the relative difference to the life, or to the depth at the horizon, of another."""
 
 
-AnyRun = TypeVar("AnyRun", bound=Run)
+AnyRun = TypeVar("AnyRun", bound=_Run)
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,13 @@ class Settled(Generic[AnyRun]):
         return taken if self.error != self.first_error else 0
 
     def assumptions(self) -> tuple[str, ...]:
-        """Return what was done for the tolerance; nothing where the points were good enough."""
+        """Return what was done for the tolerance.
+
+        Returns
+        -------
+        tuple of str
+            At most one; none where the points of the case were good enough.
+        """
         if not self.refined_to:
             return ()
         return (
@@ -67,7 +73,18 @@ class Settled(Generic[AnyRun]):
         )
 
     def warnings(self, tolerance: float) -> list[str]:
-        """Return that the error exceeds a tolerance, if it does, and what to do."""
+        """Return that the error exceeds a tolerance, if it does, and what to do.
+
+        Parameters
+        ----------
+        tolerance : float
+            Relative.
+
+        Returns
+        -------
+        list of str
+            At most one.
+        """
         if self.error >= 1.0:
             return ["the error of the grid could not be estimated on other points, 100 % is stated"]
         if self.error <= tolerance:
@@ -99,15 +116,15 @@ def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun
     levels : int
         Times that the flank may be refined.
 
-    Yields
-    ------
-    list of Contact
-        Flanks to wear; of the first ones the first must come to an end.
-
     Returns
     -------
     Settled
         The run of least error.
+
+    Yields
+    ------
+    list of Contact
+        Flanks to wear; of the first ones the first must come to an end.
     """
     run, *more = yield [mechanism.contact, *mechanism.other_grids()]
     assert run is not None

@@ -85,13 +85,15 @@ class _Wanted:
         numbers = contact.modulus, asked.criteria[0].limit, asked.life_tolerance
         return (*self.kind, *numbers, *(array.tobytes() for array in arrays))
 
-    def run(self, worn: Worn) -> "_GridRun | None":
-        """Return what came of it; None where that does not tell all of the case's own life."""
+    def run(self, worn: Worn | None) -> "_GridRun | None":
+        """Return what came of it; None where it has no life."""
+        if worn is None:
+            return None
         asked, coefficient = self.asked, self.asked.law.coefficient
         horizon = asked.horizon * coefficient
         # Of cases that share a run, one that ends at its own horizon was run to another's.
         if worn.horizon > horizon and (1.0 + asked.life_tolerance) * worn.time > horizon:
-            return None
+            raise _AloneError
         constant = np.array([worn.time if worn.reached else horizon]) / coefficient
         return _GridRun(asked, worn, float(asked.running_in.running_cycles(constant)[0]))
 
@@ -132,19 +134,21 @@ class _Job:
         self._case = case
         mechanism, tolerance = pointwise_mechanism(case), case.run.life_tolerance
         self._search: Search[_GridRun] = settle(mechanism, tolerance, LEVELS)
+        self._begun = False
         self.settled: Settled[_GridRun] | None = None
         self.wanted = self._wanted(next(self._search))
 
     def _wanted(self, contacts: list[Contact]) -> list[_Wanted]:
         return [_Wanted(task(self._case, contact)) for contact in contacts]
 
-    def send(self, runs: Sequence[_GridRun | None]) -> None:
-        """Go on with what came of the flanks; without one of them the case runs alone."""
-        self.wanted = []
-        if None in runs:
-            return
+    def send(self, flanks: Sequence[Worn | None]) -> None:
+        """Go on with what came of the flanks, if that tells all of the case's own life."""
+        wanted, self.wanted, first = self.wanted, [], not self._begun
+        self._begun = True
         try:
-            self.wanted = self._wanted(self._search.send(list(runs)))
+            runs = [one.run(worn) for one, worn in zip(wanted, flanks, strict=True)]
+            if not first or runs[0] is not None:
+                self.wanted = self._wanted(self._search.send(runs))
         except StopIteration as end:
             self.settled = end.value
         except _AloneError:
@@ -252,13 +256,7 @@ def _collect(jobs: list[_Job | None], batches: list[_Batch]) -> None:
             found.update((id(wanted), worn) for wanted in group)
     for job in jobs:
         if job is not None and job.wanted:
-            worn_flanks = [found[id(wanted)] for wanted in job.wanted]
-            job.send(
-                [
-                    None if worn is None else wanted.run(worn)
-                    for wanted, worn in zip(job.wanted, worn_flanks, strict=True)
-                ]
-            )
+            job.send([found[id(wanted)] for wanted in job.wanted])
 
 
 def _life(case: Case, job: _Job | None) -> CaseLife | WearsimError:

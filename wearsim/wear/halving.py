@@ -1,5 +1,6 @@
 """Runs of dwelling contacts side by side, and with steps that are halved until the life settles."""
 
+import math
 import os
 import threading
 from collections.abc import Callable, Sequence
@@ -157,7 +158,7 @@ def halving_error(runs: Sequence[Trajectory], by_points: float) -> float:
     """
     last = len(runs) - 1
     by_steps = max(
-        difference(runs[last], run) / (2.0 ** (0.5 * (last - level)) - 1.0)
+        difference(runs[last], run) / (math.sqrt(2 ** (last - level)) - 1.0)
         for level, run in enumerate(runs[:last])
     )
     return _SAFETY * (by_steps + by_points)
