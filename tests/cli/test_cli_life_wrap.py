@@ -120,7 +120,7 @@ def test_json(cli, wrapped, conforms):
     assert found["elongation_percent"] == (1.0, pytest.approx(share, rel=1e-3))
     assert line["life_hours_low"] == pytest.approx(line["life_hours"] / 3.0, rel=1e-12)
     assert line["life_hours_high"] == pytest.approx(line["life_hours"] * 3.0, rel=1e-12)
-    assert 0.0 <= line["numerical_error"] < 0.05
+    assert 0.0 <= line["numerical_error"] < 0.1
     assert 0.0 < line["final_peak_pressure_MPa"] < line["initial_peak_pressure_MPa"]
 
 

@@ -149,7 +149,7 @@ def test_workbook_and_comparison(cli, drive, tmp_path):
     value, allowed, margin = rows[at : at + 3]
     assert (value[1:], allowed[0]) == (
         ["kW", pytest.approx(7.0), pytest.approx(4.6)],
-        "  allowed at most",
+        "plate fatigue, allowed",
     )
     assert allowed[2:] == [pytest.approx(PLATES, rel=1e-3)] * 2
     assert margin[2:] == [pytest.approx(PLATES - p, rel=0.01, abs=2e-3) for p in (7.0, 4.6)]

@@ -70,7 +70,7 @@ def test_life_in_which_nothing_wears_is_told(case):
         if case == TABLE
         else load_case(case, ["load.tension_N=1e-15"])
     )
-    assert result.removed_area == 0.0
+    assert abs(result.removed_area) < 1e-11
     removed = dict(findings(result))["Removed"]
     assert removed == "less than the coordinates of the flank can tell"
 
@@ -89,8 +89,7 @@ def edited(folder, *rows):
     ("rows", "fault"),
     [
         (["nan,80.0"], "x_mm must be a finite number"),
-        (["1e300,80.0"], "x_mm must be 0 or from 1e-30 to 1e\\+15 in size"),
-        (["-8.0,1e-200"], "y_mm must be 0 or from 1e-30 to 1e\\+15 in size"),
+        (["1e300,80.0"], "x_mm must be at most 1e\\+15 in size"),
         (["-8.0,80.0", "-8.0,80.0"], "the point repeats the one before"),
         (["1e-20,80.0", "2e-20,80.0"], "the point repeats the one before"),
     ],

@@ -113,14 +113,14 @@ def test_running_in_shortens_a_life_by_what_it_wore_too_much(life: Any) -> None:
     """
 
     def runs_in(factor: float) -> WearResult:
-        tolerance = 5e-3 * RunningIn(factor, 1.0).amplification
+        tolerance = 1e-2 * RunningIn(factor, 1.0).amplification
         return life(
             f"wear.running_in_factor={factor}",
             "wear.running_in_distance_mm=10",
             f"run.life_tolerance={tolerance!r}",
         )
 
-    plain, short, twice = life("run.life_tolerance=5e-3"), runs_in(4.0), runs_in(7.0)
+    plain, short, twice = life("run.life_tolerance=1e-2"), runs_in(4.0), runs_in(7.0)
     lost = plain.cycles - short.cycles if hasattr(plain.life, "hours") else 0.0
     assert lost > 0.0
     assert plain.cycles - twice.cycles == pytest.approx(2.0 * lost, rel=1e-6)

@@ -142,9 +142,12 @@ def _cells(
                 faults.add(
                     key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})"
                 )
-            elif row[-1] and not LEAST <= abs(row[-1]) <= MOST:
-                text = f"{name} must be 0 or from {LEAST:g} to {MOST:g} in size (got {cell!r})"
+            elif abs(row[-1]) > MOST:
+                text = f"{name} must be at most {MOST:g} in size (got {cell!r})"
                 faults.add(key, f"{path.name}:{number}: {text}")
+            elif abs(row[-1]) < LEAST:
+                # What is left of a formula that should come to 0.
+                row[-1] = 0.0
         values.append(row)
     return values
 

@@ -23,6 +23,9 @@ JUMPING = "min_slack_tension_N"
 _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
+_LEAST_AREA = 1e-10
+"""Area that is lost in the digits of the points of a flank [mm2]."""
+
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
@@ -277,7 +280,7 @@ def _overload(finding: Finding) -> str:
 
 
 def _removed(result: WearResult) -> str:
-    if not result.removed_area > 0.0:
+    if not result.removed_area > _LEAST_AREA:
         return "less than the coordinates of the flank can tell"
     closes = abs(result.worn_area / result.removed_area - 1.0)
     return (

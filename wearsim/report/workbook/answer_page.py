@@ -174,7 +174,12 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
                 for state, result in zip(chosen, results, strict=True)
             ]
             _write_row(
-                page, row + 1, "  in words", "", told, "how sure it is that it does not jump"
+                page,
+                row + 1,
+                f"{name}, in words",
+                "",
+                told,
+                "how sure it is that the chain does not jump",
             )
             row += 1
     return row + 1
@@ -196,8 +201,12 @@ def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
         margins = [finding.margin if finding else None for finding in chosen]
         side = "least" if first.at_least else "most"
         _write_row(page, row + 1, name, first.unit, values, "; ".join(rules))
-        _write_row(page, row + 2, f"  allowed at {side}", first.unit, limits, "")
-        _write_row(page, row + 3, "  margin", first.unit, margins, "below 0 outside the rating")
+        allowed, left = (
+            f"{name}: the {side} that the rule allows",
+            f"{name}: what is left, below 0 outside",
+        )
+        _write_row(page, row + 2, f"{name}, allowed", first.unit, limits, allowed)
+        _write_row(page, row + 3, f"{name}, margin", first.unit, margins, left)
         row += 3
     return row + 1
 
