@@ -200,7 +200,7 @@ def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
         limits = [finding.limit if finding else None for finding in chosen]
         margins = [finding.margin if finding else None for finding in chosen]
         side = "least" if first.at_least else "most"
-        _write_row(page, row + 1, name, first.unit, values, "; ".join(rules))
+        _write_row(page, row + 1, name, first.unit, values, f"{name} by {'; '.join(rules)}")
         allowed, left = (
             f"{name}: the {side} that the rule allows",
             f"{name}: what is left, below 0 outside",
