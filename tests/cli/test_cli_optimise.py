@@ -251,7 +251,7 @@ def test_wrap_between_the_forms_of_iso_606(cli, tmp_path):
         .replace('form = "min"\n', "nodes = 101\n")
     )
     text = text.replace('kind = "wrap"', 'kind = "wrap"\nphases = 2')
-    text += "[run]\nhorizon_hours = 10\nlife_tolerance = 0.1\n"
+    text += "horizon_hours = 10\n"
     path = tmp_path / "wrap.toml"
     parameters = '"sprocket.seat_radius_mm" = {low = 4.31, high = 4.43}\n'
     path.write_text(text + table(parameters, '"mass_kg"', "peak_pressure_MPa = {high = 2000}"))

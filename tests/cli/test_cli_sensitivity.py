@@ -7,7 +7,7 @@ import pytest
 
 SCATTER = """\
 [run]
-horizon_hours = 1e6
+life_tolerance = 0.05
 [uncertainty]
 "wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = 0.4}
 "load.tension_N" = {distribution = "lognormal", sigma_ln = 0.3}

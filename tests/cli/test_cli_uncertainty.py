@@ -55,7 +55,11 @@ def test_closed_form_where_only_the_coefficient_scatters(cli, case, sigma, metho
 
 def test_independent_scatters_add_in_squares(cli, case):
     """On a strand the wear goes with coefficient and tension: ln L is a sum."""
-    more = SCATTER % 0.4 + '"load.tension_N" = {distribution = "lognormal", sigma_ln = 0.3}\n'
+    more = (
+        "[run]\nlife_tolerance = 0.05\n"
+        + SCATTER % 0.4
+        + '"load.tension_N" = {distribution = "lognormal", sigma_ln = 0.3}\n'
+    )
     _, found = answer(cli, case(more), "--samples", 512)
     ratio = found["p10_hours"] / found["p50_hours"]
     assert ratio == pytest.approx(math.exp(-Z10 * 0.5), rel=0.01)

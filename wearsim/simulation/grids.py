@@ -1,7 +1,7 @@
 """On which points a life is found: those of the case, and better ones where its error is too large."""
 
 from collections.abc import Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, Protocol, Self, TypeVar
 
 from wearsim.contact.engagement import Contact, Mechanism
@@ -43,6 +43,10 @@ class Settled(Generic[AnyRun]):
         Relative error by steps and grid; 1 where no other grid has a life to compare with.
     points, first_error : int and float
         Of the flank as the case gives it.
+    level : int
+        Times that it was refined.
+    is_compared : bool
+        Whether another grid has a life.
     """
 
     mechanism: Mechanism
@@ -50,12 +54,12 @@ class Settled(Generic[AnyRun]):
     error: float
     points: int
     first_error: float
+    level: int
+    is_compared: bool
 
     @property
-    def refined_to(self) -> int:
-        """Points that were taken in place of those of the case, 0 where these were good enough."""
-        taken = self.mechanism.contact.profile.x.size
-        return taken if self.error != self.first_error else 0
+    def _taken(self) -> int:
+        return int(self.mechanism.contact.profile.x.size)
 
     def assumptions(self) -> tuple[str, ...]:
         """Return what was done for the tolerance.
@@ -65,10 +69,10 @@ class Settled(Generic[AnyRun]):
         tuple of str
             At most one; none where the points of the case were good enough.
         """
-        if not self.refined_to:
+        if not self.level:
             return ()
         return (
-            f"points of the flank: {self.refined_to}, chosen for the tolerance; on the {self.points} of "
+            f"points of the flank: {self._taken}, chosen for the tolerance; on the {self.points} of "
             f"the case the numerical error would be {self.first_error:.1g}",
         )
 
@@ -85,15 +89,13 @@ class Settled(Generic[AnyRun]):
         list of str
             At most one.
         """
-        if self.error >= 1.0:
+        if not self.is_compared:
             return ["the error of the grid could not be estimated on other points, 100 % is stated"]
         if self.error <= tolerance:
             return []
         cure = "use more nodes (rows of a table)"
-        if self.refined_to:
-            cure = (
-                f"on {self.refined_to} points too: use more nodes, or a larger run.life_tolerance"
-            )
+        if self.level:
+            cure = f"on {self._taken} points too: use more nodes, or a larger run.life_tolerance"
         return [f"{exceeds(self.error, tolerance)}: {cure}"]
 
 
@@ -131,7 +133,8 @@ def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun
     others = [other for other in more if other is not None]
     error = _error(run, others) * (1.0 if len(others) == len(more) else 2.0)
     error = min(1.0, run.own_error + error) if others else 1.0
-    best = Settled(mechanism, run, error, mechanism.contact.profile.x.size, error)
+    points = int(mechanism.contact.profile.x.size)
+    best = Settled(mechanism, run, error, points, error, 0, bool(others))
     for level in range(1, levels + 1):
         finer = mechanism.refined(level)
         if best.error <= tolerance or not others or finer is None:
@@ -142,7 +145,7 @@ def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun
             break
         error = run.own_error + _error(run, others)
         if error < best.error:
-            best = Settled(finer, run, error, best.points, best.first_error)
+            best = replace(best, mechanism=finer, run=run, error=error, level=level)
     return best
 
 
