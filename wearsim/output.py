@@ -165,6 +165,9 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
                 if old.exists() and not folder.exists():
                     os.rename(old, folder)
                 raise
+            if old.exists():
+                # From here on a killed process must not bring it back.
+                os.rename(old, Path(beside) / "replaced")
     except OSError as error:
         if isinstance(error, OutputError):
             raise

@@ -74,6 +74,8 @@ def settled(
 LIVES = {"own": 1.02, "half": 1.04, "fine ends": 1.004, "level 1": 1.002, "level 2": 1.001}
 """Lives of 1 + 0.02 h."""
 
+SPACINGS = (("own", 1.0), ("half", 2.0), ("fine ends", 0.2))
+
 
 def test_points_that_are_good_enough_stay() -> None:
     found, asked = settled(LIVES, 0.06)
@@ -94,7 +96,8 @@ def test_what_refining_does_not_reach_is_a_warning() -> None:
     found, asked = settled(LIVES, 1e-4)
     assert asked[-1] == "level 2" and found.run.life == 1.001
     assert found.warnings(1e-4)[0].endswith(
-        "exceeds the tolerance 0.0001: on 200 points too: use more nodes, or a larger run.life_tolerance"
+        "exceeds the tolerance 0.0001, even with the flank refined to 200 points: use more nodes, or a "
+        "larger run.life_tolerance"
     )
 
 
@@ -102,6 +105,16 @@ def test_a_refined_flank_without_a_life_leaves_the_one_before() -> None:
     lives = {name: life for name, life in LIVES.items() if name != "level 2"}
     found, _ = settled(lives, 1e-4)
     assert found.run.life == 1.002
+
+
+def test_a_refined_flank_without_a_life_is_passed_over() -> None:
+    lives = {name: life for name, life in LIVES.items() if name != "level 1"}
+    found, asked = settled(lives, 1e-4)
+    assert asked[-2:] == ["level 1", "level 2"] and found.run.life == 1.001
+    assert found.level == 2 and found.error == pytest.approx(
+        SAFETY * sum(abs(LIVES[name] / 1.001 - 1.0) * 0.05 / (h - 0.05) for name, h in SPACINGS),
+        rel=1e-9,
+    )
 
 
 def test_the_other_grids_that_have_a_life_count_twice() -> None:

@@ -270,13 +270,22 @@ def overload_text(result: WearResult) -> str:
     """
     if not result.overloaded:
         return ""
-    found = ", ".join(_overload(finding) for finding in result.overloaded)
-    return f"{found} of the rating; the hours are for wear only"
+    used = ", ".join(
+        f"{_rating_name(finding)} {grouped(100.0 * finding.used)} %"
+        for finding in result.overloaded
+        if not finding.at_least
+    )
+    short = [
+        f"{_rating_name(finding)} {finding.value:.3g}, at least {finding.limit:.3g}"
+        for finding in result.overloaded
+        if finding.at_least
+    ]
+    found = "; ".join([f"{used} of the rating"] * bool(used) + short)
+    return f"{found}; the hours are for wear only"
 
 
-def _overload(finding: Finding) -> str:
-    name = f"{finding.name} (indicative)" if finding.note else finding.name
-    return f"{name} {grouped(100.0 * finding.used)} %"
+def _rating_name(finding: Finding) -> str:
+    return f"{finding.name} (indicative)" if finding.note else finding.name
 
 
 def _removed(result: WearResult) -> str:
@@ -431,9 +440,10 @@ def _life(result: WearResult) -> str:
         error = result.numerical_error
         bound = max(error, result.life_tolerance)
         sign = "<" if error <= result.life_tolerance else "about"
+        whose = " of the sprocket's life" if result.stop == "elongation_percent" else ""
         return (
             f"{hours(result.life)}   ({result.life.cycles:.3g} cycles at {speed}) {ending(result)}; "
-            f"numerical error {sign} {100 * bound:.2g} %"
+            f"numerical error{whose} {sign} {100 * bound:.2g} %"
         )
     return (
         f"{hours(result.life)} (limit not reached)   ({result.cycles_run:.3g} cycles at {speed}); "

@@ -95,8 +95,12 @@ class Settled(Generic[AnyRun]):
             return []
         cure = "use more nodes (rows of a table)"
         if self.level:
-            cure = f"on {self._taken} points too: use more nodes, or a larger run.life_tolerance"
-        return [f"{exceeds(self.error, tolerance)}: {cure}"]
+            cure = (
+                f"with the flank refined to {self._taken} points: use more nodes, or a larger "
+                "run.life_tolerance"
+            )
+        joint = ", even" if self.level else ":"
+        return [f"{exceeds(self.error, tolerance)}{joint} {cure}"]
 
 
 Search = Generator[list[Contact], list[AnyRun | None], Settled[AnyRun]]
@@ -139,10 +143,12 @@ def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun
         finer = mechanism.refined(level)
         if best.error <= tolerance or not others or finer is None:
             break
+        [better] = yield [finer.contact]
+        if better is None:
+            # The next one may have a life: this one may be too coarse for its fine ends.
+            continue
         others.append(run)
-        [run] = yield [finer.contact]
-        if run is None:
-            break
+        run = better
         error = run.own_error + _error(run, others)
         if error < best.error:
             best = replace(best, mechanism=finer, run=run, error=error, level=level)

@@ -41,7 +41,7 @@ class CaseLife:
         Key of the limit that was met, ``horizon_hours`` where none was; the name of a life by
         contact fatigue that ends before, such as ``sprocket_fatigue``.
     numerical_error : float
-        Relative error of the life by its steps and its grid, as `simulate` states it.
+        Relative error of the life by its steps and its grid, as `simulate` states it, to rounding.
     warnings : tuple of str
         What is doubtful about the case and the worn flank.
     """
