@@ -283,10 +283,14 @@ def test_solve_for_saves_the_case_that_it_found(cli, drive, tmp_path):
 # -- three grids -----------------------------------------------------------------------------------
 
 
+OWN_POINTS = ("--set", "run.life_tolerance=0.1")
+"""A tolerance at which the flank is not refined."""
+
+
 def test_verify_grid(cli, drive, conforms):
     path = drive()
-    text = cli("life", path, "--verify-grid").out
-    line = strict(cli("life", path, "--verify-grid", "--json").out)
+    text = cli("life", path, "--verify-grid", *OWN_POINTS).out
+    line = strict(cli("life", path, "--verify-grid", "--json", *OWN_POINTS).out)
     conforms(line)
     grid = line["grid"]
     assert grid["nodes"] == [51, 26, 13]
@@ -297,8 +301,7 @@ def test_verify_grid(cli, drive, conforms):
 
 
 def test_verify_grid_at_the_horizon(cli, drive, conforms):
-    own_points = ("--set", "run.life_tolerance=0.1")
-    given = (*own_points, "--set", "run.horizon_hours=1")
+    given = (*OWN_POINTS, "--set", "run.horizon_hours=1")
     line = strict(cli("life", drive(), "--verify-grid", "--json", *given).out)
     conforms(line)
     assert line["grid"]["quantity"] == "max_depth_mm"
