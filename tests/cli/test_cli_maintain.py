@@ -74,7 +74,9 @@ def test_text_json_and_files_agree(cli, wrapped, tmp_path):
     assert cli("maintain", wrapped, "--out", out).code == 2
     again = cli("maintain", wrapped, "--out", out, "--force", "--set", "maintenance.chain_price=41")
     assert again.code == 0
-    assert again.out.startswith("Wrapped test drive\n  replace at  turned  ")
+    assert again.out.startswith(
+        "Wrapped test drive, with maintenance.chain_price = 41\n  replace at  turned  "
+    )
     assert max(map(len, again.out.splitlines())) <= 100
     assert "cheapest: a new chain at 3 %" in again.out
 
