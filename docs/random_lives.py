@@ -62,7 +62,7 @@ class Draw:
 
 @dataclass(frozen=True)
 class Measured:
-    """Relative differences of a life from those with tighter steps, and on a finer grid besides."""
+    """Relative differences of a life from those with tighter steps, and on a far finer grid besides."""
 
     name: str
     draw: Draw
@@ -250,7 +250,10 @@ def reason(stage: str, error: wearsim.WearsimError) -> str:
 
 
 def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Measured | None:
-    """Draw a case and run it, with tighter steps, and with these on twice the points."""
+    """Draw a case and run it, with tighter steps, and with these on four times the points.
+
+    Twice the points are too few: a flank refined by itself may be better than those.
+    """
     stage = "the case itself"
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -265,8 +268,8 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
             loose, tight = (
                 task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter)
             )
-            stage = "with that on twice the points"
-            finer = wearsim.load_case(drawn.tables(2 * drawn.points - 1))
+            stage = "with that on four times the points"
+            finer = wearsim.load_case(drawn.tables(4 * drawn.points - 3))
             fine = wearsim.simulate(replace(finer, run=tighter))
     except wearsim.WearsimError as error:
         refused[reason(stage, error)] += 1

@@ -38,7 +38,7 @@ from wearsim.simulation.wrap import wrap_contact, wrap_problem
 from wearsim.wear.dwelling import run_dwelling
 from wearsim.wear.trajectory import Trajectory
 
-SEED = 16
+SEED = 20261122
 DRIVES = {"strand": 300, "table": 100, "pair": 60, "wrap": 120}
 ROOT = Path(__file__).parent.parent
 FILE = ROOT / "reports" / "reference" / "stated_error.csv"

@@ -1,6 +1,7 @@
 """``life_tolerance`` is met on random feasible cases.
 
-Expected: the same case with a tenth of the tolerance, on the same points and on twice as many.
+Expected: the same case with a tenth of the tolerance, on the same points and on four times as
+many.
 """
 
 import importlib.util
