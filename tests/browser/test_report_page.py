@@ -154,7 +154,7 @@ def test_without_scripts_the_still_pictures_stand(new_context, reports):
     page.goto((reports / "gears" / "index.html").as_uri())
     assert page.locator("img.still").first.is_visible()
     assert not page.locator(".slider").first.is_visible()
-    assert page.locator("h1").inner_text() == "Gears"
+    assert page.locator("h1").inner_text() == "Gears, with run.horizon_hours = 50000"
 
 
 def test_the_comparison_leads_to_every_page_and_back(watched, reports):
