@@ -24,8 +24,8 @@ Made by `python docs/life_tolerance.py`, with {{versions}}.
 {CASES} random feasible cases, seed {SEED}: evolute flanks on a strand, the same from points, and tables
 of load and sliding; all laws, some with a hardened layer, running-in and further limits; 61 to 401
 points, tolerance t of 1e-5 to 1e-2. Each is run as it is, for the life L; with t/10 and four times
-the points (4K - 3) to begin with, which gives Lg; and on its own points, not refined, with t and t/10:
-Lo, Ls. A run that ends at the horizon counts with its greatest depth.
+the points (4K - 3; above 801 twice, 2K - 1) to begin with, which gives Lg; and on its own points, not
+refined, with t and t/10: Lo, Ls. A run that ends at the horizon counts with its greatest depth.
 
 - The steps keep to their share of the tolerance where |Lo/Ls - 1| is at most {STEPS:g} t, and to the
   numerical error that the result states where it is not above that.

@@ -31,6 +31,9 @@ STEPS = 0.1
 ROUNDING = 1e-12
 """Relative difference of two lives that is none."""
 
+MOST_POINTS = 801
+"""Of the grid that a life is held against."""
+
 WARNINGS = ("numerical error", "the error of the grid could not be estimated")
 """Starts of the warnings that say that a tolerance may not be met."""
 
@@ -249,10 +252,16 @@ def reason(stage: str, error: wearsim.WearsimError) -> str:
     return f"{stage} | {type(error).__name__} | {text}"
 
 
+def finer_points(points: int) -> int:
+    four = 4 * points - 3
+    return four if four <= MOST_POINTS else 2 * points - 1
+
+
 def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Measured | None:
     """Draw a case and run it, with tighter steps, and with these on four times the points.
 
-    Twice the points are too few: a flank refined by itself may be better than those.
+    Twice the points are too few: a flank refined by itself may be better than those. Where four
+    times are more than ``MOST_POINTS`` it is twice: histories of more take gigabytes.
     """
     stage = "the case itself"
     try:
@@ -269,7 +278,7 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
                 task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter)
             )
             stage = "with that on four times the points"
-            finer = wearsim.load_case(drawn.tables(4 * drawn.points - 3))
+            finer = wearsim.load_case(drawn.tables(finer_points(drawn.points)))
             fine = wearsim.simulate(replace(finer, run=tighter))
     except wearsim.WearsimError as error:
         refused[reason(stage, error)] += 1

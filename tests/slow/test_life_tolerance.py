@@ -1,7 +1,7 @@
 """``life_tolerance`` is met on random feasible cases.
 
 Expected: the same case with a tenth of the tolerance, on the same points and on four times as
-many.
+many (twice where that would be more than 801).
 """
 
 import importlib.util
