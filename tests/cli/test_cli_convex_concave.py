@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.convex_concave import ConvexConcaveTables
-from wearsim.output import check_folder
+from wearsim.files import check_folder
+from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
+from wearsim.handbook.convex_concave.model import convex_concave
+from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
+from wearsim.input.calculation import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.convex_concave import convex_concave_sheet
-from wearsim.sizing.convex_concave import convex_concave
 
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "cases" / "sizing" / "convex-concave-17-34.toml"

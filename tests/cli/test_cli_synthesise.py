@@ -14,13 +14,13 @@ import pytest
 from matplotlib.figure import Figure
 from pydantic import BaseModel
 
-import wearsim.report.synthesis
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.synthesis import SynthesisTables
+import wearsim.handbook.synthesise.sheet
 from wearsim.errors import CaseError
+from wearsim.handbook.synthesise.keys import SynthesisTables
+from wearsim.handbook.synthesise.model import loaded_pair, phases
+from wearsim.handbook.synthesise.sheet import synthesis_sheet
+from wearsim.input.calculation import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.synthesis import synthesis_sheet
-from wearsim.sizing.synthesis import loaded_pair, phases
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"
 POLE = CASES / "synthesise-constant-stress.toml"
@@ -32,7 +32,7 @@ FIGURES = ("line_figure", "indices_figure", "field_figure", "direction_figure")
 def undrawn(monkeypatch):
     """Leave the pictures out: they take most of the time."""
     for name in FIGURES:
-        monkeypatch.setattr(wearsim.report.synthesis, name, lambda *arguments: Figure())
+        monkeypatch.setattr(wearsim.handbook.synthesise.sheet, name, lambda *arguments: Figure())
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -276,7 +276,7 @@ def base_results():
 def results_without_pictures(document):
     with pytest.MonkeyPatch.context() as patch:
         for name in FIGURES:
-            patch.setattr(wearsim.report.synthesis, name, lambda *arguments: Figure())
+            patch.setattr(wearsim.handbook.synthesise.sheet, name, lambda *arguments: Figure())
         return results(document)
 
 

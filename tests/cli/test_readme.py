@@ -18,8 +18,8 @@ from pydantic import BaseModel
 
 import wearsim
 import wearsim.cli
-from wearsim.case.schema import CaseTables
 from wearsim.catalogue.tables import rows
+from wearsim.input.schema import CaseTables
 from wearsim.report.answer import grouped
 from wearsim.report.compare import comparison_table
 from wearsim.report.loads import loads_json

@@ -6,8 +6,8 @@ import pytest
 
 import wearsim
 from wearsim.case.load import load_case
-from wearsim.report.step import step_bytes
-from wearsim.report.wheel_shapes import wheel_shapes
+from wearsim.export.step import step_bytes
+from wearsim.export.wheel_shapes import wheel_shapes
 
 pytestmark = pytest.mark.slow
 

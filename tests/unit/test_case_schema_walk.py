@@ -7,8 +7,8 @@ import pytest
 
 import wearsim
 from wearsim.case.load import load_case
-from wearsim.case.schema import CaseTables
 from wearsim.errors import CaseError
+from wearsim.input.schema import CaseTables
 from wearsim.report.profile import profile_table
 
 WITHOUT_EFFECT = {

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.case.schema.gear import GearTables
+from wearsim.input.schema.gear import GearTables
 from wearsim.simulation.many import CaseLife
 
 WITHOUT_EFFECT = {

@@ -12,7 +12,7 @@ import pytest
 import shapely
 
 import wearsim
-from wearsim.geometry.drive_layout import DriveLayout, layout_with_links
+from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.report.answer import answer, ending, grouped, limit_state
 from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of

@@ -4,13 +4,13 @@ from functools import cache
 
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.calculations import CALCULATIONS
-from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
+from wearsim.command.registry import CALCULATIONS
 from wearsim.errors import CaseError
+from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
+from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
+from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
+from wearsim.input.calculation import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.stiffness_spectrum import stiffness_spectrum_sheet
-from wearsim.sizing.stiffness_spectrum import stiffness_spectrum
 
 RADII = {"pinion_curvature_radius_mm": 10, "wheel_curvature_radius_mm": 12}
 PAIRS = {
@@ -84,7 +84,7 @@ CHANGES = {
 @pytest.fixture(autouse=True)
 def no_picture(monkeypatch):
     monkeypatch.setattr(
-        "wearsim.report.stiffness_spectrum.stiffness_spectrum_figure", lambda *_: None
+        "wearsim.handbook.stiffness_spectrum.sheet.stiffness_spectrum_figure", lambda *_: None
     )
 
 

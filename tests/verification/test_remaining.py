@@ -8,7 +8,7 @@ import pytest
 import wearsim
 from wearsim.errors import CaseError
 from wearsim.result import Life, LowerBound
-from wearsim.study.remaining import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
+from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
 
 STRAND = {
     "format_version": 1,

@@ -18,8 +18,8 @@ import wearsim
 from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import area_between
 from wearsim.kernels import event_rows as kernels
-from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
-from wearsim.mechanisms.wrap_cycle import WrapContact
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
 from wearsim.simulation.wrap import wrap_contact
 from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion

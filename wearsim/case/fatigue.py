@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wearsim.case.resolution import Record
-from wearsim.case.schema.fatigue import FatigueTable, FlankMaterialTable
+from wearsim.input.resolution import Record
+from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
 
 _SPROCKET = (
     "contact fatigue of the sprocket by formulas (21) to (26) of source 001, which are those of gears: "

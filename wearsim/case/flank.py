@@ -3,12 +3,8 @@
 import math
 from functools import lru_cache
 
-from wearsim.case.resolution import Resolution
-from wearsim.case.schema import SprocketTable
-from wearsim.case.tables import read_points
 from wearsim.catalogue.tables import Chain
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand, contact_ratio, evolute_flank
 from wearsim.geometry.feasibility import (
     OFFSET_RESERVE,
     evolute_limits,
@@ -16,8 +12,17 @@ from wearsim.geometry.feasibility import (
     smallest_offset,
     tooth_limits,
 )
-from wearsim.geometry.points import contact_range, flank_from_points, phase_error, working_side
+from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
+from wearsim.geometry.measured.points import (
+    contact_range,
+    flank_from_points,
+    phase_error,
+    working_side,
+)
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
+from wearsim.input.resolution import Resolution
+from wearsim.input.schema import SprocketTable
+from wearsim.input.tables import read_points
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05

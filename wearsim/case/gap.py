@@ -7,14 +7,11 @@ from typing import Literal
 import numpy as np
 
 from wearsim.case.flank import POINTS_NOISE, evolute_tooth
-from wearsim.case.resolution import Resolution
-from wearsim.case.schema import SprocketTable
-from wearsim.case.schema.sprocket import BETWEEN_FORMS
-from wearsim.case.tables import read_points
 from wearsim.catalogue.tables import Chain, chains
 from wearsim.errors import GeometryError
-from wearsim.geometry.ansi_b29 import ansi_b29_gap
-from wearsim.geometry.dxf import outline_from_dxf
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import gost591_gap
+from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import (
     ON_CENTRE_LINE,
@@ -22,9 +19,12 @@ from wearsim.geometry.gap_points import (
     gap_from_points,
     lowest_centre,
 )
-from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import GapForm, gap_form, iso606_gap
+from wearsim.geometry.measured.dxf import outline_from_dxf
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.input.resolution import Resolution
+from wearsim.input.schema import SprocketTable
+from wearsim.input.schema.sprocket import BETWEEN_FORMS
+from wearsim.input.tables import read_points
 
 OUTLINE_NODES = 601
 

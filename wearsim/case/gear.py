@@ -6,10 +6,7 @@ import numpy as np
 
 from wearsim.case.fatigue import resolve_fatigue
 from wearsim.case.gear_forms import resolve_teeth
-from wearsim.case.messages import Faults
 from wearsim.case.model import Case, GearDrive
-from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearTable, GearTables
 from wearsim.case.shared import (
     FLANK_NODES,
     TOLERANCE,
@@ -19,7 +16,10 @@ from wearsim.case.shared import (
     wear_input,
 )
 from wearsim.contact.hertz import contact_modulus
-from wearsim.geometry.mesh import Mesh
+from wearsim.geometry.gear.mesh import Mesh
+from wearsim.input.messages import Faults
+from wearsim.input.resolution import Record
+from wearsim.input.schema.gear import GearTable, GearTables
 
 PAIR_STIFFNESS = 14.0
 """Of a pair of teeth [N/(mm um)], the single stiffness c' of ISO 6336-1 for usual steel gears."""

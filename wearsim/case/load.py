@@ -6,12 +6,12 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from wearsim.case.calculation import checked
-from wearsim.case.document import Source, read_document
-from wearsim.case.messages import Faults
 from wearsim.case.model import Case
 from wearsim.case.resolve import resolve
-from wearsim.case.schema import CaseTables
+from wearsim.input.calculation import checked
+from wearsim.input.document import Source, read_document
+from wearsim.input.messages import Faults
+from wearsim.input.schema import CaseTables
 
 _STAND_INS: dict[str, Any] = {
     "format_version": 1,
@@ -60,7 +60,7 @@ def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
     if "gear" in data:
         # Models of tables take time to build, and most cases are not of gears.
         from wearsim.case.gear import resolve_gear
-        from wearsim.case.schema.gear import GearTables
+        from wearsim.input.schema.gear import GearTables
 
         return resolve_gear(checked(document, GearTables), name, folder, faults)
     _check_load(data, faults)

@@ -7,8 +7,6 @@ from pathlib import Path
 from wearsim.case.drive import resolve_prescribed, resolve_strand
 from wearsim.case.duty import resolve_duty
 from wearsim.case.fatigue import resolve_fatigue
-from wearsim.case.kind import mechanism_kind
-from wearsim.case.messages import Faults
 from wearsim.case.model import (
     Case,
     ChainDrive,
@@ -16,11 +14,13 @@ from wearsim.case.model import (
     StrandDrive,
     WrapDrive,
 )
-from wearsim.case.resolution import Resolution
-from wearsim.case.schema import CaseTables, ChainTable
 from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults, wear_input
 from wearsim.case.wrap import resolve_wrap
 from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
+from wearsim.input.kind import mechanism_kind
+from wearsim.input.messages import Faults
+from wearsim.input.resolution import Resolution
+from wearsim.input.schema import CaseTables, ChainTable
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""

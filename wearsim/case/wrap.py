@@ -6,13 +6,13 @@ from wearsim.case.drive import effective_pull, face_width, slip_fraction, within
 from wearsim.case.duty import Duty, LoadBlock
 from wearsim.case.gap import gap_shape
 from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
-from wearsim.case.resolution import Resolution
-from wearsim.case.schema import DriveTable, JointTable
 from wearsim.catalogue.tables import Chain, WearCondition, wear_conditions
+from wearsim.chain.chain_length import even_links, handbook_links
+from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
-from wearsim.geometry.chain_length import even_links, handbook_links
-from wearsim.geometry.drive_layout import DriveLayout, layout_with_centre, layout_with_links
-from wearsim.geometry.span_tension import catenary_tension, centrifugal_tension
+from wearsim.input.resolution import Resolution
+from wearsim.input.schema import DriveTable, JointTable
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import RunPath
-from wearsim.cli.sources import results_of
-from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
-from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
+from wearsim.command.complete import RunPath
+from wearsim.command.sources import results_of
+from wearsim.command.standard import SOME_FAILED, overrides, standard, warn
+from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
@@ -35,7 +35,7 @@ def compare(
         raise click.UsageError("give --out DIR, --xlsx FILE or both")
     check_workbook(out, xlsx, force)
     if out is not None:
-        from wearsim.output import check_folder
+        from wearsim.files import check_folder
 
         check_folder(out, force)
     found = results_of(sources, settings, as_json)

@@ -6,7 +6,7 @@ from dataclasses import asdict
 import click
 
 from wearsim.cli.list import shipped_cases
-from wearsim.cli.standard import standard
+from wearsim.command.standard import standard
 
 _NOT_IN_ORDER = 1
 _SELF_TEST = "hertz-arc-prescribed"

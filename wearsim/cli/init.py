@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.complete import complete_chain
-from wearsim.cli.standard import standard
+from wearsim.command.complete import complete_chain
+from wearsim.command.standard import standard
 from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 @standard
 def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
     """Write a working case for a chain and a number of teeth, every key explained."""
-    from wearsim.output import check_free, write_file
+    from wearsim.files import check_free, write_file
 
     if str(out) != "-":
         check_free(out, force)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.standard import standard
+from wearsim.command.standard import standard
 
 _TABLES = ("chains", "materials", "wear-conditions", "cases", "quantities")
 

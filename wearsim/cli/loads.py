@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import finite, load_cases, overrides, standard, warn
+from wearsim.command.complete import CasePath
+from wearsim.command.standard import finite, load_cases, overrides, standard, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.sources import results_of
-from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
+from wearsim.command.sources import results_of
+from wearsim.command.standard import SOME_FAILED, overrides, standard, warn
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
@@ -42,7 +42,7 @@ def report(
     compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
     """
     from wearsim.extras import check_installed
-    from wearsim.output import check_folder
+    from wearsim.files import check_folder
 
     check_installed(("jinja2", "plotly"), "report", "report")
     check_folder(out, force)

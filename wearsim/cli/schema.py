@@ -4,8 +4,8 @@ import json
 
 import click
 
-from wearsim.cli.complete import complete_kind
-from wearsim.cli.standard import standard
+from wearsim.command.complete import complete_kind
+from wearsim.command.standard import standard
 
 
 @click.command(short_help="JSON Schema of the input file or of the result.")
@@ -27,8 +27,8 @@ def schema(of_result: bool, command: str | None) -> None:
 
         click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
         return
-    from wearsim.case.schema import CaseTables
-    from wearsim.case.schema.calculations import OTHER_FILES
+    from wearsim.command.registry import OTHER_FILES
+    from wearsim.input.schema import CaseTables
 
     if command and command not in OTHER_FILES:
         raise click.BadParameter(

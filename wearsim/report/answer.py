@@ -6,9 +6,9 @@ import textwrap
 from collections.abc import Mapping
 from typing import Any
 
+from wearsim.chain.selection import Finding
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LimitState, LowerBound, WearResult
-from wearsim.sizing.selection import Finding
 
 _WIDTH = 100
 _LABEL = 13

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.output import new_folder
+from wearsim.files import new_folder
 from wearsim.report.answer import governing_text, headline, hours, limit_text
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, WearResult, life_keys

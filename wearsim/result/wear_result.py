@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import wearsim
+from wearsim.chain.selection import Finding, overloading
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.life import Life, LimitState, LowerBound, first_life, life_keys
-from wearsim.sizing.selection import Finding, overloading
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from wearsim.case.fatigue import FatigueInput
 from wearsim.case.model import Case, GearDrive, StrandDrive
+from wearsim.fatigue.contact_fatigue import doubtful_hardness, fatigue_life
+from wearsim.fatigue.endurance import EnduredHours
+from wearsim.fatigue.gear_fatigue import gear_fatigue_lives
 from wearsim.result import Life, LowerBound, life_of
-from wearsim.sizing.contact_fatigue import doubtful_hardness, fatigue_life
-from wearsim.sizing.gear_fatigue import gear_fatigue_lives
-from wearsim.sizing.strength import EnduredHours
 
 Stresses = Sequence[tuple[float, float]]
 """Highest pressures on a new flank under the loads of a duty, with the load factor [MPa], each with

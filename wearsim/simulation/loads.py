@@ -7,7 +7,7 @@ import numpy as np
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, Fault
-from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
 
 

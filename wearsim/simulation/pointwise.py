@@ -129,7 +129,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
     # Kernels compile where they are imported for the first time: each case imports its own.
     drive = case.drive
     if isinstance(drive, StrandDrive):
-        from wearsim.mechanisms.strand import StrandMechanism
+        from wearsim.mechanisms.strand.contact import StrandMechanism
 
         return StrandMechanism(
             strand=drive.tooth.strand,
@@ -143,7 +143,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
             modulus=case.modulus,
         )
     if isinstance(drive, GearDrive):
-        from wearsim.mechanisms.gear_pair import GearPairMechanism
+        from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 
         return GearPairMechanism(
             pair=drive.pair,
@@ -159,7 +159,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
 
 
 def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
-    from wearsim.mechanisms.prescribed import PrescribedMechanism
+    from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 
     table = drive.table
     path = table.sliding_distance

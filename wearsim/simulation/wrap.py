@@ -8,19 +8,19 @@ from functools import partial
 import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
+from wearsim.chain.drive_layout import Meetings
 from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError
-from wearsim.geometry.drive_layout import Meetings
 from wearsim.geometry.profile import Vector, area_between
-from wearsim.mechanisms.joint import elongation_per_loop
-from wearsim.mechanisms.wrap import WrapMechanism
-from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
+from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
+from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+from wearsim.mechanisms.wrap.joint import elongation_per_loop
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
+from wearsim.simulation.rating import rating, rating_warnings
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
-from wearsim.sizing.rating import rating, rating_warnings
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion

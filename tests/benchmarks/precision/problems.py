@@ -19,7 +19,7 @@ from wearsim.kernels.flank import flank_frame
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.wear import DEPTH_REACHED, soften, wear_depth
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import Law, archard, power

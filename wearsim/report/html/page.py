@@ -202,7 +202,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
 def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:
     if not result.inputs.get("uncertainty"):
         return []
-    from wearsim.study.scaled_percentiles import scaled_percentiles  # takes 0.4 s, for scipy.stats
+    from wearsim.runner.scaled_percentiles import scaled_percentiles  # takes 0.4 s, for scipy.stats
 
     found = scaled_percentiles(result, case, (0.1, 0.5, 0.9))
     names = ("P10: 9 of 10 live longer", "P50: half live longer", "P90: 1 of 10 lives longer")

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 import wearsim
-from wearsim.output import new_folder
+from wearsim.files import new_folder
 from wearsim.report.html.page import comparison_page, drive_page
 from wearsim.result import WearResult
 

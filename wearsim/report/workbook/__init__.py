@@ -5,7 +5,7 @@ from pathlib import Path
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.output import check_free, write_file
+from wearsim.files import check_free, write_file
 from wearsim.report.workbook.answer_page import write_answer_page
 from wearsim.report.workbook.book import Book
 from wearsim.report.workbook.charts import add_charts
