@@ -15,7 +15,7 @@ import wearsim
 from wearsim.case.load import load_case
 from wearsim.catalogue.tables import rows
 from wearsim.cli.main import wearsim_command
-from wearsim.command.registry import CALCULATIONS, OTHER_FILES
+from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.export.wheel_points import wheel_points
 from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.input.messages import Faults
@@ -87,7 +87,9 @@ def input_keys(model):
 
 
 def all_input_keys():
-    return {key for model in (CaseTables, *OTHER_FILES.values()) for key in input_keys(model)}
+    return {
+        key for model in (CaseTables, *map(tables_of, OTHER_FILES)) for key in input_keys(model)
+    }
 
 
 def keys_below(content):

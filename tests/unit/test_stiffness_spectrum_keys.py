@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from wearsim.command.registry import CALCULATIONS
+from wearsim.command.registry import tables_of
 from wearsim.errors import CaseError
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
@@ -96,7 +96,7 @@ def shown(base, *overrides):
 
 
 def test_every_key_is_walked(leaves):
-    assert CALCULATIONS["stiffness-spectrum"] is StiffnessSpectrumTables
+    assert tables_of("stiffness-spectrum") is StiffnessSpectrumTables
     assert set(leaves(StiffnessSpectrumTables)) == set(CHANGES)
 
 

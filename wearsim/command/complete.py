@@ -243,10 +243,10 @@ def _model(context: click.Context) -> "type[Table]":
     """Return the schema of the command or, of drives, of the case on the line."""
     if context.info_name not in _OF_DRIVES:
         # Models of tables take time to build, and a shell waits for them.
-        from wearsim.command.registry import CALCULATIONS
+        from wearsim.command.registry import CALCULATIONS, tables_of
 
         if context.info_name in CALCULATIONS:
-            return CALCULATIONS[context.info_name]
+            return tables_of(context.info_name)
     from wearsim.input.keys import schema_of
 
     return schema_of({"gear": {}} if any(map(_is_gear, _cases(context))) else {})

@@ -1,29 +1,35 @@
-"""The input files other than that of a chain drive."""
+"""The one list of the input files other than that of a chain drive: whose tables they hold."""
 
-from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
-from wearsim.handbook.face_load.keys import FaceLoadTables
-from wearsim.handbook.hertz_check.keys import HertzCheckTables
-from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
-from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.synthesise.keys import SynthesisTables
-from wearsim.handbook.wave_drive.keys import WaveDriveTables
+from importlib import import_module
+
 from wearsim.input.schema.calculation import CalculationTables
-from wearsim.input.schema.gear import GearTables
-from wearsim.study.sweep.keys import SweepTables
 
-CALCULATIONS: dict[str, type[CalculationTables]] = {
-    "strength": StrengthTables,
-    "stiffness-spectrum": StiffnessSpectrumTables,
-    "wave-drive": WaveDriveTables,
-    "face-load": FaceLoadTables,
-    "convex-concave": ConvexConcaveTables,
-    "synthesise": SynthesisTables,
-    "hertz-check": HertzCheckTables,
+_HANDBOOK = {
+    "strength": "StrengthTables",
+    "stiffness-spectrum": "StiffnessSpectrumTables",
+    "wave-drive": "WaveDriveTables",
+    "face-load": "FaceLoadTables",
+    "convex-concave": "ConvexConcaveTables",
+    "synthesise": "SynthesisTables",
+    "hertz-check": "HertzCheckTables",
 }
-"""By the command that reads them."""
+CALCULATIONS = tuple(_HANDBOOK)
+"""Commands that read an input file of their own."""
 
-OTHER_FILES: dict[str, type[CalculationTables]] = {
-    "gear": GearTables,
-    "sweep": SweepTables,
-    **CALCULATIONS,
+_PLACES = {
+    "gear": ("wearsim.input.schema.gear", "GearTables"),
+    "sweep": ("wearsim.study.sweep.keys", "SweepTables"),
+    **{
+        command: (f"wearsim.handbook.{command.replace('-', '_')}.keys", name)
+        for command, name in _HANDBOOK.items()
+    },
 }
+OTHER_FILES = tuple(_PLACES)
+"""Names of all such files."""
+
+
+def tables_of(name: str) -> type[CalculationTables]:
+    """Return the tables of one of `OTHER_FILES`; only these are imported."""
+    module, tables = _PLACES[name]
+    found: type[CalculationTables] = getattr(import_module(module), tables)
+    return found

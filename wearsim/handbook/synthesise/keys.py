@@ -1,6 +1,5 @@
 """The input of ``wearsim synthesise``: a gear pair and the contact stress along its lines of action."""
 
-import itertools
 import math
 from typing import Annotated, Literal
 
@@ -8,6 +7,7 @@ from pydantic import Field
 
 from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.material import MaterialTable
+from wearsim.input.schema.prescribed_stress import listed, stress_conflicts
 from wearsim.input.schema.table import Table
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
 
@@ -54,40 +54,6 @@ class StressTable(Table):
         """Return what is wrong between the keys of this table."""
         names = ("contact_stress_MPa", "pole_distance_mm")
         return stress_conflicts(self.contact_stress_MPa, self.pole_distance_mm, names)
-
-
-def stress_conflicts(
-    stress: tuple[float, ...], distance: tuple[float, ...] | None, names: tuple[str, str]
-) -> list[tuple[str, str]]:
-    """Return what is wrong with stresses and the distances from the pole at which they are given.
-
-    Parameters
-    ----------
-    stress : tuple of float
-        sigma_H [MPa].
-    distance : tuple of float, optional
-        l [mm]; None for one stress everywhere.
-    names : tuple of str
-        Keys of both.
-
-    Returns
-    -------
-    list of tuple
-        Key and what must hold.
-    """
-    found = []
-    if not all(value > 0.0 for value in stress) or not stress:
-        found.append((names[0], f"must be above 0 (got {_listed(stress)})"))
-    if distance is None:
-        if len(stress) > 1:
-            found.append((names[1], "several stresses need one distance for each"))
-        return found
-    if len(distance) != len(stress):
-        message = f"must have one entry for each stress, {len(stress)} (got {len(distance)})"
-        found.append((names[1], message))
-    if not all(a < b for a, b in itertools.pairwise(distance)):
-        found.append((names[1], f"must ascend (got {_listed(distance)})"))
-    return found
 
 
 class PhaseTable(Table):
@@ -175,7 +141,7 @@ class MeshFieldTable(Table):
             if not low < high
         ]
         if not all(abs(angle) < 90.0 for angle in self.directions_deg):
-            message = f"must be between -90 and 90 (got {_listed(self.directions_deg)})"
+            message = f"must be between -90 and 90 (got {listed(self.directions_deg)})"
             found.append(("directions_deg", message))
         return found
 
@@ -212,7 +178,3 @@ def _with_pole(phase: PhaseTable) -> tuple[float, float]:
     """Return the reach of a phase with the pole, where that is what it starts from."""
     low, high = phase.reach
     return (low, high) if phase.start else (min(low, 0.0), max(high, 0.0))
-
-
-def _listed(values: tuple[float, ...]) -> str:
-    return ", ".join(f"{value:g}" for value in values) or "nothing"

@@ -4,11 +4,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.handbook.synthesise.keys import stress_conflicts
 from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
 from wearsim.input.schema.material import MaterialTable
 from wearsim.input.schema.optimise import OptimiseTable
+from wearsim.input.schema.prescribed_stress import stress_conflicts
 from wearsim.input.schema.run import RunTable
 from wearsim.input.schema.stop import Depth
 from wearsim.input.schema.table import Table
