@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from wearsim._version import __version__
 
 _PUBLIC = {
     "Case": "wearsim.case.model",
@@ -43,6 +43,7 @@ __all__ = [
     "LowerBound",
     "WearResult",
     "WearsimError",
+    "__version__",
     "load_case",
     "simulate",
     "simulate_many",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.extras import Library, libraries
 
 LOWEST_PYTHON, NEWEST_PYTHON = (3, 11), (3, 13)
@@ -63,7 +63,7 @@ def findings(case: Path | None) -> list[Finding]:
         In the order to read them in.
     """
     return [
-        Finding("wearsim", "ok", f"{wearsim.__version__} in {Path(wearsim.__file__).parent}"),
+        Finding("wearsim", "ok", f"{__version__} in {Path(__file__).parent}"),
         _python(),
         Finding("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
         *(_version(known) for known in libraries() if not known.extra),

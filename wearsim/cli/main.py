@@ -10,7 +10,7 @@ from types import FrameType
 
 import click
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.cli.animate import animate
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
@@ -65,7 +65,7 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 
 
 @click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(wearsim.__version__, prog_name="wearsim")
+@click.version_option(__version__, prog_name="wearsim")
 @standard
 def wearsim_command() -> None:
     """Group of all commands."""

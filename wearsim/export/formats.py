@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.export.wheel_drawing import drawing_box, wheel_drawing
 from wearsim.export.wheel_shapes import State, WheelShape, wheel_shapes
@@ -86,7 +86,7 @@ def wheel_note(
         "All in mm, 1:1. Vertices lie on the computed outline within 1e-6 mm; between points of a curve "
         f"run arcs, {_greatest_sagitta(shapes):.1g} mm off their chords at most.",
         *(f"{text[0].upper()}{text[1:]}." for text in taken),
-        f"wearsim {wearsim.__version__}",
+        f"wearsim {__version__}",
     ]
 
 

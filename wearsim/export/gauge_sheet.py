@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.case.model import Case, GearDrive, WrapDrive
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.export.dxf import add_polyline, new_drawing
@@ -222,7 +222,7 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
         "shoulders on the tips. Try the gap worn most.",
         "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
         "with both shoulders on the tips; light along W then shows wear beyond the limit.",
-        f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {wearsim.__version__}",
+        f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {__version__}",
     ]
 
 

@@ -10,7 +10,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.chain.selection import Finding, overloading
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
@@ -272,7 +272,7 @@ def environment() -> dict[str, str]:
     """
     libraries = ("numpy", "scipy", "shapely", "numba", "pandas", "pydantic")
     return {
-        "wearsim": wearsim.__version__,
+        "wearsim": __version__,
         "kernels": source_hash(),
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import Any
 
-from wearsim import __version__
+from wearsim._version import __version__
 from wearsim.catalogue.tables import nearest
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
 from wearsim.report.answer import (
@@ -192,7 +192,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         defaults=defaults,
         warnings=result.warnings,
         versions=[
-            ("page written by", f"wearsim {wearsim.__version__}"),
+            ("page written by", f"wearsim {__version__}"),
             *result.environment.items(),
         ],
         citation=apa(result.environment["wearsim"]),
