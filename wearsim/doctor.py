@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 
+import wearsim
 from wearsim._version import __version__
 from wearsim.extras import Library, libraries
 
