@@ -14,7 +14,7 @@ from wearsim.files import check_folder
 from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
 from wearsim.handbook.convex_concave.model import convex_concave
 from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
-from wearsim.input.calculation import load_calculation
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
 
 ROOT = Path(__file__).parents[2]

@@ -15,8 +15,8 @@ import shapely
 from scipy.spatial import cKDTree
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.geometry.measured.dxf import outline_from_dxf
+from wearsim.case.load_case import load_case
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.outline import Outline
 from wearsim.result import WearResult
 

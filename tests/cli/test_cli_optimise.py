@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.runner import run as run_module
+from wearsim.runner import run_study as run_module
 
 CASES = Path(__file__).parents[2] / "cases"
 WIDTH = '"sprocket.face_width_mm" = {low = 8.0, high = 16.0}\n'

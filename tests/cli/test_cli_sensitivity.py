@@ -65,7 +65,7 @@ def test_indices_agree_with_scipy(cli, case, tmp_path):
     """The indices of the same function by scipy's own samples and estimators."""
     from scipy.stats import sobol_indices, uniform
 
-    from wearsim.runner.run import run_study
+    from wearsim.runner.run_study import run_study
     from wearsim.runner.scatter import load_scattered
     from wearsim.runner.workers import Threads
 

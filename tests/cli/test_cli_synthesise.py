@@ -19,7 +19,7 @@ from wearsim.errors import CaseError
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import loaded_pair, phases
 from wearsim.handbook.synthesise.sheet import synthesis_sheet
-from wearsim.input.calculation import load_calculation
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
 from wearsim.input.document import CaseText
 from wearsim.page.answers import edited_case

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from shapely import affinity
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import StrandDrive
 from wearsim.export.gauge import gauge
 from wearsim.export.wheel_shapes import wheel_shapes

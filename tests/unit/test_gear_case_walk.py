@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 import wearsim
 from wearsim.input.schema.gear import GearTables
-from wearsim.simulation.many import CaseLife
+from wearsim.simulation.simulate_many import CaseLife
 
 WITHOUT_EFFECT = {
     "format_version": "1 only",

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from wearsim.errors import CaseError
-from wearsim.handbook.hertz_check.document import load_hertz_check
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.keys import HertzCheckTables
 from wearsim.handbook.hertz_check.model import hertz_check
+from wearsim.handbook.hertz_check.published import load_hertz_check
 from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 
 BASE = {

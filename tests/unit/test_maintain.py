@@ -14,12 +14,12 @@ from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
 from wearsim.report.service import life_json
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.law import wear_law
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.law_of_case import wear_law
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.study.maintain.model import MaintenancePlan, Policy, cost_per_1000_hours, maintain
+from wearsim.study.maintain.reversed_sprocket import turned_life
 from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
 from wearsim.study.maintain.tooth_count import meetings_around, variant
-from wearsim.study.maintain.turned import turned_life
 from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.dwelling import run_dwelling

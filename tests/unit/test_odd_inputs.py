@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError, GeometryError
-from wearsim.geometry.measured.dxf import outline_from_dxf
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.measured.points import flank_from_points
 from wearsim.input.document import CaseText
 from wearsim.report.answer import findings

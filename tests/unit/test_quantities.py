@@ -12,24 +12,24 @@ from click.testing import CliRunner
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.catalogue.tables import rows
+from wearsim.case.load_case import load_case
+from wearsim.catalogue.catalogues import rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.export.wheel_points import wheel_points
 from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
 from wearsim.input.schema.uncertainty import Distribution
-from wearsim.input.tables import read_prescribed
 from wearsim.quantities import Quantity, quantities
-from wearsim.report.compare import comparison_table
-from wearsim.report.loads import loads_json
-from wearsim.report.profile import profile_table
+from wearsim.report.comparison import comparison_table
+from wearsim.report.flank_table import profile_table
+from wearsim.report.loads_table import loads_json
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.runner.scatter import Scatter
 from wearsim.runner.shard import COLUMNS
-from wearsim.simulation.loads import tooth_loads
+from wearsim.simulation.tooth_loads import tooth_loads
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import OPTIONAL, REQUIRED
 from wearsim.study.calibrate.sheet import readings_table, values_table

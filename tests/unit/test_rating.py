@@ -6,7 +6,7 @@ import wearsim
 from wearsim.chain.selection import Finding, RatedDrive, assess
 from wearsim.errors import CaseError
 from wearsim.report.rating import drive_notes
-from wearsim.simulation.rating import (
+from wearsim.simulation.chain_rating import (
     rated_drive,
     rating,
     rating_warnings,

@@ -16,7 +16,8 @@ from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.report.answer import answer, ending, grouped, limit_state
 from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
-from wearsim.report.html import page, writer
+from wearsim.report.html import page_content as page
+from wearsim.report.html import writer
 from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
 from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.lives_chart import lives_chart

@@ -9,6 +9,7 @@ import pytest
 
 from wearsim.contact.engagement import Kind
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.kernels.hertz_wear import flank_rate
 from wearsim.kernels.rosenbrock import (
     ERROR,
     GAMMA,
@@ -21,7 +22,6 @@ from wearsim.kernels.rosenbrock import (
 )
 from wearsim.kernels.steps import STATE_ROWS, between
 from wearsim.kernels.tridiagonal import factorise, solve
-from wearsim.kernels.wear import flank_rate
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.advance import run_advance

@@ -15,9 +15,9 @@ import wearsim
 from wearsim.errors import CaseError, Fault, OutputError, StudyError
 from wearsim.input.document import read_document
 from wearsim.runner import design as design_module
-from wearsim.runner import run as run_module
+from wearsim.runner import run_study as run_module
 from wearsim.runner.design import Engine, content_hash, design, replaced
-from wearsim.runner.run import run_study
+from wearsim.runner.run_study import run_study
 from wearsim.runner.shard import run_shard, shards
 from wearsim.runner.workers import KeptOpen, Threads
 

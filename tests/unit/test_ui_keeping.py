@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("nicegui", reason="nicegui is not installed")
 
-from wearsim.page import keeping
+from wearsim.page import saving as keeping
 from wearsim.page.file import read_file
 
 WINDOWS = b"\xef\xbb\xbfa = 1\r\nb = 2\r\n"

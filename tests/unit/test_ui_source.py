@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
 from wearsim.errors import CaseError
 from wearsim.input.document import CaseText

@@ -12,7 +12,7 @@ from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
-from wearsim.kernels import wrap as kernels
+from wearsim.kernels import wrap_equilibrium as kernels
 from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 PITCH, ROLLER = 12.7, 8.51

@@ -14,10 +14,10 @@ import tomlkit
 import wearsim
 from wearsim.errors import CaseError
 from wearsim.geometry.profile import Profile
-from wearsim.study.calibrate import blend
-from wearsim.study.calibrate import course as courses
+from wearsim.study.calibrate import interpolation as blend
 from wearsim.study.calibrate import model as calibrations
-from wearsim.study.calibrate.answer import Options
+from wearsim.study.calibrate import predicted_history as courses
+from wearsim.study.calibrate.calibration import Options
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import Reading
 

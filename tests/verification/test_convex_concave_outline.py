@@ -10,7 +10,7 @@ import shapely
 from scipy.spatial import cKDTree
 
 from wearsim.errors import GeometryError
-from wearsim.export.dxf import write_dxf
+from wearsim.export.dxf_writer import write_dxf
 from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import ConvexConcave
 from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear

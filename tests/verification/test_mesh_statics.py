@@ -14,7 +14,7 @@ from wearsim.handbook.stiffness_spectrum.mesh_statics import (
     mesh_stiffness,
 )
 from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
-from wearsim.input.calculation import load_calculation
+from wearsim.input.calculation_file import load_calculation
 
 CASE = {
     "format_version": 1,

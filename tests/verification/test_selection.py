@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 import pytest
 
+from wearsim.catalogue.catalogues import chains
 from wearsim.catalogue.factors import rows
-from wearsim.catalogue.tables import chains
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,

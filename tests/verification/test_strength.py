@@ -20,7 +20,7 @@ from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import pair_strength
 from wearsim.handbook.strength.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import SpurMesh
-from wearsim.input.calculation import load_calculation
+from wearsim.input.calculation_file import load_calculation
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
 CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-improved", "b-carburised")}

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.catalogue.tables import chains
+from wearsim.catalogue.catalogues import chains
 from wearsim.geometry import measuring
 from wearsim.geometry.forms import gost591, iso606
 from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap

@@ -20,7 +20,7 @@ from wearsim.geometry.profile import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.dwelling import DwellingTrajectory, run_dwelling

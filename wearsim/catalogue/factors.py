@@ -4,7 +4,7 @@ import csv
 from functools import cache
 from pathlib import Path
 
-from wearsim.catalogue.tables import nearest
+from wearsim.catalogue.catalogues import nearest
 from wearsim.errors import CaseError, Fault
 
 

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from wearsim.catalogue.tables import rows
+from wearsim.catalogue.catalogues import rows
 
 
 @cache

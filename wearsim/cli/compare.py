@@ -5,9 +5,9 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.cases_and_runs import results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.sources import results_of
-from wearsim.command.standard import SOME_FAILED, overrides, standard, warn
+from wearsim.command.options import SOME_FAILED, overrides, standard, warn
 from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
 
 
@@ -39,11 +39,11 @@ def compare(
 
         check_folder(out, force)
     found = results_of(sources, settings, as_json)
-    from wearsim.report.compare import comparison_text, differing_limits, distinct
+    from wearsim.report.comparison import comparison_text, differing_limits, distinct
 
     results = distinct(list(found.values()), [str(path) for path in found])
     if out is not None:
-        from wearsim.report.compare import save_comparison
+        from wearsim.report.comparison import save_comparison
 
         save_comparison(results, out, force)
         warn(f"written to {out}")

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.command.cases_and_runs import check_settings
+from wearsim.command.options import load_cases, overrides, standard, worn
 from wearsim.command.single_file import check_place, format_of, write_content
-from wearsim.command.sources import check_settings
-from wearsim.command.standard import load_cases, overrides, standard, worn
 from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:

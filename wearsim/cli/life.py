@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath, complete_key
-from wearsim.command.standard import (
+from wearsim.command.options import (
     NOT_MET,
     SOME_FAILED,
     error_json,
@@ -166,7 +166,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         content = life_json(result)
         if grid is not None:
-            from wearsim.report.grid import grid_json
+            from wearsim.report.grid_convergence import grid_json
 
             content["grid"] = grid_json(grid)
         print_json(content, path, result.warnings)
@@ -175,7 +175,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         click.echo(answer(result, str(path)))
         if grid is not None:
-            from wearsim.report.grid import grid_text
+            from wearsim.report.grid_convergence import grid_text
 
             click.echo(grid_text(grid))
 

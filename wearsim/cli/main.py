@@ -26,7 +26,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
-from wearsim.command.standard import BAD_INPUT, exit_code, show_error, standard
+from wearsim.command.options import BAD_INPUT, exit_code, show_error, standard
 from wearsim.errors import WearsimError
 from wearsim.handbook.convex_concave.command import convex_concave
 from wearsim.handbook.face_load.command import face_load

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import load_cases, overrides, standard
+from wearsim.command.options import load_cases, overrides, standard
 from wearsim.errors import OutputError
 
 
@@ -27,7 +27,7 @@ def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> No
         if out.resolve() == case.resolve():
             raise OutputError(f"{out}: must not be the case itself: choose another place")
     (loaded,) = load_cases([case], settings, as_json=False)
-    from wearsim.report.profile import profile_table
+    from wearsim.report.flank_table import profile_table
 
     text = profile_table(loaded).to_csv(index=False)
     if str(out) == "-":

@@ -5,7 +5,7 @@ import json
 import click
 
 from wearsim.command.complete import complete_kind
-from wearsim.command.standard import standard
+from wearsim.command.options import standard
 
 
 @click.command(short_help="JSON Schema of the input file or of the result.")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import overrides, standard, warn
+from wearsim.command.options import overrides, standard, warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
     opened = _Opened(case, settings)
     opened()
-    from wearsim.page.listener import loopback_socket
+    from wearsim.page.listening_socket import loopback_socket
 
     listener = loopback_socket(port)
     from wearsim.page.server import serve  # takes a second

@@ -131,7 +131,7 @@ def complete_chain(
 
 
 def _chains() -> list[str]:
-    from wearsim.catalogue.tables import chains
+    from wearsim.catalogue.catalogues import chains
 
     return [name for name in chains() if " " not in name]
 
@@ -234,7 +234,7 @@ def _plain_words(values: tuple[str, ...]) -> list[str]:
 
 
 def _materials() -> list[str]:
-    from wearsim.catalogue.tables import materials
+    from wearsim.catalogue.catalogues import materials
 
     return [name for name in materials() if " " not in name]
 

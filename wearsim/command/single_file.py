@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from wearsim.command.standard import warn
+from wearsim.command.options import warn
 from wearsim.errors import OutputError
 
 

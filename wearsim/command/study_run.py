@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.standard import SOME_FAILED, warn
+from wearsim.command.options import SOME_FAILED, warn
 from wearsim.command.study import Place
 from wearsim.errors import StudyError
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from wearsim.runner.design import Design
-    from wearsim.runner.run import Told
+    from wearsim.runner.run_study import Told
     from wearsim.runner.store import Store
 
 INTERRUPTED = 130
@@ -43,7 +43,7 @@ def run(
     pandas.DataFrame or None
         A row for each case; None for a dry run.
     """
-    from wearsim.runner.run import run_study
+    from wearsim.runner.run_study import run_study
     from wearsim.runner.store import check_store
 
     workers = place.workers()
@@ -81,7 +81,7 @@ def in_batches(
     callable
         Runs a batch and returns a row for each case.
     """
-    from wearsim.runner.run import run_study
+    from wearsim.runner.run_study import run_study
     from wearsim.runner.workers import KeptOpen
 
     workers, done = KeptOpen(place.workers()), 0
@@ -202,7 +202,7 @@ def _counting(text: str) -> "Iterator[Told]":
     if quiet or not sys.stderr.isatty():
         yield lambda done, count: None
         return
-    from wearsim.command.counting import counting
+    from wearsim.command.progress_bar import counting
 
     with counting(text) as told:
         yield told

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from wearsim.command.standard import warn
+from wearsim.command.options import warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool
     force : bool
         Replace what is there.
     """
-    from wearsim.report.compare import distinct
+    from wearsim.report.comparison import distinct
     from wearsim.report.workbook import save_workbook
 
     names = [str(path) for path in results]

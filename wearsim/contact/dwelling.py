@@ -18,7 +18,7 @@ from wearsim.kernels.event_rows import (
     EVENT_SPEED,
     EVENT_TOUCHED,
 )
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
 
 Rows = NDArray[np.float64]
 

@@ -48,10 +48,10 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
     note = wheel_note(case, result, shapes, states)
     drawing = wheel_drawing(shapes, states, note)
     if form == "svg":
-        from wearsim.export.paper import svg_text
+        from wearsim.export.printed_page import svg_text
 
         return svg_text(drawing, drawing_box(shapes, note)).encode()
-    from wearsim.export.dxf import dxf_text
+    from wearsim.export.dxf_writer import dxf_text
 
     return dxf_text(drawing).encode()
 

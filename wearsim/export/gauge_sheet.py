@@ -9,7 +9,7 @@ import numpy as np
 from wearsim._version import __version__
 from wearsim.case.model import Case, GearDrive, WrapDrive
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.export.dxf import add_polyline, new_drawing
+from wearsim.export.dxf_writer import add_polyline, new_drawing
 from wearsim.export.gauge import Gauge, gauge
 from wearsim.export.wheel_drawing import add_text
 from wearsim.export.wheel_shapes import wheel_shapes
@@ -93,10 +93,10 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
         raise CaseError([Fault(message, "stop", case.name)])
     drawing, (width, height) = sheet_drawing(case, result)
     if form == "dxf":
-        from wearsim.export.dxf import dxf_text
+        from wearsim.export.dxf_writer import dxf_text
 
         return dxf_text(drawing).encode()
-    from wearsim.export.paper import pdf_bytes, svg_text
+    from wearsim.export.printed_page import pdf_bytes, svg_text
 
     if form == "svg":
         return svg_text(drawing, (0.0, 0.0, width, height)).encode()

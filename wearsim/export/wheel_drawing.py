@@ -5,7 +5,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from wearsim.export.dxf import add_polyline, new_drawing
+from wearsim.export.dxf_writer import add_polyline, new_drawing
 from wearsim.export.wheel_shapes import State, WheelShape
 
 if TYPE_CHECKING:

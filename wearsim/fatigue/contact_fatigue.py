@@ -7,7 +7,7 @@ project's reconstruction.
 import math
 from collections.abc import Mapping, Sequence
 
-from wearsim.case.fatigue import FlankMaterial
+from wearsim.case.flank_endurance import FlankMaterial
 from wearsim.fatigue.endurance import (
     CONTACT_EXPONENT,
     Endurance,

@@ -1,6 +1,6 @@
 """Contact fatigue of a gear pair whose flanks wear: hours until pitting is to be expected."""
 
-from wearsim.case.fatigue import FatigueInput
+from wearsim.case.flank_endurance import FatigueInput
 from wearsim.case.model import Case, GearDrive
 from wearsim.contact.hertz import peak_pressure
 from wearsim.fatigue.contact_fatigue import fatigue_life

@@ -6,8 +6,8 @@ from nicegui import ui
 
 from wearsim.errors import Fault
 from wearsim.page.answers import Pictures
+from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
-from wearsim.page.paint import Palette
 from wearsim.report.answer import (
     BAND,
     LIMITS,

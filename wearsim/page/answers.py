@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.input.document import CaseText, retitled

@@ -7,7 +7,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader
 from nicegui import ui
 
-from wearsim.page.paint import Palette, figure
+from wearsim.page.chart_colours import Palette, figure
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.sketch import Sketch
 

@@ -6,7 +6,7 @@ from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.catalogue.tables import chains, rows, wear_conditions
+from wearsim.catalogue.catalogues import chains, rows, wear_conditions
 from wearsim.input.keys import parts, schema_fields, schema_of, tables_in, words
 from wearsim.input.schema import Table
 from wearsim.quantities import quantities

@@ -10,12 +10,12 @@ import uvicorn
 from fastapi import FastAPI
 from nicegui import app, ui
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
+from wearsim.page.editor import CasePage
 from wearsim.page.file import CaseFile
 from wearsim.page.guard import Guard
-from wearsim.page.page import CasePage
 from wearsim.simulation import simulate
 
 _RECONNECT = 3600.0

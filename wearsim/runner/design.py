@@ -9,7 +9,7 @@ from pathlib import PurePath
 from typing import Any
 
 from wearsim._version import __version__
-from wearsim.catalogue.tables import nearest
+from wearsim.catalogue.catalogues import nearest
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
 from wearsim.input.keys import schema_fields, schema_of

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case, WrapDrive
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector

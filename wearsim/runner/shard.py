@@ -8,13 +8,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import StudyError, WearsimError
 from wearsim.result import Life
 from wearsim.result.folder import with_files
 from wearsim.runner.design import Design, Engine, content_hash, engine
-from wearsim.simulation.many import CaseLife, simulate_many
+from wearsim.simulation.simulate_many import CaseLife, simulate_many
 
 COLUMNS = (
     "case_index", "life_hours", "hours_run", "cycles_run", "stop", "numerical_error", "warnings",

@@ -13,7 +13,7 @@ from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
+from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -20,7 +20,7 @@ def convex_concave(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
     from wearsim.handbook.convex_concave.model import convex_concave as layout
     from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
-    from wearsim.input.calculation import load_calculation
+    from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, ConvexConcaveTables, settings)
     return convex_concave_sheet(tables.title, layout(tables))

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from wearsim.command.calculation_sheet import Sheet
-from wearsim.export.dxf import write_dxf
+from wearsim.export.dxf_writer import write_dxf
 from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import SignCondition
 from wearsim.geometry.gear.convex_concave_flank import Flank

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -19,7 +19,7 @@ def face_load(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.face_load.keys import FaceLoadTables
     from wearsim.handbook.face_load.model import face_load as along_the_face
     from wearsim.handbook.face_load.sheet import face_load_sheet
-    from wearsim.input.calculation import defaults_taken, load_calculation
+    from wearsim.input.calculation_file import defaults_taken, load_calculation
 
     tables = load_calculation(case, FaceLoadTables, settings)
     return face_load_sheet(tables.title, along_the_face(tables), defaults_taken(tables))

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.calculation import calculation
-from wearsim.command.standard import working
+from wearsim.command.calculation_command import calculation
+from wearsim.command.options import working
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -27,8 +27,8 @@ def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "Sheet":
     Published stresses are held against them: which inputs give them, what one input alone would
     have to be, and what is lost in the published comparison.
     """
-    from wearsim.handbook.hertz_check.document import load_hertz_check
     from wearsim.handbook.hertz_check.model import hertz_check as checked
+    from wearsim.handbook.hertz_check.published import load_hertz_check
     from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 
     tables, axis = load_hertz_check(case, settings)

@@ -13,9 +13,9 @@ from wearsim.contact.line_stress import (
     axis_von_mises,
     greatest_von_mises,
 )
-from wearsim.handbook.hertz_check.document import AxisFile
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.model import HertzCheck
+from wearsim.handbook.hertz_check.published import AxisFile
 from wearsim.report.figure_text import literal
 
 _DEEPEST = 3.0

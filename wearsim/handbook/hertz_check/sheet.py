@@ -16,11 +16,11 @@ from wearsim.contact.line_stress import (
     greatest_shear,
     greatest_von_mises,
 )
-from wearsim.handbook.hertz_check.document import AxisFile
 from wearsim.handbook.hertz_check.figure import hertz_check_figure
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.model import ROUNDING, Comparison, HertzCheck
 from wearsim.handbook.hertz_check.pole_contact import Change, PoleContact, share_for
+from wearsim.handbook.hertz_check.published import AxisFile
 from wearsim.handbook.hertz_check.text import ASSUMPTIONS, hertz_check_text
 
 _WIDE = 0.05

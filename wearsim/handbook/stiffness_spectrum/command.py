@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -20,7 +20,7 @@ def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
     from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum as spectrum
     from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
-    from wearsim.input.calculation import load_calculation
+    from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, StiffnessSpectrumTables, settings)
     return stiffness_spectrum_sheet(tables, spectrum(tables))

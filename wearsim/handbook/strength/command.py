@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -20,7 +20,7 @@ def strength(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.strength.keys import StrengthTables
     from wearsim.handbook.strength.model import pair_strength
     from wearsim.handbook.strength.sheet import strength_sheet
-    from wearsim.input.calculation import load_calculation
+    from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, StrengthTables, settings)
     return strength_sheet(tables, pair_strength(tables))

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -20,7 +20,7 @@ def synthesise(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.synthesise.keys import SynthesisTables
     from wearsim.handbook.synthesise.model import loaded_pair, phases
     from wearsim.handbook.synthesise.sheet import synthesis_sheet
-    from wearsim.input.calculation import load_calculation
+    from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, SynthesisTables, settings)
     pair = loaded_pair(tables)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.catalogue.tables import materials
+from wearsim.catalogue.catalogues import materials
 from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.errors import GeometryError

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.command.calculation import calculation
+from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import Sheet
@@ -19,7 +19,7 @@ def wave_drive(case: Path, settings: tuple[str, ...]) -> "Sheet":
     from wearsim.handbook.wave_drive.keys import WaveDriveTables
     from wearsim.handbook.wave_drive.model import wave_drive as diameters
     from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
-    from wearsim.input.calculation import defaults_taken, load_calculation
+    from wearsim.input.calculation_file import defaults_taken, load_calculation
 
     tables = load_calculation(case, WaveDriveTables, settings)
     return wave_drive_sheet(tables.title, diameters(tables), defaults_taken(tables))

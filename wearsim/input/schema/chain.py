@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
-from wearsim.catalogue.tables import chain_name, chains, nearest_chain
+from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
 from wearsim.input.schema.table import Table
 from wearsim.input.units import Positive
 

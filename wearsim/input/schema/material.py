@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
-from wearsim.catalogue.tables import materials
+from wearsim.catalogue.catalogues import materials
 from wearsim.input.schema.table import Table, known
 from wearsim.input.units import Number, Positive
 

@@ -5,7 +5,7 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
-from wearsim.catalogue.tables import nearest
+from wearsim.catalogue.catalogues import nearest
 from wearsim.quantities import quantities
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
-from wearsim.catalogue.tables import wear_conditions
+from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.input.schema.table import Table, known
 from wearsim.input.units import Number, Positive, PositiveNumber
 

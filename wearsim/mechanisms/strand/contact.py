@@ -9,7 +9,7 @@ import numpy as np
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.geometry.forms.evolute import Strand
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.strand import strand_contact
 
 

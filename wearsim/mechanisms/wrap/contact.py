@@ -12,7 +12,6 @@ from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
-from wearsim.kernels.wrap import JUMPED, SEATED, WORK_ROWS
 from wearsim.kernels.wrap_cycle import (
     ARTICULATION_SLIP,
     CYCLE_NUMBERS,
@@ -25,6 +24,7 @@ from wearsim.kernels.wrap_cycle import (
     WRAP_ANGLE,
     wrap_events,
 )
+from wearsim.kernels.wrap_equilibrium import JUMPED, SEATED, WORK_ROWS
 from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
 
 Rows = NDArray[np.float64]

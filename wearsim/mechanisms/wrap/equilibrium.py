@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from wearsim.errors import ContactError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, WornPath
-from wearsim.kernels.wrap import (
+from wearsim.kernels.wrap_cycle import LOOSEST
+from wearsim.kernels.wrap_equilibrium import (
     CENTRE_X,
     CENTRE_Y,
     CONSTANTS,
@@ -30,7 +31,6 @@ from wearsim.kernels.wrap import (
     residual,
     solve_wrap,
 )
-from wearsim.kernels.wrap_cycle import LOOSEST
 
 _PHASES = 9
 """Phases of a pitch, ends included, in which a chain is tried for jumping."""

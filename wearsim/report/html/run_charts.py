@@ -22,7 +22,7 @@ from wearsim.report.html.charts import (
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
-    from wearsim.simulation.loads import ToothLoads
+    from wearsim.simulation.tooth_loads import ToothLoads
 
 _ROWS = 21
 """Rows of a table of values beside a chart."""

@@ -12,7 +12,7 @@ from plotly.offline import get_plotlyjs
 
 from wearsim._version import __version__
 from wearsim.files import new_folder
-from wearsim.report.html.page import comparison_page, drive_page
+from wearsim.report.html.page_content import comparison_page, drive_page
 from wearsim.result import WearResult
 
 _HERE = Path(__file__).parent

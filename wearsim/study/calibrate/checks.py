@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 
 from wearsim.case.model import Case, PrescribedDrive, WrapDrive
 from wearsim.errors import CaseError, Fault
-from wearsim.study.calibrate.answer import Options
-from wearsim.study.calibrate.course import Course
+from wearsim.study.calibrate.calibration import Options
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
+from wearsim.study.calibrate.predicted_history import Course
 from wearsim.study.calibrate.readings import (
     DEEPEST,
     ELONGATION,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import finite, overrides, print_json, standard, warn, working
+from wearsim.command.options import finite, overrides, print_json, standard, warn, working
 
 if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
@@ -59,7 +59,7 @@ def calibrate(
 
         check_folder(out, force)
         _check_apart(out, (case, measurements))
-    from wearsim.study.calibrate.answer import Options
+    from wearsim.study.calibrate.calibration import Options
     from wearsim.study.calibrate.model import calibrate as calibrated
     from wearsim.study.calibrate.sheet import calibration_json, calibration_text, save_calibration
 

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.input.document import read_document
 from wearsim.runner.scatter import plain_document
-from wearsim.study.calibrate.answer import Calibration, Options
+from wearsim.study.calibrate.calibration import Calibration, Options
+from wearsim.study.calibrate.case_fit import Fitting
 from wearsim.study.calibrate.checks import check_readings
-from wearsim.study.calibrate.fitting import Fitting
 from wearsim.study.calibrate.readings import read_readings
-from wearsim.study.constant import check_constant
+from wearsim.study.constant_coefficient import check_constant
 
 
 def calibrate(

@@ -6,8 +6,8 @@ from typing import Protocol
 import numpy as np
 
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibrate.blend import Blend
-from wearsim.study.calibrate.course import Course
+from wearsim.study.calibrate.interpolation import Blend
+from wearsim.study.calibrate.predicted_history import Course
 from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, POINT, Reading
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
 from wearsim.runner.design import value_at
-from wearsim.study.calibrate.blend import Blend, Courses, Log
+from wearsim.study.calibrate.interpolation import Blend, Courses, Log
 from wearsim.study.calibrate.observe import State
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"

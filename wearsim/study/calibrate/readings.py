@@ -12,8 +12,8 @@ import numpy as np
 from wearsim.errors import CaseError, Fault
 from wearsim.extras import library
 from wearsim.geometry.profile import Vector
+from wearsim.input.csv_tables import header_faults, read_columns
 from wearsim.input.messages import Faults
-from wearsim.input.tables import header_faults, read_columns
 
 if TYPE_CHECKING:
     import pandas as pd

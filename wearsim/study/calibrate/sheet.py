@@ -12,8 +12,8 @@ from wearsim.files import new_folder
 from wearsim.report.answer import grouped, numbered, row
 from wearsim.report.figures import save_figure
 from wearsim.result.folder import with_files
-from wearsim.study.calibrate.answer import Calibration, Part, Value
-from wearsim.study.calibrate.fit import Interval
+from wearsim.study.calibrate.calibration import Calibration, Part, Value
+from wearsim.study.calibrate.least_squares import Interval
 
 
 def calibration_text(found: Calibration) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import error_json, load_cases, overrides, print_json, standard, warn
+from wearsim.command.options import error_json, load_cases, overrides, print_json, standard, warn
 from wearsim.errors import WearsimError
 
 

@@ -9,10 +9,10 @@ from wearsim.errors import CaseError, ContactError, ConvergenceError, Fault, Wea
 from wearsim.input.schema import MaintenanceTable
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
-from wearsim.simulation.wrap import wrap_contact
-from wearsim.study.constant import check_constant
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.constant_coefficient import check_constant
+from wearsim.study.maintain.reversed_sprocket import turned_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
-from wearsim.study.maintain.turned import turned_life
 
 Progress = Callable[[int, int, str], None]
 """Told before each run how many are done, of how many, and what comes next."""

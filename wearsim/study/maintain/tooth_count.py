@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import PurePath
 from typing import Any
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case, WrapDrive
 from wearsim.chain.drive_layout import Meetings
 from wearsim.input.schema.sprocket import STANDARD_FORMS

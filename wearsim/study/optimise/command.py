@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import overrides, print_json, standard, warn
+from wearsim.command.options import overrides, print_json, standard, warn
 from wearsim.command.study import Place, place_options
 from wearsim.command.study_run import in_batches, timed
 

@@ -6,7 +6,7 @@ from itertools import zip_longest
 from pathlib import Path, PurePath
 from typing import Any
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document, read_document
@@ -14,7 +14,7 @@ from wearsim.input.schema.dotted import all_differ
 from wearsim.input.schema.optimise import MeasureLimit, OptimiseTable
 from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
 from wearsim.runner.scatter import WITH_FATIGUE
-from wearsim.study.optimise.blank import blank_mass, mass_assumption
+from wearsim.study.optimise.mass import blank_mass, mass_assumption
 from wearsim.study.optimise.search_space import SearchSpace, search_space
 
 _BEYOND = 1.02

@@ -10,7 +10,6 @@ import pandas as pd
 from wearsim.command.study_files import plain, save_figures, save_texts
 from wearsim.report.answer import grouped
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
-from wearsim.study.kinds import kinds
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.figure import optimise_figures
 from wearsim.study.optimise.trials import (
@@ -21,6 +20,7 @@ from wearsim.study.optimise.trials import (
     limit_names,
     margins,
 )
+from wearsim.study.similar_texts import kinds
 
 _SAME = 1e-6
 """Relative scatter of a measure that is none."""

@@ -13,9 +13,9 @@ from wearsim.input.schema.optimise import MeasureLimit
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
 from wearsim.simulation.new_flank import new_peak_pressure
-from wearsim.study.kinds import kinds
-from wearsim.study.optimise.blank import blank_mass
+from wearsim.study.optimise.mass import blank_mass
 from wearsim.study.optimise.model import OptimiseStudy
+from wearsim.study.similar_texts import kinds
 
 MAXIMISED = ("life_hours",)
 """Measures of which more is better; of the others less is."""

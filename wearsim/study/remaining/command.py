@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import (
+from wearsim.command.options import (
     error_json,
     finite,
     load_cases,

@@ -10,8 +10,8 @@ from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
-from wearsim.simulation.wrap import wrap_contact
-from wearsim.study.constant import check_constant
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.constant_coefficient import check_constant
 from wearsim.study.remaining.over_pins import ambiguity
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)

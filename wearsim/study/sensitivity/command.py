@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import overrides, print_json, standard, warn, working
+from wearsim.command.options import overrides, print_json, standard, warn, working
 from wearsim.command.study import Place, place_options
 from wearsim.command.study_run import run
 

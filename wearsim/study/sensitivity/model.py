@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import StudyError
 from wearsim.extras import library

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.standard import NOT_MET, error_json, load_cases, print_json, warn, working
+from wearsim.command.options import NOT_MET, error_json, load_cases, print_json, warn, working
 from wearsim.errors import CaseError, Fault, WearsimError
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def solve(
         Exit code.
     """
     (case,) = load_cases([path], settings, as_json)
-    from wearsim.case.load import load_case
+    from wearsim.case.load_case import load_case
     from wearsim.study.solve_for.model import solve_for
 
     try:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.standard import overrides, standard, warn
+from wearsim.command.options import overrides, standard, warn
 from wearsim.command.study import Place, place_options
 from wearsim.command.study_run import exit_code, run
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.calculation import load_calculation
+from wearsim.input.calculation_file import load_calculation
 from wearsim.input.document import read_document, retitled
 from wearsim.runner.design import Design, design
 from wearsim.study.sweep.keys import Range, SweepTables

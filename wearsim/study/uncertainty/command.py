@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import NOT_MET, finite, overrides, print_json, standard, warn, working
+from wearsim.command.options import NOT_MET, finite, overrides, print_json, standard, warn, working
 from wearsim.command.study import Place, place_options
 from wearsim.command.study_run import exit_code, run
 

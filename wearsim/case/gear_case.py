@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wearsim.case.fatigue import resolve_fatigue
+from wearsim.case.flank_endurance import resolve_fatigue
 from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.model import Case, GearDrive
 from wearsim.case.shared import (
@@ -17,8 +17,8 @@ from wearsim.case.shared import (
 )
 from wearsim.contact.hertz import contact_modulus
 from wearsim.geometry.gear.mesh import Mesh
+from wearsim.input.completion import Record
 from wearsim.input.messages import Faults
-from wearsim.input.resolution import Record
 from wearsim.input.schema.gear import GearTable, GearTables
 
 PAIR_STIFFNESS = 14.0

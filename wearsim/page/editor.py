@@ -20,13 +20,13 @@ from wearsim.page.answers import (
     life,
     pictures,
 )
+from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.fields import Field
 from wearsim.page.file import CaseFile
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.header import Header
-from wearsim.page.keeping import Keeper
-from wearsim.page.paint import palettes
+from wearsim.page.saving import Keeper
 from wearsim.page.source import shown_values, tables_of, with_table, with_value, without_table
 from wearsim.page.threads import in_thread
 from wearsim.report.answer import headline

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, flank_rate
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
     CUBE,
@@ -26,7 +27,6 @@ from wearsim.kernels.steps import (
     between,
     wear_in_steps,
 )
-from wearsim.kernels.wear import DEPTH_REACHED, HORIZON, RUNNING, flank_rate
 
 if TYPE_CHECKING:
     from collections.abc import Callable

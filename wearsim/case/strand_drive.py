@@ -2,14 +2,14 @@
 
 import math
 
-from wearsim.case.duty import Duty, LoadBlock
-from wearsim.case.flank import evolute_tooth, points_tooth
+from wearsim.case.duty_blocks import Duty, LoadBlock
 from wearsim.case.model import Block, PrescribedDrive, StrandDrive, WearInput, heaviest
 from wearsim.case.shared import FLANK_NODES
-from wearsim.catalogue.tables import Chain
-from wearsim.input.resolution import Resolution
+from wearsim.case.working_flank import evolute_tooth, points_tooth
+from wearsim.catalogue.catalogues import Chain
+from wearsim.input.completion import Resolution
+from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.schema import SprocketTable
-from wearsim.input.tables import read_prescribed
 
 _SAFETY = 7.0
 """Breaking load over tension below which a chain is loaded beyond its endurance."""

@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from wearsim.case.flank import POINTS_NOISE, evolute_tooth
-from wearsim.catalogue.tables import Chain, chains
+from wearsim.case.working_flank import POINTS_NOISE, evolute_tooth
+from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.errors import GeometryError
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.forms.gost591 import gost591_gap
@@ -19,12 +19,12 @@ from wearsim.geometry.gap_points import (
     gap_from_points,
     lowest_centre,
 )
-from wearsim.geometry.measured.dxf import outline_from_dxf
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.input.resolution import Resolution
+from wearsim.input.completion import Resolution
+from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
 from wearsim.input.schema.sprocket import BETWEEN_FORMS
-from wearsim.input.tables import read_points
 
 OUTLINE_NODES = 601
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.standard import (
+from wearsim.command.options import (
     error_json,
     exit_code,
     overrides,

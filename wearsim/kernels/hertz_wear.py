@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:

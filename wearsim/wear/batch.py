@@ -9,10 +9,10 @@ import shapely
 
 from wearsim.contact.engagement import Contact
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.many import CHANGE, STATUS, TIME_RUN, WIDEST, wear_many
+from wearsim.kernels.advance_batch import CHANGE, STATUS, TIME_RUN, WIDEST, wear_many
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, STATE_ROWS
-from wearsim.kernels.wear import DEPTH_REACHED, RUNNING
 from wearsim.wear.advance import MOST_STEPS
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import turned_over

@@ -4,9 +4,8 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-from wearsim.case.drive import resolve_prescribed, resolve_strand
-from wearsim.case.duty import resolve_duty
-from wearsim.case.fatigue import resolve_fatigue
+from wearsim.case.duty_blocks import resolve_duty
+from wearsim.case.flank_endurance import resolve_fatigue
 from wearsim.case.model import (
     Case,
     ChainDrive,
@@ -15,11 +14,12 @@ from wearsim.case.model import (
     WrapDrive,
 )
 from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults, wear_input
-from wearsim.case.wrap import resolve_wrap
-from wearsim.catalogue.tables import KG_PER_M, Chain, chain_name, chains
+from wearsim.case.strand_drive import resolve_prescribed, resolve_strand
+from wearsim.case.wrap_drive import resolve_wrap
+from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
+from wearsim.input.completion import Resolution
 from wearsim.input.kind import mechanism_kind
 from wearsim.input.messages import Faults
-from wearsim.input.resolution import Resolution
 from wearsim.input.schema import CaseTables, ChainTable
 
 _DEEP = 0.3

@@ -18,7 +18,7 @@ from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.wear.accuracy import depth_missed
-from wearsim.wear.many import Flank, Worn, advance_many
+from wearsim.wear.batch import Flank, Worn, advance_many
 
 _BATCH = 32
 """Flanks of one compiled call."""

@@ -6,9 +6,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from wearsim.case.complete_case import resolve
 from wearsim.case.model import Case
-from wearsim.case.resolve import resolve
-from wearsim.input.calculation import checked
+from wearsim.input.calculation_file import checked
 from wearsim.input.document import Source, read_document
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
@@ -59,7 +59,7 @@ def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
     name, folder, data, faults = document.name, document.folder, document.data, document.faults
     if "gear" in data:
         # Models of tables take time to build, and most cases are not of gears.
-        from wearsim.case.gear import resolve_gear
+        from wearsim.case.gear_case import resolve_gear
         from wearsim.input.schema.gear import GearTables
 
         return resolve_gear(checked(document, GearTables), name, folder, faults)

@@ -5,12 +5,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.runner.design import replaced
 from wearsim.simulation import simulate
-from wearsim.study.calibrate.course import Course
+from wearsim.study.calibrate.predicted_history import Course
 
 Taken = TypeVar("Taken", float, Vector)
 

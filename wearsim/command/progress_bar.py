@@ -16,7 +16,7 @@ from rich.progress import (
 from rich.text import Text
 
 from wearsim.report.answer import grouped
-from wearsim.runner.run import Told
+from wearsim.runner.run_study import Told
 
 
 @contextmanager

@@ -7,9 +7,9 @@ import numpy as np
 
 from wearsim.geometry.profile import Vector
 from wearsim.handbook.hertz_check.keys import HertzCheckTables
-from wearsim.input.calculation import checked
+from wearsim.input.calculation_file import checked
+from wearsim.input.csv_tables import read_columns
 from wearsim.input.document import Source, read_document
-from wearsim.input.tables import read_columns
 
 _KEY = "finite_elements.axis_file"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wearsim.catalogue.tables import nearest
+from wearsim.catalogue.catalogues import nearest
 from wearsim.geometry.profile import Vector, chord_lengths
 from wearsim.input.duty_log import Log
 from wearsim.input.messages import Faults

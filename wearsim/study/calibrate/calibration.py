@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
-from wearsim.study.calibrate.fit import Interval
+from wearsim.study.calibrate.least_squares import Interval
 from wearsim.study.calibrate.observe import Shown
 
 

@@ -233,7 +233,7 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
     list of Case
         In the order of the paths.
     """
-    from wearsim.case.load import load_case
+    from wearsim.case.load_case import load_case
 
     cases, failed = [], False
     for path in paths:
@@ -254,7 +254,7 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
 def _check_hold(case: "Case") -> None:
     """Find a chain that jumps, which takes the solver but no run."""
     if case.inputs["mechanism"]["kind"] == "wrap":
-        from wearsim.simulation.loads import check_hold
+        from wearsim.simulation.tooth_loads import check_hold
 
         check_hold(case)
 

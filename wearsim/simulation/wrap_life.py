@@ -17,9 +17,9 @@ from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
 from wearsim.mechanisms.wrap.joint import elongation_per_loop
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.law import running_in, running_in_assumptions, wear_law
+from wearsim.simulation.chain_rating import rating, rating_warnings
+from wearsim.simulation.law_of_case import running_in, running_in_assumptions, wear_law
 from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
-from wearsim.simulation.rating import rating, rating_warnings
 from wearsim.simulation.wrap_mechanism import wrap_mechanism
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
@@ -342,7 +342,7 @@ def _fatigue(
     """Return the life of the sprocket until pitting; none where it is not asked for."""
     if case.fatigue is None:
         return {}
-    from wearsim.simulation.fatigue import fatigue_parts
+    from wearsim.simulation.pitting import fatigue_parts
 
     factor = case.fatigue.load_factor
     stresses = [

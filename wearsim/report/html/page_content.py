@@ -17,7 +17,7 @@ from wearsim.report.answer import (
     overload_text,
     told_apart,
 )
-from wearsim.report.compare import comparison_cells, differing_limits
+from wearsim.report.comparison import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart

@@ -4,13 +4,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from wearsim.catalogue.catalogues import Chain
 from wearsim.catalogue.regimes import regimes
-from wearsim.catalogue.tables import Chain
+from wearsim.input.completion import Resolution
+from wearsim.input.csv_tables import read_log
 from wearsim.input.duty_log import LogBlock, log_blocks, merged
-from wearsim.input.resolution import Resolution
 from wearsim.input.schema import DutyBlock
 from wearsim.input.schema.load import LOAD_KEYS
-from wearsim.input.tables import read_log
 
 BINS = [20, 8]
 """Bins of tension and speed that a log is sorted into."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.standard import error_json, exit_code, load_cases, show_error, worn
+from wearsim.command.options import error_json, exit_code, load_cases, show_error, worn
 from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """The mass of a sprocket as it is cut from a plate."""
 
 from wearsim.case.model import Case, StrandDrive, WrapDrive
-from wearsim.catalogue.tables import materials
+from wearsim.catalogue.catalogues import materials
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space, tooth_space
 

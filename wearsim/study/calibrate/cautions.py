@@ -8,8 +8,8 @@ from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibrate.answer import Part, Value
-from wearsim.study.calibrate.fit import Fitted
+from wearsim.study.calibrate.calibration import Part, Value
+from wearsim.study.calibrate.least_squares import Fitted
 from wearsim.study.calibrate.observe import Observation
 from wearsim.study.calibrate.parameters import EXPONENT, SHAPES
 

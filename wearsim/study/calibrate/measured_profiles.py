@@ -9,8 +9,8 @@ import numpy as np
 from wearsim.geometry.measured.registration import UNSEEN, Freedom, Registered, register
 from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
 from wearsim.geometry.profile import Vector
-from wearsim.study.calibrate.course import Course
 from wearsim.study.calibrate.observe import Gauge, Observation, Shown, State
+from wearsim.study.calibrate.predicted_history import Course
 from wearsim.study.calibrate.readings import PROFILE, Reading
 
 

@@ -12,16 +12,16 @@ from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile import Vector
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
-from wearsim.simulation.wrap import wrap_contact
-from wearsim.study.calibrate.answer import Calibration, Options, Part, Value
-from wearsim.study.calibrate.blend import Courses
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.calibrate.calibration import Calibration, Options, Part, Value
+from wearsim.study.calibrate.cautions import doubts, of_runs
 from wearsim.study.calibrate.checks import faults_of
-from wearsim.study.calibrate.doubts import doubts, of_runs
-from wearsim.study.calibrate.fit import Fitted, Problem, fit, profile_interval, stated_at
+from wearsim.study.calibrate.interpolation import Courses
+from wearsim.study.calibrate.least_squares import Fitted, Problem, fit, profile_interval, stated_at
+from wearsim.study.calibrate.measured_profiles import Scan, observation
 from wearsim.study.calibrate.observe import Observation, State
 from wearsim.study.calibrate.parameters import JOINT, Parameters, shape_values
 from wearsim.study.calibrate.readings import ELONGATION, PROFILE, Reading
-from wearsim.study.calibrate.scan import Scan, observation
 
 _FOREVER = 1e15
 """Horizon of the runs [h]: the limit must be reached, as all times are scaled."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from wearsim.case.fatigue import FatigueInput
+from wearsim.case.flank_endurance import FatigueInput
 from wearsim.case.model import Case, GearDrive, StrandDrive
 from wearsim.fatigue.contact_fatigue import doubtful_hardness, fatigue_life
 from wearsim.fatigue.endurance import EnduredHours

@@ -3,7 +3,7 @@
 import math
 from functools import lru_cache
 
-from wearsim.catalogue.tables import Chain
+from wearsim.catalogue.catalogues import Chain
 from wearsim.errors import GeometryError
 from wearsim.geometry.feasibility import (
     OFFSET_RESERVE,
@@ -20,9 +20,9 @@ from wearsim.geometry.measured.points import (
     working_side,
 )
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
-from wearsim.input.resolution import Resolution
+from wearsim.input.completion import Resolution
+from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
-from wearsim.input.tables import read_points
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05

@@ -8,9 +8,9 @@ from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
-from wearsim.simulation.law import wear_law
+from wearsim.simulation.law_of_case import wear_law
 from wearsim.simulation.limits import pin_criteria, tooth_criteria
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import Criterion, rising
 from wearsim.wear.halving import advance_dwelling

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.report.answer import grouped, jumping
-from wearsim.simulation.loads import ToothLoads
+from wearsim.simulation.tooth_loads import ToothLoads
 
 _COLUMNS = (
     "tension_N",

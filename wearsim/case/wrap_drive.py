@@ -2,16 +2,16 @@
 
 import math
 
-from wearsim.case.drive import effective_pull, face_width, slip_fraction, within_strength
-from wearsim.case.duty import Duty, LoadBlock
-from wearsim.case.gap import gap_shape
+from wearsim.case.duty_blocks import Duty, LoadBlock
 from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
-from wearsim.catalogue.tables import Chain, WearCondition, wear_conditions
+from wearsim.case.strand_drive import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.wrapped_gap import gap_shape
+from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
-from wearsim.input.resolution import Resolution
+from wearsim.input.completion import Resolution
 from wearsim.input.schema import DriveTable, JointTable
 
 CENTRE_IN_PITCHES = 40.0
