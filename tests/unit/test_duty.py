@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wearsim.case.load_case import load_case
-from wearsim.catalogue.regimes import regimes
+from wearsim.catalogue.catalogues import regimes
 from wearsim.errors import CaseError
 from wearsim.input.duty_log import Log, LogBlock, log_blocks, merged
 

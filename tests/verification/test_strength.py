@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from wearsim.catalogue.regimes import regimes
+from wearsim.catalogue.catalogues import regimes
 from wearsim.errors import CaseError, GeometryError
 from wearsim.fatigue.endurance import FatigueCurve, contact_base_cycles, service_hours
 from wearsim.fatigue.heat_treatment import treatments

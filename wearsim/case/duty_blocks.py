@@ -4,8 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from wearsim.catalogue.catalogues import Chain
-from wearsim.catalogue.regimes import regimes
+from wearsim.catalogue.catalogues import Chain, regimes
 from wearsim.input.completion import Resolution
 from wearsim.input.csv_tables import read_log
 from wearsim.input.duty_log import LogBlock, log_blocks, merged

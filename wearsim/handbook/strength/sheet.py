@@ -8,11 +8,155 @@ import numpy as np
 import pandas as pd
 
 from wearsim.command.calculation_sheet import Sheet
+from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.figure import shown_hours, strength_figure
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, first_life
-from wearsim.handbook.strength.text import strength_text
-from wearsim.report.answer import grouped
+from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life
+from wearsim.report.answer import grouped, numbered, row
+
+_WIDTHS = (46, 18, 18)
+
+
+def strength_text(tables: StrengthTables, pair: PairStrength) -> str:
+    """Return what ``wearsim strength`` prints.
+
+    Parameters
+    ----------
+    tables : StrengthTables
+        The case.
+    pair : PairStrength
+        What it comes to.
+
+    Returns
+    -------
+    str
+        At most a hundred characters wide.
+    """
+    hardness = [f"{gear.hardness:g} {gear.treatment.scale}" for gear in pair.gears]
+    lines = [
+        tables.title,
+        "",
+        _columns("", [gear.name for gear in pair.gears]),
+        _columns("  treatment", [gear.treatment.name.replace("_", " ") for gear in pair.gears]),
+        _columns("  hardness", hardness),
+        _columns("  load cycles N", [f"{gear.cycles:.4g}" for gear in pair.gears]),
+    ]
+    lines += ["contact", *_endured_lines([gear.contact for gear in pair.gears], "H")]
+    lines += _acting_lines([contact for contact, _ in pair.stresses], "H")
+    lines += ["bending", *_endured_lines([gear.bending for gear in pair.gears], "F")]
+    lines += _acting_lines([bending for _, bending in pair.stresses], "F")
+    return "\n".join([*lines, "", *_answer(tables, pair)])
+
+
+def _endured_lines(endured: list[Endurance], letter: str) -> list[str]:
+    greatest = ["not known" if math.isnan(e.greatest) else f"{e.greatest:.1f}" for e in endured]
+    limits = [f"{e.endurance_limit:.1f}" for e in endured]
+    factors = [f"{e.factor:.4f} ({e.raw_factor:.4f})" for e in endured]
+    return [
+        _columns(f"  endurance limit sigma_{letter}lim, MPa", limits),
+        _columns(f"  equivalence mu_{letter}", [f"{e.equivalence:.4g}" for e in endured]),
+        _columns(f"  equivalent cycles N_{letter}E", [f"{e.equivalent_cycles:.4g}" for e in endured]),
+        _columns(f"  base cycles N_{letter}G", [f"{e.curve.base_cycles:.4g}" for e in endured]),
+        _columns(f"  life factor K_{letter}L (without its limits)", factors),
+        _columns(f"  allowable [sigma]_{letter}, MPa", [f"{e.allowable:.1f}" for e in endured]),
+        _columns(f"  in an overload [sigma]_{letter}max, MPa", greatest),
+    ]  # fmt: skip
+
+
+def _columns(label: str, values: list[str]) -> str:
+    first, *rest = _WIDTHS
+    cells = "".join(f"{value:>{width}}" for value, width in zip(values, rest, strict=True))
+    return f"{label:{first}}{cells}"
+
+
+def _acting_lines(acting: list[Stresses], letter: str) -> list[str]:
+    if not acting:
+        return []
+    peaks = ["not known" if math.isnan(s.peak_margin) else f"{s.peak_margin:.3f}" for s in acting]
+    return [
+        _columns(f"  acts sigma_{letter}, MPa", [f"{s.lasting:.1f}" for s in acting]),
+        _columns("  allowable over acting", [f"{s.margin:.3f}" for s in acting]),
+        _columns(
+            f"  acts in an overload sigma_{letter}max, MPa", [f"{s.peak:.1f}" for s in acting]
+        ),
+        _columns("  allowable over acting in an overload", peaks),
+        _columns("  allowed for", [_hours(s.life) for s in acting]),
+    ]
+
+
+def _hours(life: EnduredHours) -> str:
+    if life.bound:
+        return f"> {grouped(life.hours)} h"
+    return f"{grouped(life.hours)} h" if life.hours > 0.0 else "at no time"
+
+
+def _answer(tables: StrengthTables, pair: PairStrength) -> list[str]:
+    governs = pair.contact_governs
+    allowed = f"[sigma]_H = {governs.contact.allowable:.1f} MPa, that of the {governs.name}"
+    lines = [row("Pair", f"{allowed}, for {grouped(pair.hours)} h; loads: {pair.spectrum.name}")]
+    if pair.load is not None:
+        contact, bending = zip(*pair.stresses, strict=True)
+        lines += [
+            *_load_rows(pair.load),
+            row("Life", _lives(contact, pair, "contact")),
+            row("", _lives(bending, pair, "bending")),
+        ]
+    return [*lines, row("Assumes", numbered(_assumptions(tables, pair.load)))]
+
+
+def _load_rows(load: ToothLoad) -> list[str]:
+    mesh, contact, bending = load.mesh, load.contact_factor, load.bending_factor
+    factors = (
+        f"K_A {contact.application:g}, face {contact.face:.4g}, teeth {contact.transverse:.4g}, mesh "
+        f"{contact.dynamic:g}"
+    )
+    return [
+        row(
+            "Load",
+            f"T = {1e-3 * mesh.torque:g} N m, F_t = {mesh.tangential_force:.1f} N; "
+            f"K_H = {contact.total:.4f} ({factors}), K_F = {bending.total:.4f}",
+        ),
+        row(
+            "Contact",
+            f"sigma_H = {load.corrected_contact_stress:.1f} MPa by the normal force, "
+            f"{load.printed_contact_stress:.1f} MPa by the tangential one as printed; the "
+            f"{'first' if load.contact_stress == load.corrected_contact_stress else 'second'} counts",
+        ),
+    ]
+
+
+def _lives(acting: Sequence[Stresses], pair: PairStrength, what: str) -> str:
+    """Say which gear is the first to reach its life by a criterion."""
+    place, life = first_life([one.life for one in acting])
+    if life.bound:
+        return f"{what} fatigue: {_hours(life)}, neither gear ever reaches its limit"
+    return f"{what} fatigue: {_hours(life)}, the {pair.gears[place].name} is the first"
+
+
+def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, ...]:
+    reading = tables.fatigue.base_cycles
+    found = [
+        f"N_HG as {'GOST 21354 has it' if reading == 'gost' else 'the words left in the source read'}",
+        "1 HRC is 10 HB, the middle of the band of hardness and of the endurance limit counts",
+    ]
+    if tables.fatigue.long_life == "gost":
+        found.append(
+            "beyond N_HG the contact stress falls with the root of order 20 to 0.75 (GOST)"
+        )
+    else:
+        found.append("K_HL and K_FL are not below 1: what is endured for N_HG is always endured")
+    if tables.overload.static_safety != 1.0:
+        found.append(f"S_st = {tables.overload.static_safety:g} (textbook: not in the source)")
+    if tables.cyclogram:
+        found.append("which torques are overloads is that of the life asked for")
+    if load is not None:
+        found.append(
+            "spur gears without profile shift, K_H, K_F and Y_FS by textbook forms, lost in the source"
+        )
+        if tables.load is not None and tables.load.application_factor is None:
+            found.append(f"load.application_factor = {load.contact_factor.application:g} (default)")
+    return tuple(found)
+
 
 _NAMES = ("contact", "bending")
 _LEAST_TEETH = 2.0

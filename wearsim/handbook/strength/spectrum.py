@@ -8,8 +8,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from wearsim.catalogue.catalogues import regimes
 from wearsim.catalogue.factors import rows
-from wearsim.catalogue.regimes import regimes
 from wearsim.errors import GeometryError
 from wearsim.handbook.strength.keys import OVERLOAD_CYCLES
 
@@ -72,7 +72,7 @@ def regime_spectrum(name: str) -> Spectrum:
     """Return a typical regime of loading.
 
     Its factors for contact and for m = 6 and 9 are those printed in table 2.2; for another
-    exponent they follow from the blocks of `wearsim.catalogue.regimes`.
+    exponent they follow from the blocks of `wearsim.catalogue.catalogues`.
 
     Parameters
     ----------

@@ -4,19 +4,14 @@ from pydantic import Field
 
 from wearsim.input.schema.calculation import FormatVersion
 from wearsim.input.schema.chain import ChainTable
-from wearsim.input.schema.drive import DriveTable
-from wearsim.input.schema.duty import DutyBlock
+from wearsim.input.schema.drive import DriveTable, JointTable, MechanismTable
 from wearsim.input.schema.fatigue import SprocketFatigueTable
-from wearsim.input.schema.joint import JointTable
-from wearsim.input.schema.load import LoadTable
-from wearsim.input.schema.maintenance import MaintenanceTable
+from wearsim.input.schema.load import DutyBlock, LoadTable
+from wearsim.input.schema.maintenance import MaintenanceTable, ServiceTable
 from wearsim.input.schema.material import MaterialsTable, MaterialTable
-from wearsim.input.schema.mechanism import MechanismTable
 from wearsim.input.schema.optimise import OptimiseTable
-from wearsim.input.schema.run import RunTable
-from wearsim.input.schema.service import ServiceTable
+from wearsim.input.schema.run import RunTable, StopTable
 from wearsim.input.schema.sprocket import SprocketTable
-from wearsim.input.schema.stop import StopTable
 from wearsim.input.schema.table import Table
 from wearsim.input.schema.uncertainty import Uncertainty
 from wearsim.input.schema.wear import WearTable

@@ -8,8 +8,7 @@ from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
 from wearsim.input.schema.material import MaterialTable
 from wearsim.input.schema.optimise import OptimiseTable
-from wearsim.input.schema.run import RunTable
-from wearsim.input.schema.stop import Depth
+from wearsim.input.schema.run import Depth, RunTable
 from wearsim.input.schema.stress_along_line import stress_conflicts
 from wearsim.input.schema.table import Table
 from wearsim.input.schema.uncertainty import Uncertainty

@@ -15,7 +15,7 @@ from wearsim.study.calibrate.readings import (
     PROFILE,
     Reading,
 )
-from wearsim.study.remaining.over_pins import ambiguity
+from wearsim.study.remaining.model import ambiguity
 
 _NONE, _FAR = 3.0, 5.0
 """Errors by which a value may lie below 0, and beyond the depth at the limit."""

@@ -12,7 +12,36 @@ from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.study.constant_coefficient import check_constant
-from wearsim.study.remaining.over_pins import ambiguity
+
+
+def ambiguity(over_pins: Vector, error: float) -> str:
+    """Return why a reading over pins may belong to several times of a life.
+
+    Parameters
+    ----------
+    over_pins : numpy.ndarray
+        The measurement over the life [mm].
+    error : float
+        Of the reading [mm].
+
+    Returns
+    -------
+    str
+        What must hold and what to do; empty where it falls all the time, but for the error.
+
+    Examples
+    --------
+    >>> ambiguity(np.array([80.0, 79.9, 79.95]), 0.1)
+    ''
+    """
+    again = float((over_pins - np.minimum.accumulate(over_pins)).max())
+    if again <= error:
+        return ""
+    return (
+        f"must belong to one time, but the measurement over pins grows again by {again:.3g} mm in the "
+        "life: measure the depth"
+    )
+
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
 
