@@ -6,7 +6,7 @@ from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.export.wheel_drawing import drawing_box, wheel_drawing
 from wearsim.export.wheel_shapes import State, WheelShape, wheel_shapes
-from wearsim.report.answer import grouped
+from wearsim.report.lines import grouped
 from wearsim.result import WearResult
 
 

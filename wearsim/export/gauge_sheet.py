@@ -15,8 +15,8 @@ from wearsim.export.wheel_drawing import add_text
 from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.geometry.stretch import arc_about_axis
 from wearsim.geometry.wheel import Chain
-from wearsim.report.answer import grouped
 from wearsim.report.flank_view import flanks
+from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 from wearsim.simulation.limits import tooth_criteria
 

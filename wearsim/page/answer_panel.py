@@ -8,18 +8,10 @@ from wearsim.errors import Fault
 from wearsim.page.answers import Pictures
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
-from wearsim.report.answer import (
-    BAND,
-    LIMITS,
-    OVERLOADED,
-    ending,
-    findings,
-    hours,
-    overload_text,
-    told_apart,
-)
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
+from wearsim.report.lines import told_apart
 from wearsim.result import Life, WearResult
 
 

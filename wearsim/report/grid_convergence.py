@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from wearsim.report.answer import row
+from wearsim.report.lines import row
 from wearsim.wear.accuracy import LEAST_ORDER, MOST_ORDER, GridStudy
 
 

@@ -17,7 +17,7 @@ from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
 from wearsim.handbook.convex_concave.figure import convex_concave_figure
 from wearsim.handbook.convex_concave.model import OUTLINE_TOLERANCE, Body, Contact, Layout, RackArc
-from wearsim.report.answer import numbered, row
+from wearsim.report.lines import numbered, row
 
 _POINTS = 101
 

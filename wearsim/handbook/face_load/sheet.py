@@ -13,7 +13,7 @@ from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.face_load.face_slices import equivalent_misalignment
 from wearsim.handbook.face_load.face_wear import FaceState, RunningIn
 from wearsim.handbook.face_load.model import FaceLoad
-from wearsim.report.answer import grouped, numbered, row
+from wearsim.report.lines import grouped, numbered, row
 
 _ASSUMPTIONS = (
     "reconstruction: of Vinogradov and Fedin (2015) only the abstract survives",

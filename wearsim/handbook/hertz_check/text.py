@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.handbook.hertz_check.model import ROUNDING, HertzCheck
-from wearsim.report.answer import numbered, row
+from wearsim.report.lines import numbered, row
 
 Rows = Sequence[Mapping[str, Any]]
 

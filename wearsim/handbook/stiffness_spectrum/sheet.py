@@ -11,7 +11,7 @@ from wearsim.handbook.stiffness_spectrum.figure import stiffness_spectrum_figure
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics
 from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
-from wearsim.report.answer import grouped, numbered, row
+from wearsim.report.lines import grouped, numbered, row
 
 _COUNTED = {
     "pairs": "only teeth that mate touch, while both are in their pulses of contact",

@@ -12,7 +12,7 @@ from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.figure import shown_hours, strength_figure
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life
-from wearsim.report.answer import grouped, numbered, row
+from wearsim.report.lines import grouped, numbered, row
 
 _WIDTHS = (46, 18, 18)
 

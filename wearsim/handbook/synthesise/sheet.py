@@ -21,7 +21,7 @@ from wearsim.handbook.synthesise.figure import (
 )
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, Phase, direction_fields, stress_fields
-from wearsim.report.answer import numbered, row
+from wearsim.report.lines import numbered, row
 
 _ASSUMPTIONS = (
     "rigid wheels, one pair of teeth that carries the whole load, no friction",

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
-from wearsim.report.answer import numbered, row
+from wearsim.report.lines import numbered, row
 
 _ASSUMPTIONS = (
     "formulas of six textbooks as collected by Tkachenko (2010), whose tables are lost in part",

@@ -10,7 +10,6 @@ from wearsim.chain.drive_layout import DriveLayout
 from wearsim.errors import GeometryError
 from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
-from wearsim.report.answer import grouped
 from wearsim.report.html.sketch import (
     Label,
     Sketch,
@@ -23,6 +22,7 @@ from wearsim.report.html.sketch import (
     text_size,
     turn_arrow,
 )
+from wearsim.report.lines import grouped
 
 _FINE = 5e-3
 """Deviation of a drawn outline, as a fraction of the pitch."""

@@ -6,17 +6,7 @@ from dataclasses import dataclass
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
-from wearsim.report.answer import (
-    BAND,
-    LIMITS,
-    OVERLOADED,
-    ending,
-    findings,
-    grouped,
-    hours,
-    overload_text,
-    told_apart,
-)
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
 from wearsim.report.comparison import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures
 from wearsim.report.flank_view import case_of
@@ -29,6 +19,7 @@ from wearsim.report.html.picture import picture
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
+from wearsim.report.lines import grouped, told_apart
 from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.result import Life, WearResult
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wearsim.report.answer import grouped, hours
+from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
 from wearsim.report.html.charts import (
     Chart,
@@ -19,6 +19,7 @@ from wearsim.report.html.charts import (
     rounded,
     series,
 )
+from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.files import new_folder
-from wearsim.report.answer import grouped, hours, numbered, row
+from wearsim.report.answer import hours
+from wearsim.report.lines import grouped, numbered, row
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.study.maintain.model import MaintenancePlan, Policy
 from wearsim.study.maintain.tooth_count import ToothCount

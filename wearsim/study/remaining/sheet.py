@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
-from wearsim.report.answer import grouped, hours, numbered, row, service_text
+from wearsim.report.answer import hours, service_text
+from wearsim.report.lines import grouped, numbered, row
 from wearsim.report.service import service_keys
 from wearsim.result import Life, life_keys
 from wearsim.study.remaining.model import RemainingLife

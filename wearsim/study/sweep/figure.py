@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import grouped
 from wearsim.report.figure_text import literal
+from wearsim.report.lines import grouped
 from wearsim.study.sweep.model import Sweep
 
 _MOST_CURVES = 10
