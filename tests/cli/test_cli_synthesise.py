@@ -265,7 +265,7 @@ def results(document):
     tables = load_calculation(document, SynthesisTables)
     pair = loaded_pair(tables)
     sheet = synthesis_sheet(tables, pair, phases(pair, tables))
-    return {"text": sheet.text, **{name: table.to_csv() for name, table in sheet.tables.items()}}
+    return {"text": sheet.text, **{name: table.to_csv() for name, table in sheet.tables().items()}}
 
 
 @pytest.fixture(scope="module")
@@ -328,14 +328,14 @@ def test_pictures():
     tables = load_calculation(SEGMENTS, SynthesisTables, settings)
     pair = loaded_pair(tables)
     sheet = synthesis_sheet(tables, pair, phases(pair, tables))
-    plane, profiles = sheet.figures["line_of_action"].axes
+    plane, profiles = sheet.figures()["line_of_action"].axes
     assert [line.get_label() for line in plane.lines[::3]][:2] == [
         "phase 1, family +1",
         "phase 2, family -1",
     ]
     assert len(profiles.lines) == 4
-    sheet.figures["field_directions"].savefig(io.BytesIO(), format="svg")
-    drawn = sheet.figures["field_small_radii"].axes[0].lines[-1]
+    sheet.figures()["field_directions"].savefig(io.BytesIO(), format="svg")
+    drawn = sheet.figures()["field_small_radii"].axes[0].lines[-1]
     assert drawn.get_xydata() == pytest.approx(
-        sheet.tables["line_of_action"].query("mesh_phase == 2")[["contact_x_mm", "contact_y_mm"]]
+        sheet.tables()["line_of_action"].query("mesh_phase == 2")[["contact_x_mm", "contact_y_mm"]]
     )

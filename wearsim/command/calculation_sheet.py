@@ -4,13 +4,13 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-
-import pandas as pd
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from wearsim.files import new_folder
-from wearsim.report.figures import save_figure
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,10 +23,11 @@ class Sheet:
         For the screen, at most a hundred characters wide.
     content : mapping
         For ``--json``: plain values, never nan.
-    tables : mapping of str to pandas.DataFrame
-        By file stem; units in the names of the columns.
-    figures : mapping of str to matplotlib.figure.Figure
-        By file stem.
+    tables : callable
+        Returns pandas.DataFrame by file stem; units in the names of the columns. Only a folder
+        needs them, and the libraries for them.
+    figures : callable
+        Returns matplotlib.figure.Figure by file stem.
     warnings : tuple of str
         What the user should look at.
     files : mapping of str to callable
@@ -35,8 +36,8 @@ class Sheet:
 
     text: str
     content: Mapping[str, Any]
-    tables: Mapping[str, pd.DataFrame]
-    figures: Mapping[str, Figure]
+    tables: Callable[[], Mapping[str, "pd.DataFrame"]]
+    figures: Callable[[], Mapping[str, "Figure"]]
     warnings: tuple[str, ...] = ()
     files: Mapping[str, Callable[[Path], None]] = field(default_factory=dict)
 
@@ -55,12 +56,14 @@ class Sheet:
         OutputError
             Something is in the way.
         """
+        from wearsim.report.figures import save_figure
+
         with new_folder(folder, force) as place:
             content = json.dumps(self.content, ensure_ascii=False, allow_nan=False, indent=1)
             (place / "result.json").write_text(content + "\n", encoding="utf-8")
-            for name, table in self.tables.items():
+            for name, table in self.tables().items():
                 table.to_csv(place / f"{name}.csv", index=False, lineterminator="\n")
-            for name, figure in self.figures.items():
+            for name, figure in self.figures().items():
                 save_figure(figure, place, name)
             for name, write in self.files.items():
                 write(place / name)

@@ -65,12 +65,12 @@ def convex_concave_sheet(title: str, layout: Layout) -> Sheet:
     return Sheet(
         text=_text(title, layout),
         content=content,
-        tables={
+        tables=lambda: {
             "flanks": pd.concat([_flank_table(layout, body) for body in layout.bodies]),
             "rack": _rack_table(layout),
             "rollers": pd.DataFrame(rollers),
         },
-        figures={"convex_concave": convex_concave_figure(title, layout)},
+        figures=lambda: {"convex_concave": convex_concave_figure(title, layout)},
         warnings=tuple(_warnings(layout)),
         files={
             **{f"{one.name}.dxf": partial(write_dxf, one.outline) for one in layout.bodies},

@@ -2,18 +2,17 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
-
-import numpy as np
-import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.face_load.face_slices import equivalent_misalignment
 from wearsim.handbook.face_load.face_wear import FaceState, RunningIn
 from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.report.lines import grouped, numbered, row
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _ASSUMPTIONS = (
     "reconstruction: of Vinogradov and Fedin (2015) only the abstract survives",
@@ -66,18 +65,31 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
         "assumptions": list(assumptions),
         "warnings": warnings,
     }
-    distribution = pd.concat(
-        _distribution(found, name, state) for name, run in _runs(found) for state in run.states
-    )
+
+    def made() -> dict[str, "pd.DataFrame"]:
+        import pandas as pd
+
+        parts = [
+            pd.DataFrame(_distribution(found, name, state))
+            for name, run in _runs(found)
+            for state in run.states
+        ]
+        return {
+            "states": pd.DataFrame(states),
+            "distribution": pd.concat(parts),
+            "history": pd.DataFrame(history),
+        }
+
+    def drawn() -> dict[str, "Figure"]:
+        from wearsim.handbook.face_load.figure import face_load_figure
+
+        return {"face_load": face_load_figure(title, found)}
+
     return Sheet(
         text=_text(title, found, states, assumptions),
         content=content,
-        tables={
-            "states": pd.DataFrame(states),
-            "distribution": distribution,
-            "history": pd.DataFrame(history),
-        },
-        figures={"face_load": face_load_figure(title, found)},
+        tables=made,
+        figures=drawn,
         warnings=tuple(warnings),
     )
 
@@ -111,18 +123,16 @@ def _state_row(found: FaceLoad, name: str, state: FaceState) -> dict[str, Any]:
     }
 
 
-def _distribution(found: FaceLoad, name: str, state: FaceState) -> pd.DataFrame:
-    return pd.DataFrame(
-        {
-            "pinion_mounting": name,
-            "face_state": state.name,
-            "face_position_mm": found.mesh.position,
-            "load_per_width_N_per_mm": found.share @ state.loads,
-            "least_load_per_width_N_per_mm": state.loads.min(axis=0),
-            "greatest_load_per_width_N_per_mm": state.loads.max(axis=0),
-            "opening_mm": state.opening,
-        }
-    )
+def _distribution(found: FaceLoad, name: str, state: FaceState) -> dict[str, Any]:
+    return {
+        "pinion_mounting": name,
+        "face_state": state.name,
+        "face_position_mm": found.mesh.position,
+        "load_per_width_N_per_mm": found.share @ state.loads,
+        "least_load_per_width_N_per_mm": state.loads.min(axis=0),
+        "greatest_load_per_width_N_per_mm": state.loads.max(axis=0),
+        "opening_mm": state.opening,
+    }
 
 
 def _text(
@@ -191,66 +201,3 @@ def _warnings(found: FaceLoad) -> list[str]:
             "self-aligning one: what changes from mesh to mesh does not run in"
         )
     return warnings
-
-
-def face_load_figure(title: str, found: FaceLoad) -> Figure:
-    """Return the load over the face, and the face load factor over the hours.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    found : FaceLoad
-        The pair, new and worn.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Lines are the greatest load of all meshes, bands reach down to the least.
-    """
-    figure = Figure(figsize=(9.0, 4.4), layout="constrained")
-    face, time = figure.subplots(1, 2)
-    fixed, aligning = found.fixed.states, found.self_aligning.states
-    for state, label, colour, style in (
-        (fixed[0], "fixed pinion, new", "tab:red", "-"),
-        (fixed[2], "fixed pinion, run in", "tab:blue", "-"),
-        (aligning[0], "self-aligning pinion, new", "tab:green", "--"),
-    ):
-        _draw_load(face, found, state, label, colour, style)
-    face.axhline(1.0, color="0.5", linewidth=0.8)
-    face.set_xlabel("place on the face from its middle, mm")
-    face.set_ylabel("load per width over the mean one")
-    face.set_ylim(bottom=0.0)
-    face.set_title(
-        "lines: greatest of all meshes, bands: down to the least", fontsize=8, loc="left"
-    )
-    for run, label, colour, style in (
-        (found.fixed, "fixed pinion", "tab:blue", "-"),
-        (found.self_aligning, "self-aligning pinion", "tab:green", "--"),
-    ):
-        time.plot(run.hours[1:], run.factors[1:], style, color=colour, label=label)
-    time.axvline(
-        fixed[1].hours, ymax=0.74, color="0.5", linewidth=0.8, linestyle=":",
-        label="time asked for",
-    )  # fmt: skip
-    time.set_xscale("log")
-    time.set_xlabel("running time, h")
-    time.set_ylabel(r"face load factor $K_{H\beta}$")
-    time.set_ylim(bottom=0.95)
-    for panel in (face, time):
-        panel.grid(alpha=0.3)
-        low, high = panel.get_ylim()
-        panel.set_ylim(low, high + 0.35 * (high - low))
-        panel.legend(loc="upper right", frameon=False, fontsize=8)
-    figure.suptitle(title, fontsize=9, x=0.01, ha="left")
-    return figure
-
-
-def _draw_load(
-    panel: Axes, found: FaceLoad, state: FaceState, label: str, colour: str, style: str
-) -> None:
-    over_mean = state.loads / found.mesh.mean_load
-    least, greatest = over_mean.min(axis=0), over_mean.max(axis=0)
-    panel.plot(found.mesh.position, greatest, style, color=colour, label=label)
-    if not np.array_equal(least, greatest):
-        panel.fill_between(found.mesh.position, least, greatest, color=colour, alpha=0.12, lw=0)

@@ -83,8 +83,8 @@ def hertz_check_sheet(
             "assumptions": list(ASSUMPTIONS),
             "warnings": warnings,
         },
-        tables=tables,
-        figures={"hertz_check": hertz_check_figure(title, check, meshes, axis)},
+        tables=lambda: tables,
+        figures=lambda: {"hertz_check": hertz_check_figure(title, check, meshes, axis)},
         warnings=tuple(warnings),
     )
 

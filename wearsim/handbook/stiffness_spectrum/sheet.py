@@ -2,16 +2,17 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from wearsim.command.calculation_sheet import Sheet
-from wearsim.handbook.stiffness_spectrum.figure import stiffness_spectrum_figure
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics
 from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
 from wearsim.report.lines import grouped, numbered, row
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _COUNTED = {
     "pairs": "only teeth that mate touch, while both are in their pulses of contact",
@@ -51,15 +52,26 @@ def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: Stiffnes
         "variance_share": spectrum.variance_share,
         "lines": lines,
     }
-    frames = {"lines": pd.DataFrame(lines)}
+    rows = {"lines": lines}
     if spectrum.statics is not None:
         content["statics"] = _statics(spectrum.statics)
-        frames["statics"] = pd.DataFrame(content["statics"]["deflections"])
+        rows["statics"] = content["statics"]["deflections"]
+
+    def made() -> dict[str, "pd.DataFrame"]:
+        import pandas as pd
+
+        return {name: pd.DataFrame(found) for name, found in rows.items()}
+
+    def drawn() -> dict[str, "Figure"]:
+        from wearsim.handbook.stiffness_spectrum.figure import stiffness_spectrum_figure
+
+        return {"stiffness_spectrum": stiffness_spectrum_figure(tables.title, spectrum)}
+
     return Sheet(
         text=_text(tables, spectrum),
         content=content,
-        tables=frames,
-        figures={"stiffness_spectrum": stiffness_spectrum_figure(tables.title, spectrum)},
+        tables=made,
+        figures=drawn,
         warnings=tuple(_warnings(tables, spectrum)),
     )
 

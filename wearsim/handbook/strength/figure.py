@@ -7,32 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wearsim.fatigue.endurance import Endurance
-from wearsim.handbook.strength.model import PairStrength, Stresses
+from wearsim.handbook.strength.model import PairStrength, Stresses, shown_hours
 from wearsim.report.figure_text import literal
 
 _COLOURS = {"pinion": "tab:blue", "wheel": "tab:orange"}
-
-
-def shown_hours(pair: PairStrength) -> tuple[float, float]:
-    """Return the hours over which allowable stresses are shown.
-
-    Parameters
-    ----------
-    pair : PairStrength
-        The pair.
-
-    Returns
-    -------
-    tuple of float
-        First and last [h]: around the life asked for and the ends of all curves.
-    """
-    told = [pair.hours]
-    for gear in pair.gears:
-        told += [
-            one.curve.flat_from / one.equivalent_cycles_at(1.0)
-            for one in (gear.contact, gear.bending)
-        ]
-    return 0.05 * min(told), 4.0 * max(told)
 
 
 def strength_figure(title: str, pair: PairStrength) -> Figure:

@@ -356,3 +356,25 @@ def _load_factors(load: StrengthLoadTable, constant: bool) -> tuple[LoadFactor, 
         application, bending_face_factor(face), initial, load.bending_dynamic_factor
     )
     return contact, bending
+
+
+def shown_hours(pair: PairStrength) -> tuple[float, float]:
+    """Return the hours over which allowable stresses are shown.
+
+    Parameters
+    ----------
+    pair : PairStrength
+        The pair.
+
+    Returns
+    -------
+    tuple of float
+        First and last [h]: around the life asked for and the ends of all curves.
+    """
+    told = [pair.hours]
+    for gear in pair.gears:
+        told += [
+            one.curve.flat_from / one.equivalent_cycles_at(1.0)
+            for one in (gear.contact, gear.bending)
+        ]
+    return 0.05 * min(told), 4.0 * max(told)

@@ -2,17 +2,26 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from wearsim.command.calculation_sheet import Sheet
 from wearsim.fatigue.endurance import Endurance, EnduredHours
-from wearsim.handbook.strength.figure import shown_hours, strength_figure
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life
+from wearsim.handbook.strength.model import (
+    Gear,
+    PairStrength,
+    Stresses,
+    ToothLoad,
+    first_life,
+    shown_hours,
+)
 from wearsim.report.lines import grouped, numbered, row
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _WIDTHS = (46, 18, 18)
 
@@ -179,11 +188,23 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
         With the tables ``gears`` and ``allowable_over_hours``.
     """
     gears = [_gear_row(gear, acting) for gear, acting in _acting(pair)]
+
+    def made() -> dict[str, "pd.DataFrame"]:
+        import pandas as pd
+
+        frame = pd.DataFrame
+        return {"gears": frame(gears), "allowable_over_hours": frame(_over_hours(pair))}
+
+    def drawn() -> dict[str, "Figure"]:
+        from wearsim.handbook.strength.figure import strength_figure
+
+        return {"strength": strength_figure(tables.title, pair)}
+
     return Sheet(
         text=strength_text(tables, pair),
         content={"title": tables.title, **_pair_content(pair), "gears": gears},
-        tables={"gears": pd.DataFrame(gears), "allowable_over_hours": _over_hours(pair)},
-        figures={"strength": strength_figure(tables.title, pair)},
+        tables=made,
+        figures=drawn,
         warnings=tuple(_warnings(tables, pair)),
     )
 
@@ -258,8 +279,8 @@ def _gear_row(gear: Gear, acting: Sequence[Stresses]) -> dict[str, Any]:
     return found
 
 
-def _over_hours(pair: PairStrength) -> pd.DataFrame:
-    return pd.DataFrame(
+def _over_hours(pair: PairStrength) -> list[dict[str, Any]]:
+    return [
         {
             "time_hours": hours,
             "gear": gear.name,
@@ -268,7 +289,7 @@ def _over_hours(pair: PairStrength) -> pd.DataFrame:
         }
         for gear in pair.gears
         for hours in np.geomspace(*shown_hours(pair), 121).tolist()
-    )
+    ]
 
 
 def _warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:

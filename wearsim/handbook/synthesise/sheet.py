@@ -84,8 +84,8 @@ def synthesis_sheet(tables: SynthesisTables, pair: LoadedPair, phases: Sequence[
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
             "indices": _plain(indices),
         },
-        tables=made,
-        figures=figures,
+        tables=lambda: made,
+        figures=lambda: figures,
         warnings=tuple(_warnings(indices)),
     )
 

@@ -2,14 +2,15 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
-
-import pandas as pd
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
 from wearsim.report.lines import numbered, row
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _ASSUMPTIONS = (
     "formulas of six textbooks as collected by Tkachenko (2010), whose tables are lost in part",
@@ -47,6 +48,17 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
     assumptions = (*_ASSUMPTIONS, *defaults)
     warnings = [f"left out: {reason}" for reason in comparison.left_out.values()]
     warnings += _warnings(found)
+
+    def made() -> dict[str, "pd.DataFrame"]:
+        import pandas as pd
+
+        return {"methods": pd.DataFrame(rows), "elasticities": pd.DataFrame(slopes)}
+
+    def drawn() -> dict[str, "Figure"]:
+        from wearsim.handbook.wave_drive.figure import wave_drive_figure
+
+        return {"wave_drive": wave_drive_figure(title, found)}
+
     return Sheet(
         text=_text(title, found, assumptions),
         content={
@@ -56,8 +68,8 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
             "assumptions": list(assumptions),
             "warnings": warnings,
         },
-        tables={"methods": pd.DataFrame(rows), "elasticities": pd.DataFrame(slopes)},
-        figures={"wave_drive": wave_drive_figure(title, found)},
+        tables=made,
+        figures=drawn,
         warnings=tuple(warnings),
     )
 
@@ -138,48 +150,3 @@ def _warnings(found: Sequence[MethodDiameter]) -> list[str]:
                 "it rests on a small difference"
             )
     return warnings
-
-
-def wave_drive_figure(title: str, found: Sequence[MethodDiameter]) -> Figure:
-    """Return a bar for the range of each method with its diameter.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    found : sequence of MethodDiameter
-        The methods.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Crosses are the published diameters.
-    """
-    figure = Figure(figsize=(7.2, 0.9 + 0.42 * len(found)), layout="constrained")
-    panel = figure.subplots()
-    for place, one in enumerate(found):
-        panel.plot(
-            [one.least, one.greatest], [place, place], color="tab:blue", alpha=0.35, linewidth=9,
-            solid_capstyle="butt", label="over the recommended values" if place == 0 else None,
-        )  # fmt: skip
-        panel.plot(
-            one.diameter,
-            place,
-            "o",
-            color="tab:blue",
-            label="with the values given" if place == 0 else None,
-        )
-        panel.annotate(
-            f"{one.diameter:.0f}", (one.diameter, place), (0, 7), textcoords="offset points",
-            ha="center", fontsize=7,
-        )  # fmt: skip
-    known = [(one.published, place) for place, one in enumerate(found) if one.published > 0.0]
-    if known:
-        panel.plot(*zip(*known, strict=True), "x", color="tab:red", markersize=8, label="published")
-    panel.set_yticks(range(len(found)), [f"{one.method.name} {one.method.source}" for one in found])
-    panel.set_ylim(len(found) - 0.4, -0.9)
-    panel.set_xlabel("diameter of the flexspline, mm")
-    panel.set_title(title, fontsize=9, loc="left")
-    panel.grid(axis="x", alpha=0.3)
-    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
-    return figure
