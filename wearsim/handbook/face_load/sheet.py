@@ -66,7 +66,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
         "warnings": warnings,
     }
 
-    def made() -> dict[str, "pd.DataFrame"]:
+    def _made() -> dict[str, "pd.DataFrame"]:
         import pandas as pd
 
         parts = [
@@ -80,7 +80,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
             "history": pd.DataFrame(history),
         }
 
-    def drawn() -> dict[str, "Figure"]:
+    def _drawn() -> dict[str, "Figure"]:
         from wearsim.handbook.face_load.figure import face_load_figure
 
         return {"face_load": face_load_figure(title, found)}
@@ -88,8 +88,8 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
     return Sheet(
         text=_text(title, found, states, assumptions),
         content=content,
-        tables=made,
-        figures=drawn,
+        tables=_made,
+        figures=_drawn,
         warnings=tuple(warnings),
     )
 

@@ -57,12 +57,12 @@ def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: Stiffnes
         content["statics"] = _statics(spectrum.statics)
         rows["statics"] = content["statics"]["deflections"]
 
-    def made() -> dict[str, "pd.DataFrame"]:
+    def _made() -> dict[str, "pd.DataFrame"]:
         import pandas as pd
 
         return {name: pd.DataFrame(found) for name, found in rows.items()}
 
-    def drawn() -> dict[str, "Figure"]:
+    def _drawn() -> dict[str, "Figure"]:
         from wearsim.handbook.stiffness_spectrum.figure import stiffness_spectrum_figure
 
         return {"stiffness_spectrum": stiffness_spectrum_figure(tables.title, spectrum)}
@@ -70,8 +70,8 @@ def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: Stiffnes
     return Sheet(
         text=_text(tables, spectrum),
         content=content,
-        tables=made,
-        figures=drawn,
+        tables=_made,
+        figures=_drawn,
         warnings=tuple(_warnings(tables, spectrum)),
     )
 

@@ -189,13 +189,13 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
     """
     gears = [_gear_row(gear, acting) for gear, acting in _acting(pair)]
 
-    def made() -> dict[str, "pd.DataFrame"]:
+    def _made() -> dict[str, "pd.DataFrame"]:
         import pandas as pd
 
         frame = pd.DataFrame
         return {"gears": frame(gears), "allowable_over_hours": frame(_over_hours(pair))}
 
-    def drawn() -> dict[str, "Figure"]:
+    def _drawn() -> dict[str, "Figure"]:
         from wearsim.handbook.strength.figure import strength_figure
 
         return {"strength": strength_figure(tables.title, pair)}
@@ -203,8 +203,8 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
     return Sheet(
         text=strength_text(tables, pair),
         content={"title": tables.title, **_pair_content(pair), "gears": gears},
-        tables=made,
-        figures=drawn,
+        tables=_made,
+        figures=_drawn,
         warnings=tuple(_warnings(tables, pair)),
     )
 

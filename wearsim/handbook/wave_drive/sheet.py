@@ -49,12 +49,12 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
     warnings = [f"left out: {reason}" for reason in comparison.left_out.values()]
     warnings += _warnings(found)
 
-    def made() -> dict[str, "pd.DataFrame"]:
+    def _made() -> dict[str, "pd.DataFrame"]:
         import pandas as pd
 
         return {"methods": pd.DataFrame(rows), "elasticities": pd.DataFrame(slopes)}
 
-    def drawn() -> dict[str, "Figure"]:
+    def _drawn() -> dict[str, "Figure"]:
         from wearsim.handbook.wave_drive.figure import wave_drive_figure
 
         return {"wave_drive": wave_drive_figure(title, found)}
@@ -68,8 +68,8 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
             "assumptions": list(assumptions),
             "warnings": warnings,
         },
-        tables=made,
-        figures=drawn,
+        tables=_made,
+        figures=_drawn,
         warnings=tuple(warnings),
     )
 
