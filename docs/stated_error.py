@@ -35,7 +35,7 @@ from wearsim.geometry.profile import Profile
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
 from wearsim.simulation.wrap_life import wrap_contact, wrap_problem
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.trajectory import Trajectory
 
 SEED = 20261122

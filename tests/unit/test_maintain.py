@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.dwelling import ChainWear
+from wearsim.contact.resting_engagement import ChainWear
 from wearsim.errors import CaseError
 from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
@@ -22,7 +22,7 @@ from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, pol
 from wearsim.study.maintain.tooth_count import meetings_around, variant
 from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 
 CASES = Path(__file__).parents[2] / "cases"
 

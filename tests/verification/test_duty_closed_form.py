@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 import wearsim
 from wearsim.case.load_case import load_case
-from wearsim.contact.dwelling import ChainWear
+from wearsim.contact.resting_engagement import ChainWear
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
 from wearsim.simulation.wrap_life import wrap_contact
 

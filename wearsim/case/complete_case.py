@@ -17,7 +17,7 @@ from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults,
 from wearsim.case.strand_drive import resolve_prescribed, resolve_strand
 from wearsim.case.wrap_drive import resolve_wrap
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.kind import mechanism_kind
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables, ChainTable

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from wearsim.catalogue.catalogues import Chain, regimes
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_log
 from wearsim.input.duty_log import LogBlock, log_blocks, merged
 from wearsim.input.schema import DutyBlock

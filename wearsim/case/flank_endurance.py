@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wearsim.input.completion import Record
+from wearsim.input.case_record import Record
 from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
 
 _SPROCKET = (

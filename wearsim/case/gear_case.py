@@ -17,7 +17,7 @@ from wearsim.case.shared import (
 )
 from wearsim.contact.hertz import contact_modulus
 from wearsim.geometry.gear.mesh import Mesh
-from wearsim.input.completion import Record
+from wearsim.input.case_record import Record
 from wearsim.input.messages import Faults
 from wearsim.input.schema.gear import GearTable, GearTables
 

@@ -8,7 +8,7 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.mesh import Mesh, ToothPair, check_contact_ratio
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.input.completion import Record
+from wearsim.input.case_record import Record
 from wearsim.input.schema.gear import GearTable
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from wearsim.case.model import RunInput, WearInput
 from wearsim.catalogue.catalogues import materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
-from wearsim.input.completion import Record
+from wearsim.input.case_record import Record
 from wearsim.input.schema import MaterialTable, RunTable, Table, WearTable
 
 DEFAULT_BAND = 3.0

@@ -7,7 +7,7 @@ from wearsim.case.model import Block, PrescribedDrive, StrandDrive, WearInput, h
 from wearsim.case.shared import FLANK_NODES
 from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.schema import SprocketTable
 

@@ -20,7 +20,7 @@ from wearsim.geometry.measured.points import (
     working_side,
 )
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
 

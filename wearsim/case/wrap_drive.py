@@ -11,7 +11,7 @@ from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.schema import DriveTable, JointTable
 
 CENTRE_IN_PITCHES = 40.0

@@ -21,7 +21,7 @@ from wearsim.geometry.gap_points import (
 )
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
 from wearsim.input.schema.sprocket import BETWEEN_FORMS

@@ -1,6 +1,6 @@
 """Which mechanism a case is about, and which keys belong to it."""
 
-from wearsim.input.completion import Resolution
+from wearsim.input.case_record import Resolution
 from wearsim.input.schema import CaseTables
 
 WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")

@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.case.model import Block, Case, WrapDrive
 from wearsim.chain.drive_layout import Meetings
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector, area_between
 from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
@@ -24,8 +24,8 @@ from wearsim.simulation.wrap_mechanism import wrap_mechanism
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.criteria import Criterion
-from wearsim.wear.dwelling import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.halving import advance_dwelling
+from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, difference

@@ -16,8 +16,8 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
+from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED

@@ -9,8 +9,8 @@ from types import FrameType
 
 import numpy as np
 
-from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
+from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
@@ -161,7 +161,7 @@ def run_per_cycle(
     """
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.dwelling import run_dwelling
+        from wearsim.wear.implicit_steps import run_dwelling
 
         return run_dwelling(contact, law, criteria, horizon, 0, float(cycles_per_update))
     run = _Run(contact, law, cycles_per_update, criteria[0].limit)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path

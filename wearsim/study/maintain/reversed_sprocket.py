@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.case.model import Case, WrapDrive
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import ChainWear, Dwelling
+from wearsim.contact.resting_engagement import ChainWear, Dwelling
 from wearsim.errors import JumpError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
