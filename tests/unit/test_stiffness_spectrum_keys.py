@@ -81,13 +81,6 @@ CHANGES = {
 }
 
 
-@pytest.fixture(autouse=True)
-def no_picture(monkeypatch):
-    monkeypatch.setattr(
-        "wearsim.handbook.stiffness_spectrum.sheet.stiffness_spectrum_figure", lambda *_: None
-    )
-
-
 @cache
 def shown(base, *overrides):
     tables = load_calculation(BASES[base], StiffnessSpectrumTables, overrides)

@@ -134,14 +134,6 @@ def keys(model, lead=""):
             yield from keys(tables[0], f"{lead}{name}.")
 
 
-@pytest.fixture(autouse=True, scope="module")
-def without_picture():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("wearsim.handbook.strength.sheet.strength_figure", lambda title, pair: None)
-        patch.setattr("wearsim.handbook.strength.sheet.pd.DataFrame", lambda data: None)
-        yield
-
-
 @cache
 def of_base(name):
     return shown(BASES[name])
