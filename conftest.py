@@ -3,10 +3,10 @@
 from importlib.util import find_spec
 from pathlib import Path
 
-_UI = Path(__file__).parent / "wearsim" / "ui"
+_PAGE = Path(__file__).parent / "wearsim" / "page"
 
 collect_ignore = [
     str(path)
-    for path in sorted(_UI.glob("*.py"))
+    for path in sorted(_PAGE.glob("*.py"))
     if find_spec("nicegui") is None and "nicegui" in path.read_text(encoding="utf-8")
 ]

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 import wearsim
-from wearsim.catalogue.tables import chains
+from wearsim.catalogue.catalogues import chains
 from wearsim.result import Life, WearResult
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task

@@ -30,12 +30,12 @@ import numpy as np
 from random_lives import add_limit, add_range, draw, log_uniform, random_wear, uniform
 
 import wearsim
-from wearsim.catalogue.tables import chains
+from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile import Profile
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
-from wearsim.simulation.wrap import wrap_contact, wrap_problem
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.simulation.wrap_life import wrap_contact, wrap_problem
+from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.trajectory import Trajectory
 
 SEED = 20261122

@@ -11,9 +11,9 @@ from datetime import date
 from pathlib import Path
 
 import wearsim
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.result import Life, WearResult
-from wearsim.simulation.loads import tooth_loads
+from wearsim.simulation.tooth_loads import tooth_loads
 
 ROOT = Path(__file__).parent.parent
 DRIVES = {

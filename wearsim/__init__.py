@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from wearsim._version import __version__
 
 _PUBLIC = {
     "Case": "wearsim.case.model",
@@ -14,13 +14,13 @@ _PUBLIC = {
     "LowerBound": "wearsim.result",
     "WearResult": "wearsim.result",
     "WearsimError": "wearsim.errors",
-    "load_case": "wearsim.case.load",
+    "load_case": "wearsim.case.load_case",
     "simulate": "wearsim.simulation",
-    "simulate_many": "wearsim.simulation.many",
+    "simulate_many": "wearsim.simulation.simulate_many",
 }
 
 if TYPE_CHECKING:
-    from wearsim.case.load import load_case
+    from wearsim.case.load_case import load_case
     from wearsim.case.model import Case
     from wearsim.errors import (
         CaseError,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     )
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.simulation import simulate
-    from wearsim.simulation.many import simulate_many
+    from wearsim.simulation.simulate_many import simulate_many
 
 __all__ = [
     "Case",
@@ -43,6 +43,7 @@ __all__ = [
     "LowerBound",
     "WearResult",
     "WearsimError",
+    "__version__",
     "load_case",
     "simulate",
     "simulate_many",

@@ -7,7 +7,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-import wearsim
+from wearsim._version import __version__
 
 
 @cache
@@ -26,7 +26,7 @@ def facts() -> dict[str, Any]:
     ('wearsim', True)
     """
     text = files("wearsim").joinpath("citation.toml").read_text("utf-8")
-    return {**tomllib.loads(text), "version": wearsim.__version__}
+    return {**tomllib.loads(text), "version": __version__}
 
 
 def cff() -> str:
@@ -131,7 +131,7 @@ def _bibtex_authors(known: dict[str, Any]) -> str:
     )  # fmt: skip
 
 
-def apa(version: str = wearsim.__version__) -> str:
+def apa(version: str = __version__) -> str:
     """Return the references in the style of the APA.
 
     Parameters

@@ -6,8 +6,8 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
 
-from wearsim.case.schema import CaseTables
-from wearsim.case.schema.calculations import OTHER_FILES
+from wearsim.command.registry import tables_of
+from wearsim.input.schema import CaseTables
 from wearsim.quantities import quantities
 
 _HEAD = ("key", "meaning", "unit", "default", "allowed")
@@ -85,7 +85,8 @@ class KeyTables(Directive):
 
     def run(self) -> list[nodes.Node]:
         """Return the table."""
-        model = {"drive": CaseTables, **OTHER_FILES}[self.arguments[0]]
+        kind = self.arguments[0]
+        model = CaseTables if kind == "drive" else tables_of(kind)
         schema = model.model_json_schema()
         return [_table(_rows(schema, "", schema))]
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from wearsim.contact.hertz import contact_modulus
-from wearsim.geometry.evolute import Strand, evolute_flank
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import archard
 
 PITCH, TEETH, OFFSET, ROLLER_RADIUS = 25.4, 20, 5.5, 7.94

@@ -9,12 +9,12 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.contact.engagement import Kind
+from wearsim.kernels.hertz_wear import DEPTH_REACHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
-from wearsim.kernels.wear import DEPTH_REACHED
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard

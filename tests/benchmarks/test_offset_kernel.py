@@ -21,7 +21,7 @@ from wearsim.kernels.offset import (
     prepare_offset,
     run_offset_cycles,
 )
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
 
 CYCLES = 2000

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from wearsim.geometry.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.roller_path import roller_path
-from wearsim.kernels import wrap as kernels
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.kernels import wrap_equilibrium as kernels
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 PITCH, RADIUS, TEETH, ROLLERS = 12.7, 3.96, 24, 12
 TOLERANCE = 1e-6

@@ -12,7 +12,7 @@ import pytest
 
 import wearsim
 from wearsim.geometry import roller_path
-from wearsim.mechanisms import wrap_cycle
+from wearsim.mechanisms.wrap import contact as wrap_cycle
 from wearsim.wear import bodies
 
 CASE = Path(__file__).parents[2] / "cases" / "a40-19t-rating.toml"

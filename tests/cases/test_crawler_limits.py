@@ -5,7 +5,7 @@ import pytest
 
 import wearsim
 from wearsim.errors import WearsimError
-from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.tooth import RELIEF_PER_PITCH, Tooth
 
 PITCH, RADIUS, TEETH = 203.2, 33.0, 27

@@ -15,7 +15,7 @@ import pytest
 
 import wearsim
 from wearsim.result import WearResult
-from wearsim.simulation.loads import tooth_loads
+from wearsim.simulation.tooth_loads import tooth_loads
 
 FOLDER = Path(__file__).parents[2] / "cases"
 PATHS = {

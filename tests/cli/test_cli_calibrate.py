@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.study.calibration.course import Course
+from wearsim.study.calibrate.predicted_history import Course
 
 K = "wear.specific_wear_rate_mm2_per_N"
 HEAD = "time_hours,quantity,value,error,arc_length_mm"

@@ -1,6 +1,6 @@
 """compare with a case that fails: the rest is written and the exit code says so."""
 
-from wearsim.cli.standard import FAILED, SOME_FAILED
+from wearsim.command.options import FAILED, SOME_FAILED
 
 COARSE = """
 [run]

@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.convex_concave import ConvexConcaveTables
-from wearsim.output import check_folder
+from wearsim.files import check_folder
+from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
+from wearsim.handbook.convex_concave.model import convex_concave
+from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.convex_concave import convex_concave_sheet
-from wearsim.sizing.convex_concave import convex_concave
 
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "cases" / "sizing" / "convex-concave-17-34.toml"
@@ -122,14 +122,14 @@ def test_solid_has_the_face_width(tmp_path):
 
 def test_zones_of_equal_gears():
     """Pinion and wheel alike: the same flank is in zone a on one and in zone b on the other."""
-    flanks = sheet(convex_concave__wheel_teeth=17).tables["flanks"]
+    flanks = sheet(convex_concave__wheel_teeth=17).tables()["flanks"]
     zones = flanks.groupby(["gear", "part"]).zone.unique().map(list).to_dict()
     assert zones[("pinion", "head")] == zones[("wheel", "foot")] == ["a"]
     assert zones[("pinion", "foot")] == zones[("wheel", "head")] == ["b"]
 
 
 def test_backlash_is_in_the_flanks():
-    flanks = sheet(convex_concave__backlash_mm=0.4).tables["flanks"]
+    flanks = sheet(convex_concave__backlash_mm=0.4).tables()["flanks"]
     pole = flanks[np.isclose(flanks.radius_mm, 38.25)]
     assert np.arctan2(pole.x_mm, pole.y_mm).to_numpy() * 38.25 == pytest.approx(0.1)
 
@@ -146,7 +146,7 @@ def found(folder, **changed):
     made = sheet(**{**FEW_TEETH, **changed})
     made.files["pinion.stl"](folder / "pinion.stl")
     solid = (folder / "pinion.stl").read_bytes()
-    return json.dumps(made.content), made.tables["flanks"].to_csv(), solid
+    return json.dumps(made.content), made.tables()["flanks"].to_csv(), solid
 
 
 CHANGED = {

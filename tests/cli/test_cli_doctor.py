@@ -15,7 +15,7 @@ import pytest
 
 import wearsim
 import wearsim.cli.doctor
-from wearsim import doctor
+from wearsim import installation as doctor
 from wearsim.extras import libraries
 from wearsim.kernels import compiled
 

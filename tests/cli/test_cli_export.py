@@ -15,8 +15,8 @@ import shapely
 from scipy.spatial import cKDTree
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.geometry.dxf import outline_from_dxf
+from wearsim.case.load_case import load_case
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.outline import Outline
 from wearsim.result import WearResult
 
@@ -393,7 +393,7 @@ def test_gears_have_two_gauges(cli, gears, tmp_path):
 
 def test_gap_that_never_carries_a_roller_stays_new():
     """28 gaps, every second one: half of them wear."""
-    from wearsim.report.wheel_shapes import wheel_shapes
+    from wearsim.export.wheel_shapes import wheel_shapes
 
     path = Path(__file__).parents[2] / "cases" / "d6-crawler-27t-soil.toml"
     case = load_case(path, ["sprocket.teeth=28", "stop.critical_depth_mm=0.5"])

@@ -2,7 +2,7 @@
 
 import os
 
-from wearsim.cli.standard import BAD_INPUT
+from wearsim.command.options import BAD_INPUT
 
 
 def test_a_result_is_replaced(cli, drive, tmp_path):

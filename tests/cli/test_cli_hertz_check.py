@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import wearsim.sizing.hertz_fem
-from wearsim.sizing.hertz_fem import FemContact
+import wearsim.handbook.hertz_check.hertz_fem
+from wearsim.handbook.hertz_check.hertz_fem import FemContact
 
 CASE = Path(__file__).parents[2] / "cases" / "sizing" / "hertz-check-36-54.toml"
 
@@ -28,7 +28,7 @@ def solved(monkeypatch):
         pressure = np.maximum(900.0 - 9000.0 * place, 0.0)
         return FemContact(elements, 100 * elements, 0.5, place, pressure, place, 0.5 * pressure)
 
-    monkeypatch.setattr(wearsim.sizing.hertz_fem, "hertz_fem", hertz_fem)
+    monkeypatch.setattr(wearsim.handbook.hertz_check.hertz_fem, "hertz_fem", hertz_fem)
     return asked
 
 

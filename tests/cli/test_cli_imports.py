@@ -2,8 +2,11 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+CASES = Path(__file__).parents[2] / "cases" / "sizing"
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "matplotlib", "shapely", "pint"}
 
@@ -41,3 +44,15 @@ def test_life_loads_neither_pandas_nor_matplotlib_nor_pint(drive):
 
 def test_life_loads_pint_for_a_string_with_a_unit(drive):
     assert loaded("life", drive(power_kW='"3 kW"')) & {"pandas", "matplotlib", "pint"} == {"pint"}
+
+
+@pytest.mark.parametrize(
+    ("command", "case", "needed"),
+    [
+        ("strength", "strength-a-improved", {"numpy"}),
+        ("wave-drive", "wave-drive-100", {"numpy", "scipy"}),
+        ("stiffness-spectrum", "stiffness-spectrum-20-30", {"numpy", "scipy"}),
+    ],
+)
+def test_calculations_load_neither_numba_nor_what_only_a_folder_needs(command, case, needed):
+    assert loaded(command, CASES / f"{case}.toml") == needed

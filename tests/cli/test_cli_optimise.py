@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.study.runner import run as run_module
+from wearsim.runner import run_study as run_module
 
 CASES = Path(__file__).parents[2] / "cases"
 WIDTH = '"sprocket.face_width_mm" = {low = 8.0, high = 16.0}\n'
@@ -39,7 +39,7 @@ def case(drive):
 @pytest.fixture
 def without_pictures(monkeypatch):
     """Function that leaves out the pictures from then on, which take longer than the search."""
-    return lambda: monkeypatch.setattr("wearsim.report.optimise.save_figures", lambda *_: None)
+    return lambda: monkeypatch.setattr("wearsim.study.optimise.sheet.save_figures", lambda *_: None)
 
 
 def answer(cli, *arguments, evaluations=20):

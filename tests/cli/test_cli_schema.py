@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from wearsim.case.schema.calculations import CALCULATIONS
 from wearsim.cli.main import wearsim_command
+from wearsim.command.registry import CALCULATIONS
 
 CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
 

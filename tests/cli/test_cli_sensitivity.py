@@ -65,9 +65,9 @@ def test_indices_agree_with_scipy(cli, case, tmp_path):
     """The indices of the same function by scipy's own samples and estimators."""
     from scipy.stats import sobol_indices, uniform
 
-    from wearsim.study.runner.run import run_study
-    from wearsim.study.runner.workers import Threads
-    from wearsim.study.scatter import load_scattered
+    from wearsim.runner.run_study import run_study
+    from wearsim.runner.scatter import load_scattered
+    from wearsim.runner.workers import Threads
 
     more = SCATTER.replace('distribution = "lognormal", sigma_ln = 0.3', 'distribution = "weibull", shape = 1.5, scale = 3000.0, low = 500.0')  # fmt: skip  # noqa: E501
     path = case(more)

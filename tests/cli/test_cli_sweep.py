@@ -168,7 +168,7 @@ def test_options_that_do_not_go_together(cli, sweep, monkeypatch, tmp_path, opti
 
 
 def test_interrupt_says_how_to_go_on(cli, sweep, monkeypatch):
-    from wearsim.study.runner import run
+    from wearsim.runner import run_study as run
 
     def interrupted(shard):
         raise KeyboardInterrupt

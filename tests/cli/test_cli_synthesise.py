@@ -14,13 +14,13 @@ import pytest
 from matplotlib.figure import Figure
 from pydantic import BaseModel
 
-import wearsim.report.synthesis
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.synthesis import SynthesisTables
+import wearsim.handbook.synthesise.sheet
 from wearsim.errors import CaseError
+from wearsim.handbook.synthesise.keys import SynthesisTables
+from wearsim.handbook.synthesise.model import loaded_pair, phases
+from wearsim.handbook.synthesise.sheet import synthesis_sheet
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.synthesis import synthesis_sheet
-from wearsim.sizing.synthesis import loaded_pair, phases
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"
 POLE = CASES / "synthesise-constant-stress.toml"
@@ -32,7 +32,7 @@ FIGURES = ("line_figure", "indices_figure", "field_figure", "direction_figure")
 def undrawn(monkeypatch):
     """Leave the pictures out: they take most of the time."""
     for name in FIGURES:
-        monkeypatch.setattr(wearsim.report.synthesis, name, lambda *arguments: Figure())
+        monkeypatch.setattr(wearsim.handbook.synthesise.sheet, name, lambda *arguments: Figure())
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -265,7 +265,7 @@ def results(document):
     tables = load_calculation(document, SynthesisTables)
     pair = loaded_pair(tables)
     sheet = synthesis_sheet(tables, pair, phases(pair, tables))
-    return {"text": sheet.text, **{name: table.to_csv() for name, table in sheet.tables.items()}}
+    return {"text": sheet.text, **{name: table.to_csv() for name, table in sheet.tables().items()}}
 
 
 @pytest.fixture(scope="module")
@@ -276,7 +276,7 @@ def base_results():
 def results_without_pictures(document):
     with pytest.MonkeyPatch.context() as patch:
         for name in FIGURES:
-            patch.setattr(wearsim.report.synthesis, name, lambda *arguments: Figure())
+            patch.setattr(wearsim.handbook.synthesise.sheet, name, lambda *arguments: Figure())
         return results(document)
 
 
@@ -328,14 +328,14 @@ def test_pictures():
     tables = load_calculation(SEGMENTS, SynthesisTables, settings)
     pair = loaded_pair(tables)
     sheet = synthesis_sheet(tables, pair, phases(pair, tables))
-    plane, profiles = sheet.figures["line_of_action"].axes
+    plane, profiles = sheet.figures()["line_of_action"].axes
     assert [line.get_label() for line in plane.lines[::3]][:2] == [
         "phase 1, family +1",
         "phase 2, family -1",
     ]
     assert len(profiles.lines) == 4
-    sheet.figures["field_directions"].savefig(io.BytesIO(), format="svg")
-    drawn = sheet.figures["field_small_radii"].axes[0].lines[-1]
+    sheet.figures()["field_directions"].savefig(io.BytesIO(), format="svg")
+    drawn = sheet.figures()["field_small_radii"].axes[0].lines[-1]
     assert drawn.get_xydata() == pytest.approx(
-        sheet.tables["line_of_action"].query("mesh_phase == 2")[["contact_x_mm", "contact_y_mm"]]
+        sheet.tables()["line_of_action"].query("mesh_phase == 2")[["contact_x_mm", "contact_y_mm"]]
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from wearsim.catalogue.tables import rows
+from wearsim.catalogue.catalogues import rows
 
 
 @pytest.mark.parametrize("option", [(), ("--result",)])

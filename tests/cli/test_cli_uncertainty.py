@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from wearsim.case.document import read_document
-from wearsim.case.load import load_case
-from wearsim.study.scatter import plain_document
+from wearsim.case.load_case import load_case
+from wearsim.input.document import read_document
+from wearsim.runner.scatter import plain_document
 
 SCATTER = """\
 [uncertainty]

@@ -23,18 +23,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from wearsim.command.registry import CALCULATIONS
+
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "cases"
 FILE = Path(__file__).with_name("numbers.csv")
-CALCULATIONS = (
-    "convex-concave",
-    "face-load",
-    "hertz-check",
-    "stiffness-spectrum",
-    "strength",
-    "synthesise",
-    "wave-drive",
-)
 STUDIES = {
     "teeth-and-tension": ("sweep", "studies/teeth-and-tension.toml", "--threads", "2"),
     "16b-20t-readings": ("calibrate", "16b-20t-oiled.toml", "studies/16b-20t-readings.csv"),

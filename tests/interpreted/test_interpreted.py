@@ -16,14 +16,14 @@ import pytest
 from numba.core import config
 
 import wearsim
-from wearsim.geometry.evolute import Strand, evolute_flank
-from wearsim.geometry.iso606 import iso606_gap
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.cycles import run_cycles
 from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 STRAND = {
     "format_version": 1,

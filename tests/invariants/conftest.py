@@ -9,20 +9,20 @@ import pytest
 from wearsim.contact.engagement import Contact, Kind, Mechanism
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.contact.synthesised_pair import SynthesisedPair
-from wearsim.geometry.convex_concave import ConvexConcave
-from wearsim.geometry.evolute import Strand, evolute_flank
-from wearsim.geometry.involute import InvolutePair
-from wearsim.geometry.mesh import ToothPair
-from wearsim.geometry.plane_gearing import PitchCircles
-from wearsim.geometry.points import flank_from_points
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.geometry.gear.convex_concave import ConvexConcave
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.geometry.gear.mesh import ToothPair
+from wearsim.geometry.gear.plane_gearing import PitchCircles
+from wearsim.geometry.measured.points import flank_from_points
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.gear_rows import SLIP
-from wearsim.mechanisms.gear_pair import GearPairMechanism
-from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
-from wearsim.mechanisms.wrap_cycle import Sliding, WrapBlock, WrapContact
+from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
+from wearsim.mechanisms.strand.contact import StrandMechanism
+from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 """Contact modulus of steel on steel [MPa]."""

@@ -8,7 +8,7 @@ import pytest
 
 import wearsim
 from wearsim.result import Life, LowerBound
-from wearsim.wear import dwelling
+from wearsim.wear import implicit_steps as dwelling
 
 SLOW = 5e-13
 STRAND = {

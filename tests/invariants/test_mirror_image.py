@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.geometry.evolute import Strand
+from wearsim.geometry.forms.evolute import Strand
 
 TABLES: dict[str, Any] = {
     "format_version": 1,

@@ -11,7 +11,7 @@ import pytest
 
 from wearsim.contact.engagement import Kind
 from wearsim.contact.hertz import contact_modulus
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle

@@ -8,8 +8,8 @@ import pytest
 
 from wearsim.contact.line_stress import axis_von_mises, greatest_von_mises
 from wearsim.errors import ContactError
-from wearsim.sizing.hertz_fem import hertz_fem
-from wearsim.sizing.pole_contact import PoleContact
+from wearsim.handbook.hertz_check.hertz_fem import hertz_fem
+from wearsim.handbook.hertz_check.pole_contact import PoleContact
 
 pytestmark = pytest.mark.slow
 

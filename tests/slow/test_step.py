@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.report.step import step_bytes
-from wearsim.report.wheel_shapes import wheel_shapes
+from wearsim.case.load_case import load_case
+from wearsim.export.step import step_bytes
+from wearsim.export.wheel_shapes import wheel_shapes
 
 pytestmark = pytest.mark.slow
 

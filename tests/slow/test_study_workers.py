@@ -182,7 +182,7 @@ def test_worker_of_another_version_is_refused(study, cluster):
 
 def other_version():
     """Make a worker believe that it is older."""
-    from wearsim.study.runner import design
+    from wearsim.runner import design
 
     older = design.Engine("0.0.1", "old")
     design.engine.__wrapped__.__globals__["__version__"] = "0.0.1"

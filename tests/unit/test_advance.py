@@ -11,7 +11,7 @@ import pytest
 
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.law import archard

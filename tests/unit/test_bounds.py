@@ -1,11 +1,11 @@
 """A life that is not known is told with what it exceeds, wherever it is told."""
 
-from wearsim.report.maintain import count_rows, maintenance_text, policy_rows
-from wearsim.report.remaining import remaining_json, remaining_text
 from wearsim.result import Life, LowerBound
-from wearsim.study.maintain import MaintenancePlan, Policy
-from wearsim.study.remaining import Reading, RemainingLife
-from wearsim.study.tooth_count import Meetings, ToothCount
+from wearsim.study.maintain.model import MaintenancePlan, Policy
+from wearsim.study.maintain.sheet import count_rows, maintenance_text, policy_rows
+from wearsim.study.maintain.tooth_count import Meetings, ToothCount
+from wearsim.study.remaining.model import Reading, RemainingLife
+from wearsim.study.remaining.sheet import remaining_json, remaining_text
 
 
 def test_policy_of_a_sprocket_that_outlives_the_run():

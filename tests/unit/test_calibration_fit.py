@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import norm
 
 from wearsim.errors import ContactError
-from wearsim.study.calibration.fit import (
+from wearsim.study.calibrate.least_squares import (
     Interval,
     Problem,
     fit,

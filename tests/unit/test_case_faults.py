@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError
 
 MINIMAL = """\

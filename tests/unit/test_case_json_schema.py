@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.schema import CaseTables
 from wearsim.cli.list import shipped_cases
+from wearsim.input.schema import CaseTables
 
 WITH_UNITS = """\
 format_version = 1

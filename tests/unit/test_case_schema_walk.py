@@ -6,10 +6,10 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.case.schema import CaseTables
+from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError
-from wearsim.report.profile import profile_table
+from wearsim.input.schema import CaseTables
+from wearsim.report.flank_table import profile_table
 
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.document import CaseText
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
-from wearsim.report.design_files import save_designs
-from wearsim.study.runner.design import Design
-from wearsim.study.sweep import load_sweep
-from wearsim.ui.answers import edited_case
-from wearsim.ui.file import CaseFile, new_file
-from wearsim.ui.source import with_value
+from wearsim.input.document import CaseText
+from wearsim.page.answers import edited_case
+from wearsim.page.file import CaseFile, new_file
+from wearsim.page.source import with_value
+from wearsim.runner.design import Design
+from wearsim.study.optimise.design_files import save_designs
+from wearsim.study.sweep.model import load_sweep
 
 CASES = Path(__file__).parents[2] / "cases"
 OILED = CASES / "16b-20t-oiled.toml"

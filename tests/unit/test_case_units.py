@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from wearsim.case.units import convert
+from wearsim.input.units import convert
 
 # inch = 25.4 mm, lbf = 4.4482216152605 N, ft = 0.3048 m, turn = 2 pi rad: by definition.
 EXACT = [

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from wearsim.case.load import load_case
-from wearsim.catalogue.tables import (
+from wearsim.case.load_case import load_case
+from wearsim.catalogue.catalogues import (
     KG_PER_M,
     chain_name,
     chains,

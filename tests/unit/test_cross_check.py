@@ -9,8 +9,8 @@ from scipy import optimize, stats
 
 pytest.importorskip("reliability", reason="reliability is not installed")
 
-from wearsim.study.cross_check import cross_check
-from wearsim.study.percentiles import fits
+from wearsim.study.uncertainty.cross_check import cross_check
+from wearsim.study.uncertainty.percentiles import fits
 
 # Distances to failure of vehicle shock absorbers [km], 11 of 38 failed: O'Connor (1985), as in Meeker and
 # Escobar, Statistical Methods for Reliability Data (1998), table C.2. Their chapter 8 gives the maxima.

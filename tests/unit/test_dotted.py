@@ -4,9 +4,9 @@ import pytest
 from pydantic import ValidationError
 
 import wearsim
-from wearsim.case.schema.dotted import dotted
-from wearsim.case.schema.sweep import SweepTables
 from wearsim.errors import CaseError
+from wearsim.input.schema.dotted import dotted
+from wearsim.study.sweep.keys import SweepTables
 
 CASE = {
     "format_version": 1,

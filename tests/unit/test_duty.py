@@ -5,10 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from wearsim.case.duty_log import Log, LogBlock, log_blocks, merged
-from wearsim.case.load import load_case
-from wearsim.catalogue.regimes import regimes
+from wearsim.case.load_case import load_case
+from wearsim.catalogue.catalogues import regimes
 from wearsim.errors import CaseError
+from wearsim.input.duty_log import Log, LogBlock, log_blocks, merged
 
 HEAD = """\
 format_version = 1

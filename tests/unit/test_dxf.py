@@ -10,7 +10,7 @@ import pytest
 from ezdxf.document import Drawing
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.dxf import outline_from_dxf
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 
 Save = Callable[[Drawing], Path]
 TEETH = 6

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Contact, Kind
-from wearsim.mechanisms.prescribed import PrescribedMechanism, flank_from_curvature
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism, flank_from_curvature
 
 ARC = np.array([0.0, 0.4, 1.0, 1.5, 2.3, 3.0, 3.6, 4.4, 5.0])
 

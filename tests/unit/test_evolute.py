@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand, contact_ratio, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
 
 STRAND = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.face_load import FaceLoadTables
 from wearsim.errors import CaseError
-from wearsim.report.face_load import face_load_sheet
-from wearsim.sizing.face_load import face_load
+from wearsim.handbook.face_load.keys import FaceLoadTables
+from wearsim.handbook.face_load.model import face_load
+from wearsim.handbook.face_load.sheet import face_load_sheet
+from wearsim.input.calculation_file import load_calculation
 
 BASE = {
     "format_version": 1,

@@ -9,10 +9,10 @@ import pytest
 
 import wearsim
 from wearsim.report.figures import flanks_figure
-from wearsim.report.maintain_figure import maintenance_figure
-from wearsim.report.sweep_figures import sweep_figures
 from wearsim.result import Life, LowerBound
-from wearsim.study.maintain import MaintenancePlan, Policy
+from wearsim.study.maintain.figure import maintenance_figure
+from wearsim.study.maintain.model import MaintenancePlan, Policy
+from wearsim.study.sweep.figure import sweep_figures
 
 STRAND = {
     "format_version": 1,

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry import iso606, measuring
-from wearsim.geometry.ansi_b29 import TypeIITooth, ansi_b29_gap
+from wearsim.geometry import measuring
+from wearsim.geometry.forms import iso606
+from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
+from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap, tooth_height_factor, tooth_width
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap, pitch_diameter, seat_height
-from wearsim.geometry.gost591 import GostTooth, gost591_gap, tooth_height_factor, tooth_width
-from wearsim.geometry.iso606 import iso606_gap
 from wearsim.geometry.segments import Arc, Line, points_along
 
 QUARTER = 0.5 * math.pi

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.gap_points import evolute_gap, gap_from_points, lowest_centre
 from wearsim.geometry.tooth import Tooth
 

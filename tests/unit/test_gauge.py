@@ -9,11 +9,11 @@ import pytest
 import shapely
 from shapely import affinity
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import StrandDrive
+from wearsim.export.gauge import gauge
+from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.geometry.wheel import worn_gap, worn_space
-from wearsim.report.gauge import gauge
-from wearsim.report.wheel_shapes import wheel_shapes
 
 CASES = Path(__file__).parents[2] / "cases"
 WRAP = """\
@@ -58,7 +58,7 @@ def wheel(folder, form):
         points = np.column_stack([outline.x, outline.y])
         np.savetxt(folder / "gap.csv", points, "%.12f", ",", header="x_mm,y_mm", comments="")
     if form == "dxf":
-        from wearsim.report.export import export
+        from wearsim.export.formats import export
 
         drawing = export(load_case(written(folder, "iso606")), None, ("new",), "dxf")
         (folder / "wheel.dxf").write_bytes(drawing)

@@ -12,8 +12,8 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.case.schema.gear import GearTables
-from wearsim.simulation.many import CaseLife
+from wearsim.input.schema.gear import GearTables
+from wearsim.simulation.simulate_many import CaseLife
 
 WITHOUT_EFFECT = {
     "format_version": "1 only",

@@ -155,7 +155,7 @@ def test_numbers_beyond_reason_are_named() -> None:
 
 def test_width_of_a_tip_is_that_of_its_arc() -> None:
     """On the pitch circle without shift half the pitch; the closed form against points of the flank."""
-    from wearsim.geometry.involute import InvolutePair
+    from wearsim.geometry.gear.involute import InvolutePair
 
     pair = InvolutePair((20, 30), 3.0, math.radians(20.0), (0.0, 0.0), (30.0, 45.0))
     assert pair.tip_width(0) == pytest.approx(1.5 * math.pi)

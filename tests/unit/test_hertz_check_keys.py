@@ -5,12 +5,12 @@ import copy
 import numpy as np
 import pytest
 
-from wearsim.case.hertz_check import load_hertz_check
-from wearsim.case.schema.hertz_check import HertzCheckTables
 from wearsim.errors import CaseError
-from wearsim.report.hertz_check import hertz_check_sheet
-from wearsim.sizing.hertz_check import hertz_check
-from wearsim.sizing.hertz_fem import FemContact
+from wearsim.handbook.hertz_check.hertz_fem import FemContact
+from wearsim.handbook.hertz_check.keys import HertzCheckTables
+from wearsim.handbook.hertz_check.model import hertz_check
+from wearsim.handbook.hertz_check.published import load_hertz_check
+from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 
 BASE = {
     "format_version": 1,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Kind
-from wearsim.kernels.wear import wear_depth
+from wearsim.kernels.hertz_wear import wear_depth
 from wearsim.wear.law import Law, archard, drozdov, mean_pressure_factor, power
 
 MODULUS = 115384.6153846154

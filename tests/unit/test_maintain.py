@@ -8,21 +8,21 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.schema import MaintenanceTable
-from wearsim.contact.dwelling import ChainWear
+from wearsim.contact.resting_engagement import ChainWear
 from wearsim.errors import CaseError
+from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
-from wearsim.report.maintain import maintenance_page, maintenance_text, policy_rows
 from wearsim.report.service import life_json
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.law import wear_law
-from wearsim.simulation.wrap import wrap_contact
-from wearsim.study.maintain import MaintenancePlan, Policy, cost_per_1000_hours, maintain
-from wearsim.study.tooth_count import meetings_around, variant
-from wearsim.study.turned import turned_life
+from wearsim.simulation.law_of_case import wear_law
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.maintain.model import MaintenancePlan, Policy, cost_per_1000_hours, maintain
+from wearsim.study.maintain.reversed_sprocket import turned_life
+from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
+from wearsim.study.maintain.tooth_count import meetings_around, variant
 from wearsim.wear.bodies import Start
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -73,7 +73,7 @@ def life():
 
 @pytest.fixture
 def without_counts(monkeypatch):
-    monkeypatch.setattr("wearsim.study.maintain.meetings_around", lambda case, drive: ())
+    monkeypatch.setattr("wearsim.study.maintain.model.meetings_around", lambda case, drive: ())
 
 
 def policy(plan, percent, turned=False):

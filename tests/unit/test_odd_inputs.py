@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.document import CaseText
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError, GeometryError
-from wearsim.geometry.dxf import outline_from_dxf
-from wearsim.geometry.points import flank_from_points
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
+from wearsim.geometry.measured.points import flank_from_points
+from wearsim.input.document import CaseText
 from wearsim.report.answer import findings
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -163,7 +163,7 @@ def test_case_keeps_the_text_of_its_files(tmp_path):
 
 def test_drawing_in_another_encoding_is_kept(tmp_path):
     """Bytes that are no UTF-8 come back from a saved run as they were."""
-    from wearsim.report.export import export
+    from wearsim.export.formats import export
 
     drawing = export(load_case(WRAP), None, ("new",), "dxf").replace(
         b"ANSI", "Зуб ".encode("cp1251")

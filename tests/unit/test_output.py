@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from wearsim.errors import OutputError
-from wearsim.output import check_free, new_folder, write_file
+from wearsim.files import check_free, new_folder, write_file
 
 
 def tree(folder):
@@ -145,7 +145,7 @@ def test_failed_file_leaves_the_old_one(tmp_path, monkeypatch, error):
 WRITER = """\
 import sys
 from pathlib import Path
-from wearsim import output
+from wearsim import files as output
 rename = output.os.rename
 
 def stuck(source, target):

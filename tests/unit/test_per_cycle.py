@@ -13,9 +13,9 @@ import pytest
 
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.geometry.evolute import Strand, evolute_flank
-from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
+from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.law import Law, archard, drozdov, power
 from wearsim.wear.per_cycle import run_per_cycle

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from wearsim.case.schema.uncertainty import Distribution
-from wearsim.study.distributions import quantile
-from wearsim.study.percentiles import fits, percentile
-from wearsim.study.uncertainty import METHODS, unit_samples
+from wearsim.input.schema.uncertainty import Distribution
+from wearsim.runner.distributions import quantile
+from wearsim.study.uncertainty.model import METHODS, unit_samples
+from wearsim.study.uncertainty.percentiles import fits, percentile
 
 ALL = np.full(1000, True)
 

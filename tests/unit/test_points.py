@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.points import contact_range, flank_from_points, working_side
+from wearsim.geometry.measured.points import contact_range, flank_from_points, working_side
 from wearsim.geometry.profile import Profile
 
 RADIUS, CENTRE = 20.0, (11.1, 78.4)

@@ -12,32 +12,32 @@ from click.testing import CliRunner
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.case.messages import Faults
-from wearsim.case.schema import CaseTables
-from wearsim.case.schema.calculations import CALCULATIONS, OTHER_FILES
-from wearsim.case.schema.uncertainty import Distribution
-from wearsim.case.tables import read_prescribed
-from wearsim.catalogue.tables import rows
+from wearsim.case.load_case import load_case
+from wearsim.catalogue.catalogues import rows
 from wearsim.cli.main import wearsim_command
+from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
+from wearsim.export.wheel_points import wheel_points
+from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.input.csv_tables import read_prescribed
+from wearsim.input.messages import Faults
+from wearsim.input.schema import CaseTables
+from wearsim.input.schema.uncertainty import Distribution
 from wearsim.quantities import Quantity, quantities
-from wearsim.report.calibrate import readings_table, values_table
-from wearsim.report.compare import comparison_table
-from wearsim.report.loads import loads_json
-from wearsim.report.optimise import candidates_table
-from wearsim.report.profile import profile_table
-from wearsim.report.sensitivity import Answer, sensitivity_table
-from wearsim.report.wheel_points import wheel_points
-from wearsim.report.wheel_shapes import wheel_shapes
+from wearsim.report.comparison import comparison_table
+from wearsim.report.flank_table import profile_table
+from wearsim.report.loads_table import loads_json
 from wearsim.result.folder import FLANK_COLUMNS
-from wearsim.simulation.loads import tooth_loads
-from wearsim.study.calibration.calibrate import calibrate
-from wearsim.study.calibration.readings import OPTIONAL, REQUIRED
-from wearsim.study.runner.shard import COLUMNS
-from wearsim.study.scatter import Scatter
-from wearsim.study.search_space import SearchSpace
-from wearsim.study.sensitivity import Effect
-from wearsim.study.trials import Candidate, Outcome
+from wearsim.runner.scatter import Scatter
+from wearsim.runner.shard import COLUMNS
+from wearsim.simulation.tooth_loads import tooth_loads
+from wearsim.study.calibrate.model import calibrate
+from wearsim.study.calibrate.readings import OPTIONAL, REQUIRED
+from wearsim.study.calibrate.sheet import readings_table, values_table
+from wearsim.study.optimise.search_space import SearchSpace
+from wearsim.study.optimise.sheet import candidates_table
+from wearsim.study.optimise.trials import Candidate, Outcome
+from wearsim.study.sensitivity.model import Effect
+from wearsim.study.sensitivity.sheet import Answer, sensitivity_table
 
 CASE = {
     "format_version": 1,
@@ -87,7 +87,9 @@ def input_keys(model):
 
 
 def all_input_keys():
-    return {key for model in (CaseTables, *OTHER_FILES.values()) for key in input_keys(model)}
+    return {
+        key for model in (CaseTables, *map(tables_of, OTHER_FILES)) for key in input_keys(model)
+    }
 
 
 def keys_below(content):

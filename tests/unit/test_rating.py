@@ -3,16 +3,16 @@
 import pytest
 
 import wearsim
+from wearsim.chain.selection import Finding, RatedDrive, assess
 from wearsim.errors import CaseError
 from wearsim.report.rating import drive_notes
-from wearsim.sizing.rating import (
+from wearsim.simulation.chain_rating import (
     rated_drive,
     rating,
     rating_warnings,
     rules_without_limit,
     warning,
 )
-from wearsim.sizing.selection import Finding, RatedDrive, assess
 
 WRAP = {
     "format_version": 1,

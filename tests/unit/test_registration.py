@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
+from wearsim.geometry.measured.registration import feet, register
 from wearsim.geometry.profile import Profile
-from wearsim.geometry.registration import feet, register
 
 RADIUS, CENTRE = 30.0, (25.0, 60.0)
 

@@ -11,9 +11,9 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
-from wearsim.report.profile import profile_table
+from wearsim.report.flank_table import profile_table
 from wearsim.result import Life, LowerBound, WearResult
 
 STRAND = {

@@ -10,7 +10,7 @@ import wearsim
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels.locus import met_near, way_to
 from wearsim.simulation import verify_grid
-from wearsim.simulation.many import CaseLife, simulate_many
+from wearsim.simulation.simulate_many import CaseLife, simulate_many
 
 STRAND: dict[str, Any] = {
     "format_version": 1,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.ansi_b29 import ansi_b29_gap
-from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import iso606_gap
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import gost591_gap
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.geometry.segments import Arc

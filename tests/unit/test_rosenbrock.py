@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Kind
-from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.kernels.hertz_wear import flank_rate
 from wearsim.kernels.rosenbrock import (
     ERROR,
     GAMMA,
@@ -21,9 +22,8 @@ from wearsim.kernels.rosenbrock import (
 )
 from wearsim.kernels.steps import STATE_ROWS, between
 from wearsim.kernels.tridiagonal import factorise, solve
-from wearsim.kernels.wear import flank_rate
-from wearsim.mechanisms.prescribed import PrescribedMechanism
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
+from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard, power

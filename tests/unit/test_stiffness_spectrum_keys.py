@@ -4,13 +4,13 @@ from functools import cache
 
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.calculations import CALCULATIONS
-from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
+from wearsim.command.registry import tables_of
 from wearsim.errors import CaseError
+from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
+from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
+from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.stiffness_spectrum import stiffness_spectrum_sheet
-from wearsim.sizing.stiffness_spectrum import stiffness_spectrum
 
 RADII = {"pinion_curvature_radius_mm": 10, "wheel_curvature_radius_mm": 12}
 PAIRS = {
@@ -81,13 +81,6 @@ CHANGES = {
 }
 
 
-@pytest.fixture(autouse=True)
-def no_picture(monkeypatch):
-    monkeypatch.setattr(
-        "wearsim.report.stiffness_spectrum.stiffness_spectrum_figure", lambda *_: None
-    )
-
-
 @cache
 def shown(base, *overrides):
     tables = load_calculation(BASES[base], StiffnessSpectrumTables, overrides)
@@ -96,7 +89,7 @@ def shown(base, *overrides):
 
 
 def test_every_key_is_walked(leaves):
-    assert CALCULATIONS["stiffness-spectrum"] is StiffnessSpectrumTables
+    assert tables_of("stiffness-spectrum") is StiffnessSpectrumTables
     assert set(leaves(StiffnessSpectrumTables)) == set(CHANGES)
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.strength import StrengthTables
 from wearsim.errors import CaseError
+from wearsim.handbook.strength.figure import strength_figure
+from wearsim.handbook.strength.keys import StrengthTables
+from wearsim.handbook.strength.model import pair_strength
+from wearsim.handbook.strength.sheet import strength_sheet
+from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
-from wearsim.report.strength import strength_sheet
-from wearsim.report.strength_figure import strength_figure
-from wearsim.sizing.pair_strength import pair_strength
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
 
@@ -132,14 +132,6 @@ def keys(model, lead=""):
             yield lead + name
         if tables:
             yield from keys(tables[0], f"{lead}{name}.")
-
-
-@pytest.fixture(autouse=True, scope="module")
-def without_picture():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("wearsim.report.strength.strength_figure", lambda title, pair: None)
-        patch.setattr("wearsim.report.strength.pd.DataFrame", lambda data: None)
-        yield
 
 
 @cache

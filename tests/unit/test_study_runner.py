@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.document import read_document
 from wearsim.errors import CaseError, Fault, OutputError, StudyError
-from wearsim.study.runner import design as design_module
-from wearsim.study.runner import run as run_module
-from wearsim.study.runner.design import Engine, content_hash, design, replaced
-from wearsim.study.runner.run import run_study
-from wearsim.study.runner.shard import run_shard, shards
-from wearsim.study.runner.workers import KeptOpen, Threads
+from wearsim.input.document import read_document
+from wearsim.runner import design as design_module
+from wearsim.runner import run_study as run_module
+from wearsim.runner.design import Engine, content_hash, design, replaced
+from wearsim.runner.run_study import run_study
+from wearsim.runner.shard import run_shard, shards
+from wearsim.runner.workers import KeptOpen, Threads
 
 CASE = {
     "format_version": 1,
@@ -186,7 +186,7 @@ def test_address_depends_on_all_that_lives_depend_on(cases):
 @pytest.fixture
 def store(cases, tmp_path):
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    from wearsim.study.runner.store import open_store
+    from wearsim.runner.store import open_store
 
     return open_store(tmp_path / "study", cases, {"study": "test"}, False)
 
@@ -258,7 +258,7 @@ def test_full_disk_keeps_what_is_finished(cases, store, monkeypatch):
 
 
 def test_folder_of_another_study_is_refused(cases, store, tmp_path):
-    from wearsim.study.runner.store import open_store
+    from wearsim.runner.store import open_store
 
     other = replace(cases, rows=cases.rows[:-1])
     with pytest.raises(OutputError, match="must hold this study to go on"):
@@ -274,7 +274,7 @@ def test_folder_of_another_study_is_refused(cases, store, tmp_path):
 
 
 def test_warnings_and_errors_stay_apart():
-    from wearsim.study.runner import shard as shard_module
+    from wearsim.runner import shard as shard_module
 
     found = shard_module.CaseLife("x", shard_module.Life(1.0, 1.0), "stop", 0.0, ("a; b", "c"))
     assert shard_module._row(found)[5] == "a; b\nc"
@@ -285,7 +285,7 @@ def test_warnings_and_errors_stay_apart():
 @pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1", "tcp://127.0.0.1:99999"])
 def test_scheduler_that_is_none(address):
     pytest.importorskip("distributed", reason="distributed is not installed")
-    from wearsim.study.runner.workers import Cluster
+    from wearsim.runner.workers import Cluster
 
     with pytest.raises(StudyError, match="must be a"), Cluster(address, None, {}).open():
         pass
@@ -294,7 +294,7 @@ def test_scheduler_that_is_none(address):
 @pytest.mark.parametrize("content", ["{", "{}", '{"address": 3}', "[]"])
 def test_scheduler_file_that_is_none(content, tmp_path):
     pytest.importorskip("distributed", reason="distributed is not installed")
-    from wearsim.study.runner.workers import Cluster
+    from wearsim.runner.workers import Cluster
 
     place = tmp_path / "scheduler.json"
     place.write_text(content)

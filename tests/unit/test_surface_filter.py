@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.geometry.surface_filter import filter_stations, gaussian_weights
+from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 4.0])

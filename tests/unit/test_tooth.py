@@ -12,7 +12,7 @@ import shapely
 from shapely.affinity import rotate
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.tooth import Tooth, cut_depth, sweep_path
 

@@ -8,7 +8,7 @@ from nicegui import Client, ui
 from nicegui.page import page
 
 import wearsim
-from wearsim.ui.answer_panel import AnswerPanel
+from wearsim.page.answer_panel import AnswerPanel
 
 WRAP = {
     "format_version": 1,

@@ -2,11 +2,11 @@
 
 import pytest
 
-from wearsim.case.keys import schema_fields
-from wearsim.case.schema import CaseTables
-from wearsim.case.schema.gear import GearTables
+from wearsim.input.keys import schema_fields
+from wearsim.input.schema import CaseTables
+from wearsim.input.schema.gear import GearTables
+from wearsim.page.fields import form_fields, table_meaning
 from wearsim.quantities import quantities
-from wearsim.ui.fields import form_fields, table_meaning
 
 
 @pytest.mark.parametrize(

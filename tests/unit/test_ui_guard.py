@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from wearsim.ui.guard import Guard
+from wearsim.page.guard import Guard
 
 PORT = 8123
 OWN = f"127.0.0.1:{PORT}"

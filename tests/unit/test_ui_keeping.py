@@ -6,8 +6,8 @@ import pytest
 
 pytest.importorskip("nicegui", reason="nicegui is not installed")
 
-from wearsim.ui import keeping
-from wearsim.ui.file import read_file
+from wearsim.page import saving as keeping
+from wearsim.page.file import read_file
 
 WINDOWS = b"\xef\xbb\xbfa = 1\r\nb = 2\r\n"
 

@@ -4,11 +4,11 @@ import tomllib
 
 import pytest
 
-from wearsim.case.document import CaseText
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
 from wearsim.errors import CaseError
-from wearsim.ui.source import shown_values, tables_of, with_table, with_value, without_table
+from wearsim.input.document import CaseText
+from wearsim.page.source import shown_values, tables_of, with_table, with_value, without_table
 
 TEXT = """\
 # Mine.

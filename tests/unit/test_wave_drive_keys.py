@@ -2,11 +2,11 @@
 
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.wave_drive import WaveDriveTables
 from wearsim.errors import CaseError
-from wearsim.report.wave_drive import wave_drive_sheet
-from wearsim.sizing.wave_drive import wave_drive
+from wearsim.handbook.wave_drive.keys import WaveDriveTables
+from wearsim.handbook.wave_drive.model import wave_drive
+from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
+from wearsim.input.calculation_file import load_calculation
 
 BASE = {
     "format_version": 1,

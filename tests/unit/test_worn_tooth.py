@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.geometry.iso606 import iso606_gap
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
 
 

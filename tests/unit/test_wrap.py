@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from wearsim.errors import ContactError
-from wearsim.geometry.ansi_b29 import ansi_b29_gap
-from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import iso606_gap
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import gost591_gap
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.roller_path import roller_path
-from wearsim.kernels import wrap as kernels
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.kernels import wrap_equilibrium as kernels
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 PITCH, ROLLER = 12.7, 8.51
 FORMS = {

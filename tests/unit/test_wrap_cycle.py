@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.dwelling import ChainWear
+from wearsim.contact.resting_engagement import ChainWear
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels.wrap_cycle import engaged
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard
 
 CASE = {

@@ -22,7 +22,7 @@ of the closed case rests on assumed teeth and power, whose effect is as large.
 
 import pytest
 
-from wearsim.catalogue.tables import wear_conditions
+from wearsim.catalogue.catalogues import wear_conditions
 
 TRIAL = 1e-8
 

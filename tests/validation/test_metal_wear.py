@@ -27,8 +27,8 @@ import pytest
 from scipy import stats
 
 import wearsim
-from wearsim.case.schema.uncertainty import Distribution
-from wearsim.study.distributions import quantile
+from wearsim.input.schema.uncertainty import Distribution
+from wearsim.runner.distributions import quantile
 
 CYCLES = (100, 200, 500)
 

@@ -23,7 +23,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.wrap_life import wrap_contact
 
 CASE = "bicycle-17t-road"
 KM_PER_HOUR = 33.0

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.geometry.evolute import Strand, evolute_flank
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.mechanisms.strand.contact import StrandMechanism
 
 LAWS: dict[float, dict[str, Any]] = {
     1: {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-8},

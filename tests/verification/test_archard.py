@@ -13,8 +13,8 @@ import pytest
 
 import wearsim
 from wearsim.contact.engagement import Kind
-from wearsim.kernels.wear import wear_depth
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.kernels.hertz_wear import wear_depth
+from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import archard
 
 CaseMaker = Callable[..., wearsim.Case]

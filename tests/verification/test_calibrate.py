@@ -14,12 +14,12 @@ import tomlkit
 import wearsim
 from wearsim.errors import CaseError
 from wearsim.geometry.profile import Profile
-from wearsim.study.calibration import blend
-from wearsim.study.calibration import calibrate as calibrations
-from wearsim.study.calibration import course as courses
-from wearsim.study.calibration.answer import Options
-from wearsim.study.calibration.calibrate import calibrate
-from wearsim.study.calibration.readings import Reading
+from wearsim.study.calibrate import interpolation as blend
+from wearsim.study.calibrate import model as calibrations
+from wearsim.study.calibrate import predicted_history as courses
+from wearsim.study.calibrate.calibration import Options
+from wearsim.study.calibrate.model import calibrate
+from wearsim.study.calibrate.readings import Reading
 
 STRAND = {
     "format_version": 1,

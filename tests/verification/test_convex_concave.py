@@ -12,12 +12,12 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.circle_fit import fit_circle, rack_arc
-from wearsim.geometry.convex_concave import ConvexConcave
-from wearsim.geometry.convex_concave_flank import Flank
-from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.involute import InvolutePair
-from wearsim.geometry.involute_function import involute_over_pins
+from wearsim.geometry.gear.circle_fit import fit_circle, rack_arc
+from wearsim.geometry.gear.convex_concave import ConvexConcave
+from wearsim.geometry.gear.convex_concave_flank import Flank
+from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.geometry.gear.involute_function import involute_over_pins
 
 POLE = math.radians(20.0)
 R1 = 38.25

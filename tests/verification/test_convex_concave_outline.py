@@ -10,12 +10,12 @@ import shapely
 from scipy.spatial import cKDTree
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.convex_concave import ConvexConcave
-from wearsim.geometry.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.convex_concave_outline import gear_outline, root_radius, tip_overlap
+from wearsim.export.dxf_writer import write_dxf
+from wearsim.export.stl import prism, write_stl
+from wearsim.geometry.gear.convex_concave import ConvexConcave
+from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
+from wearsim.geometry.gear.convex_concave_outline import gear_outline, root_radius, tip_overlap
 from wearsim.geometry.outline import Outline, turned
-from wearsim.report.dxf import write_dxf
-from wearsim.report.stl import prism, write_stl
 
 POLE = math.radians(20.0)
 PAIR = ConvexConcave(4.5, 17, 34, POLE, 10.0, 10.0, 4.5)

@@ -10,8 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.errors import GeometryError
-from wearsim.geometry.chain_length import (
+from wearsim.chain.chain_length import (
     belt_centre,
     belt_links,
     even_links,
@@ -19,14 +18,15 @@ from wearsim.geometry.chain_length import (
     handbook_links,
     pitch_diameter,
 )
-from wearsim.geometry.drive_layout import (
+from wearsim.chain.drive_layout import (
     DriveLayout,
     Meetings,
     layout_with_centre,
     layout_with_links,
     polygon_effect,
 )
-from wearsim.geometry.span_tension import SpanTensions, catenary_tension, centrifugal_tension
+from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
+from wearsim.errors import GeometryError
 
 # teeth 1, teeth 2, wished centre distance in pitches, links chosen
 DRIVES = {

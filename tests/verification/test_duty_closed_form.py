@@ -12,10 +12,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 import wearsim
-from wearsim.case.load import load_case
-from wearsim.contact.dwelling import ChainWear
+from wearsim.case.load_case import load_case
+from wearsim.contact.resting_engagement import ChainWear
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.simulation.wrap_life import wrap_contact
 
 STRAND = {
     "format_version": 1,

@@ -9,12 +9,12 @@ of linear wear is k q s for any pressure where its directions are parallel.
 import numpy as np
 import pytest
 
-from wearsim.contact.dwelling import NEW_CHAIN, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, Dwelling
 from wearsim.geometry.profile import Profile, area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard, power
 
 R, q, k = 6.035, 100.0, 1e-7

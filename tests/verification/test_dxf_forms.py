@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from ezdxf.document import Drawing
 
-from wearsim.geometry.dxf import outline_from_dxf
 from wearsim.geometry.gap_points import gap_from_points
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 
 ROLLER, PITCH, TEETH = 8.51, 12.7, 17
 

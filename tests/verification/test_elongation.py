@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.mechanisms.joint import elongation_per_loop
-from wearsim.mechanisms.wrap_cycle import WrapContact
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.mechanisms.wrap.joint import elongation_per_loop
+from wearsim.simulation.wrap_life import wrap_contact
 
 PITCH, PIN, AREA, MASS = 12.7, 3.98, 44.5, 0.60
 CHAIN = {

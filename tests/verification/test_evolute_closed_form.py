@@ -11,8 +11,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.geometry.evolute import Strand, evolute_flank
 from wearsim.geometry.feasibility import exit_cut, smallest_offset
+from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.tooth import Tooth, cut_depth, sweep_path
 
 CENTRODE = 25.4 * 20 / (2.0 * np.pi)

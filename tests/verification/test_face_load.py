@@ -10,10 +10,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import dawsn
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.face_load import FaceLoadTables
-from wearsim.sizing.face_load import face_load, gap_kinds, wear_rates
-from wearsim.sizing.face_slices import (
+from wearsim.handbook.face_load.face_slices import (
     WideMesh,
     equivalent_misalignment,
     linear_face_load_factor,
@@ -21,7 +18,10 @@ from wearsim.sizing.face_slices import (
     self_aligned_gap,
     slice_loads,
 )
-from wearsim.sizing.face_wear import WearingFace, opening_rate
+from wearsim.handbook.face_load.face_wear import WearingFace, opening_rate
+from wearsim.handbook.face_load.keys import FaceLoadTables
+from wearsim.handbook.face_load.model import face_load, gap_kinds, wear_rates
+from wearsim.input.calculation_file import load_calculation
 
 WIDTH, STIFFNESS, MEAN = 800.0, 1.5e4, 900.0
 """mm, N/mm2, N/mm."""

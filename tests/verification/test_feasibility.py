@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.geometry.evolute import Strand
 from wearsim.geometry.feasibility import evolute_limits
+from wearsim.geometry.forms.evolute import Strand
 
 
 def drive(

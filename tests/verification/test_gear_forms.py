@@ -18,14 +18,14 @@ from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.contact.synthesised_pair import SynthesisedPair
 from wearsim.errors import GeometryError
-from wearsim.geometry.convex_concave import ConvexConcave
-from wearsim.geometry.involute import InvolutePair
-from wearsim.geometry.line_of_action import involute
-from wearsim.geometry.mesh import Mesh, ToothPair, mesh_on
-from wearsim.geometry.plane_gearing import PitchCircles
+from wearsim.geometry.gear.convex_concave import ConvexConcave
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.geometry.gear.line_of_action import involute
+from wearsim.geometry.gear.mesh import Mesh, ToothPair, mesh_on
+from wearsim.geometry.gear.plane_gearing import PitchCircles
 from wearsim.geometry.profile import Profile
 from wearsim.kernels.gear_pair import turned
-from wearsim.mechanisms.gear_pair import GearPairMechanism
+from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard

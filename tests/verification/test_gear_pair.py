@@ -16,8 +16,8 @@ from scipy.optimize import brentq
 import wearsim
 from wearsim.contact.hertz import contact_modulus, half_width, peak_pressure
 from wearsim.errors import GeometryError
-from wearsim.geometry.involute import InvolutePair
-from wearsim.mechanisms.gear_pair import GearPairMechanism
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard, power

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from wearsim.case.hertz_check import load_hertz_check
 from wearsim.contact import hertz
 from wearsim.errors import GeometryError
-from wearsim.sizing.hertz_check import difference, hertz_check, stresses_at, whole_stresses
-from wearsim.sizing.hertz_fem import _pressure
-from wearsim.sizing.pole_contact import PoleContact, share_for, single_changes
+from wearsim.handbook.hertz_check.hertz_fem import _pressure
+from wearsim.handbook.hertz_check.model import difference, hertz_check, stresses_at, whole_stresses
+from wearsim.handbook.hertz_check.pole_contact import PoleContact, share_for, single_changes
+from wearsim.handbook.hertz_check.published import load_hertz_check
 
 CASE = Path(__file__).parents[2] / "cases" / "sizing" / "hertz-check-36-54.toml"
 BASE = PoleContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))

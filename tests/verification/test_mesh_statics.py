@@ -5,12 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.stiffness_spectrum import StiffnessSpectrumTables
 from wearsim.errors import GeometryError
-from wearsim.sizing.contact_number import contact_ratio
-from wearsim.sizing.mesh_statics import deflection, hertz_constant, mesh_stiffness
-from wearsim.sizing.stiffness_spectrum import stiffness_spectrum
+from wearsim.handbook.stiffness_spectrum.contact_number import contact_ratio
+from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
+from wearsim.handbook.stiffness_spectrum.mesh_statics import (
+    deflection,
+    hertz_constant,
+    mesh_stiffness,
+)
+from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
+from wearsim.input.calculation_file import load_calculation
 
 CASE = {
     "format_version": 1,

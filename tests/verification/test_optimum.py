@@ -18,13 +18,13 @@ from scipy.optimize import minimize_scalar
 import wearsim
 from wearsim.case.model import StrandDrive
 from wearsim.result import Life
+from wearsim.runner.run_study import run_study
+from wearsim.runner.workers import Threads
 from wearsim.simulation.new_flank import new_peak_pressure
-from wearsim.sizing.blank import blank_mass
-from wearsim.study.optimise import OptimiseStudy, load_optimise
-from wearsim.study.runner.run import run_study
-from wearsim.study.runner.workers import Threads
-from wearsim.study.search import search
-from wearsim.study.trials import Candidate, Trials, front
+from wearsim.study.optimise.mass import blank_mass
+from wearsim.study.optimise.model import OptimiseStudy, load_optimise
+from wearsim.study.optimise.search import search
+from wearsim.study.optimise.trials import Candidate, Trials, front
 
 WIDTH = 17.0
 CASE: dict[str, Any] = {

@@ -13,15 +13,15 @@ from numpy.polynomial import Chebyshev
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import newton
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.synthesis import SynthesisTables
 from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad
 from wearsim.errors import GeometryError
-from wearsim.geometry.line_of_action import involute
-from wearsim.geometry.line_synthesis import Synthesis
-from wearsim.geometry.plane_gearing import Contacts, PitchCircles
-from wearsim.sizing.synthesis import direction_fields, loaded_pair, phases, stress_fields
+from wearsim.geometry.gear.line_of_action import involute
+from wearsim.geometry.gear.line_synthesis import Synthesis
+from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
+from wearsim.handbook.synthesise.keys import SynthesisTables
+from wearsim.handbook.synthesise.model import direction_fields, loaded_pair, phases, stress_fields
+from wearsim.input.calculation_file import load_calculation
 
 CIRCLES = PitchCircles(135.0, 1.5)
 STEEL = {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3}

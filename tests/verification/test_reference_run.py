@@ -12,7 +12,7 @@ import pytest
 import shapely
 
 import wearsim
-from wearsim.mechanisms.strand import StrandMechanism
+from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
 from wearsim.wear.advance import run_advance

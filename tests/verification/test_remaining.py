@@ -8,7 +8,7 @@ import pytest
 import wearsim
 from wearsim.errors import CaseError
 from wearsim.result import Life, LowerBound
-from wearsim.study.remaining import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
+from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
 
 STRAND = {
     "format_version": 1,
@@ -159,7 +159,7 @@ def test_a_reading_out_of_the_band_is_doubted():
 @pytest.mark.parametrize("command", ["maintain", "remaining"])
 def test_running_in_is_refused(command: str) -> None:
     """Lives scale with the coefficient only where it is constant."""
-    from wearsim.study.constant import check_constant
+    from wearsim.study.constant_coefficient import check_constant
 
     tables = {
         "format_version": 1,

@@ -10,17 +10,16 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.catalogue.tables import chains
-from wearsim.errors import CaseError
-from wearsim.geometry.drive_layout import layout_with_links
-from wearsim.geometry.span_tension import SpanTensions, catenary_tension, centrifugal_tension
-from wearsim.sizing.joint_pressure import (
+from wearsim.catalogue.catalogues import chains
+from wearsim.catalogue.factors import rows
+from wearsim.chain.drive_layout import layout_with_links
+from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,
     exploitation_factor,
     joint_pressure,
     speed_limits,
 )
-from wearsim.sizing.power_rating import (
+from wearsim.chain.power_rating import (
     HORSEPOWER,
     application_factor,
     corrected_power,
@@ -30,14 +29,15 @@ from wearsim.sizing.power_rating import (
     strand_factor,
     tooth_factor,
 )
-from wearsim.sizing.selection import (
+from wearsim.chain.selection import (
     Finding,
     RatedDrive,
     assess,
     elongation_limit,
     rating_note,
 )
-from wearsim.sizing.tables import rows
+from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
+from wearsim.errors import CaseError
 
 RATING_40 = 6.17 * HORSEPOWER
 

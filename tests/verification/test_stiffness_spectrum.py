@@ -12,20 +12,20 @@ import pytest
 from scipy.signal import fftconvolve
 from scipy.special import jv
 
-from wearsim.sizing.contact_number import (
+from wearsim.handbook.stiffness_spectrum.contact_number import (
     GearPair,
     Wheel,
     contact_number,
     contact_ratio,
     wheel_contacts,
 )
-from wearsim.sizing.contact_number_series import (
+from wearsim.handbook.stiffness_spectrum.contact_number_series import (
     bessel_coefficients,
     direct_coefficients,
     one_sided,
     series_coefficients,
 )
-from wearsim.sizing.stiffness_spectrum import combinations
+from wearsim.handbook.stiffness_spectrum.model import combinations
 
 RATIO = 1.6051760921390599
 PERFECT = GearPair(Wheel(20, 0.0), Wheel(30, 0.0), RATIO)

@@ -13,7 +13,7 @@ import pytest
 
 from wearsim.contact.engagement import Engagement
 from wearsim.geometry.profile import Profile
-from wearsim.mechanisms.strand import StrandMechanism, load_share
+from wearsim.mechanisms.strand.contact import StrandMechanism, load_share
 
 MechanismMaker = Callable[..., StrandMechanism]
 

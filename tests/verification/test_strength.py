@@ -12,15 +12,15 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.strength import StrengthTables
-from wearsim.catalogue.regimes import regimes
+from wearsim.catalogue.catalogues import regimes
 from wearsim.errors import CaseError, GeometryError
-from wearsim.sizing.heat_treatment import treatments
-from wearsim.sizing.pair_strength import pair_strength
-from wearsim.sizing.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
-from wearsim.sizing.strength import FatigueCurve, contact_base_cycles, service_hours
-from wearsim.sizing.tooth_stress import SpurMesh
+from wearsim.fatigue.endurance import FatigueCurve, contact_base_cycles, service_hours
+from wearsim.fatigue.heat_treatment import treatments
+from wearsim.handbook.strength.keys import StrengthTables
+from wearsim.handbook.strength.model import pair_strength
+from wearsim.handbook.strength.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
+from wearsim.handbook.strength.tooth_stress import SpurMesh
+from wearsim.input.calculation_file import load_calculation
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
 CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-improved", "b-carburised")}

@@ -13,12 +13,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.catalogue.tables import chains
-from wearsim.geometry import gost591, iso606, measuring
-from wearsim.geometry.ansi_b29 import TypeIITooth, ansi_b29_gap
+from wearsim.catalogue.catalogues import chains
+from wearsim.geometry import measuring
+from wearsim.geometry.forms import gost591, iso606
+from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
+from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap, pitch_diameter
-from wearsim.geometry.gost591 import GostTooth, gost591_gap
-from wearsim.geometry.iso606 import iso606_gap
 from wearsim.geometry.segments import Arc, Line
 
 INCH = 25.4

@@ -9,10 +9,10 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.case.calculation import load_calculation
-from wearsim.case.schema.wave_drive import WaveDriveTables
 from wearsim.errors import GeometryError
-from wearsim.sizing.wave_drive import METHODS, wave_drive
+from wearsim.handbook.wave_drive.keys import WaveDriveTables
+from wearsim.handbook.wave_drive.model import METHODS, wave_drive
+from wearsim.input.calculation_file import load_calculation
 
 DRIVE = {
     "gear_ratio": 100,

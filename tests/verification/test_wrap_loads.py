@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from wearsim.errors import ContactError
-from wearsim.geometry.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import gost591_gap
+from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.gost591 import gost591_gap
-from wearsim.geometry.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.geometry.segments import Arc
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapLoads, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapLoads, WrapMechanism
 
 Array = NDArray[np.float64]
 

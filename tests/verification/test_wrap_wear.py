@@ -15,15 +15,15 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import area_between
 from wearsim.kernels import event_rows as kernels
-from wearsim.mechanisms.wrap import WrapLoads, WrapMechanism
-from wearsim.mechanisms.wrap_cycle import WrapContact
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.bodies import Start, highest_load
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import DwellingTrajectory, run_dwelling
+from wearsim.wear.implicit_steps import DwellingTrajectory, run_dwelling
 from wearsim.wear.law import archard, power
 
 Array = NDArray[np.float64]

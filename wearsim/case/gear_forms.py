@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 
-from wearsim.case.resolution import Record
-from wearsim.case.schema.gear import GearTable
 from wearsim.errors import GeometryError
-from wearsim.geometry.involute import InvolutePair
-from wearsim.geometry.mesh import Mesh, ToothPair, check_contact_ratio
-from wearsim.geometry.plane_gearing import PitchCircles
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.geometry.gear.mesh import Mesh, ToothPair, check_contact_ratio
+from wearsim.geometry.gear.plane_gearing import PitchCircles
+from wearsim.input.case_record import Record
+from wearsim.input.schema.gear import GearTable
 
 
 def resolve_teeth(
@@ -75,7 +75,7 @@ def _involute(case: Record, table: GearTable) -> ToothPair:
 
 
 def _convex_concave(case: Record, table: GearTable, torque: float, modulus: float) -> ToothPair:
-    from wearsim.geometry.convex_concave import ConvexConcave  # takes 0.1 s, for scipy
+    from wearsim.geometry.gear.convex_concave import ConvexConcave  # takes 0.1 s, for scipy
 
     head = table.head_arc_radius_mm
     assert head is not None

@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.fatigue import FatigueInput
-from wearsim.case.tables import PrescribedTable
-from wearsim.catalogue.tables import Chain
-from wearsim.geometry.drive_layout import DriveLayout
+from wearsim.case.flank_endurance import FatigueInput
+from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.drive_layout import DriveLayout
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.mesh import ToothPair
+from wearsim.geometry.gear.mesh import ToothPair
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.tooth import Tooth
 from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
+from wearsim.input.csv_tables import PrescribedTable
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.case.document import leaves
-from wearsim.case.keys import schema_fields, schema_of
-from wearsim.catalogue.tables import chains, rows, wear_conditions
+from wearsim.catalogue.catalogues import chains, rows, wear_conditions
+from wearsim.input.document import leaves
+from wearsim.input.keys import schema_fields, schema_of
 from wearsim.quantities import quantities
 
 

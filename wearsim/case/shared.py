@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from wearsim.case.model import RunInput, WearInput
-from wearsim.case.resolution import Record
-from wearsim.case.schema import MaterialTable, RunTable, Table, WearTable
-from wearsim.catalogue.tables import materials, wear_conditions
+from wearsim.catalogue.catalogues import materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
+from wearsim.input.case_record import Record
+from wearsim.input.schema import MaterialTable, RunTable, Table, WearTable
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""

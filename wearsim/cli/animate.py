@@ -4,10 +4,10 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import RunPath
-from wearsim.cli.single_file import check_place, format_of, write_content
-from wearsim.cli.sources import results_of
-from wearsim.cli.standard import finite, overrides, standard, working
+from wearsim.command.cases_and_runs import results_of
+from wearsim.command.complete import RunPath
+from wearsim.command.options import finite, overrides, standard, working
+from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 
 _FORMATS = ("gif", "webp", "png")

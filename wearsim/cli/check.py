@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import load_cases, overrides, standard
+from wearsim.command.complete import CasePath
+from wearsim.command.options import load_cases, overrides, standard
 
 
 @click.command(short_help="Is a case complete, and can it run?")
@@ -18,7 +18,7 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
     loaded = load_cases(cases, settings, as_json)
     from wearsim.report.rating import notes_text, rating_json, rating_table
-    from wearsim.sizing.rating import rating_warnings
+    from wearsim.simulation.chain_rating import rating_warnings
 
     for path, case in zip(cases, loaded, strict=True):
         warnings = [*case.warnings, *rating_warnings(case)]

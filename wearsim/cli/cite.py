@@ -2,7 +2,7 @@
 
 import click
 
-from wearsim.cli.standard import standard
+from wearsim.command.options import standard
 
 
 @click.command(short_help="How to cite wearsim and the sources of its equations.")

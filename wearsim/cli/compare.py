@@ -5,10 +5,10 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import RunPath
-from wearsim.cli.sources import results_of
-from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
-from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
+from wearsim.command.cases_and_runs import results_of
+from wearsim.command.complete import RunPath
+from wearsim.command.options import SOME_FAILED, overrides, standard, warn
+from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
@@ -35,15 +35,15 @@ def compare(
         raise click.UsageError("give --out DIR, --xlsx FILE or both")
     check_workbook(out, xlsx, force)
     if out is not None:
-        from wearsim.output import check_folder
+        from wearsim.files import check_folder
 
         check_folder(out, force)
     found = results_of(sources, settings, as_json)
-    from wearsim.report.compare import comparison_text, differing_limits, distinct
+    from wearsim.report.comparison import comparison_text, differing_limits, distinct
 
     results = distinct(list(found.values()), [str(path) for path in found])
     if out is not None:
-        from wearsim.report.compare import save_comparison
+        from wearsim.report.comparison import save_comparison
 
         save_comparison(results, out, force)
         warn(f"written to {out}")

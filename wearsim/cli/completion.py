@@ -2,7 +2,7 @@
 
 import click
 
-from wearsim.cli.standard import standard
+from wearsim.command.options import standard
 
 _VARIABLE = "_WEARSIM_COMPLETE"
 

@@ -6,7 +6,7 @@ from dataclasses import asdict
 import click
 
 from wearsim.cli.list import shipped_cases
-from wearsim.cli.standard import standard
+from wearsim.command.options import standard
 
 _NOT_IN_ORDER = 1
 _SELF_TEST = "hertz-arc-prescribed"
@@ -21,7 +21,7 @@ def doctor(as_json: bool) -> int:
     The exit code is 1 where something that is needed has failed; what is only noted does not
     count.
     """
-    from wearsim.doctor import findings
+    from wearsim.installation import findings
 
     case = next((path for path in shipped_cases() if path.stem == _SELF_TEST), None)
     found = findings(case)

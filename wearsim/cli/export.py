@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.cli.single_file import check_place, format_of, write_content
-from wearsim.cli.sources import check_settings
-from wearsim.cli.standard import load_cases, overrides, standard, worn
+from wearsim.command.cases_and_runs import check_settings
+from wearsim.command.options import load_cases, overrides, standard, worn
+from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.report.wheel_shapes import State
+    from wearsim.export.wheel_shapes import State
     from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv", "step")
@@ -81,11 +81,11 @@ def export(
         result = worn(case)
     written: list[tuple[Path, bytes]] = []
     if out is not None and kind is not None:
-        from wearsim.report.export import export as content
+        from wearsim.export.formats import export as content
 
         written.append((out, content(case, result, states, kind)))
     if template is not None and gauge is not None and result is not None:
-        from wearsim.report.gauge_sheet import gauge_sheet
+        from wearsim.export.gauge_sheet import gauge_sheet
 
         written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
     for path, data in written:
@@ -94,7 +94,7 @@ def export(
 
 def _check_shapes(case: "Case", kind: str | None) -> None:
     """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
-    from wearsim.report.wheel_shapes import wheel_shapes
+    from wearsim.export.wheel_shapes import wheel_shapes
 
     shapes = wheel_shapes(case, None)
     if kind == "step" and not all(shape.new[0].rooted for shape in shapes):
@@ -107,7 +107,7 @@ def _check_shapes(case: "Case", kind: str | None) -> None:
 
 def _worn_out(case: "Case", result: "WearResult") -> "WearResult":
     """Return a run to the limit of the teeth, a longer one where that was not reached."""
-    from wearsim.report.gauge_sheet import is_worn_out
+    from wearsim.export.gauge_sheet import is_worn_out
 
     if is_worn_out(result):
         return result

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.complete import complete_chain
-from wearsim.cli.standard import standard
+from wearsim.command.complete import complete_chain
+from wearsim.command.options import standard
 from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 @standard
 def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
     """Write a working case for a chain and a number of teeth, every key explained."""
-    from wearsim.output import check_free, write_file
+    from wearsim.files import check_free, write_file
 
     if str(out) != "-":
         check_free(out, force)
@@ -78,8 +78,8 @@ def new_case(chain: str, teeth: int, kind: str) -> str:
 
 def _seed(chain: str, teeth: int, kind: str) -> "Case":
     """A case that takes every default."""
-    from wearsim.case.load import load_case
-    from wearsim.catalogue.tables import chain_name, chains
+    from wearsim.case.load_case import load_case
+    from wearsim.catalogue.catalogues import chain_name, chains
 
     known = chains().get(chain_name(chain) or "")
     form = _FORMS.get(known.series if known else "", "iso606") if kind == "wrap" else "evolute"
@@ -105,7 +105,7 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
 
 def _size(case: "Case") -> tuple[float, float]:
     """Pitch [mm] and breaking load [N] of the chain."""
-    from wearsim.catalogue.tables import chains
+    from wearsim.catalogue.catalogues import chains
 
     chain = chains()[case.inputs["chain"]["designation"]]
     return chain.pitch, chain.tensile

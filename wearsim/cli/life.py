@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.cli.complete import CasePath, complete_key
-from wearsim.cli.standard import (
+from wearsim.command.complete import CasePath, complete_key
+from wearsim.command.options import (
     NOT_MET,
     SOME_FAILED,
     error_json,
@@ -22,7 +22,7 @@ from wearsim.cli.standard import (
     working,
     worn,
 )
-from wearsim.cli.workbook import check_workbook, workbook_option, write_workbook
+from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def _solve(
     cases: tuple[Path, ...], key: str, hours: float | None, settings: tuple[str, ...],
     out: Path | None, force: bool, as_json: bool,
 ) -> int:  # fmt: skip
-    from wearsim.cli.solve import solve
+    from wearsim.study.solve_for.command import solve
 
     if len(cases) != 1 or hours is None:
         raise click.UsageError("--solve-for needs one CASE and --require-hours")
@@ -116,7 +116,7 @@ def _solve(
 
 
 def _folders(cases: tuple[Path, ...], out: Path | None, force: bool) -> list[Path | None]:
-    from wearsim.output import check_folder
+    from wearsim.files import check_folder
 
     if out is None:
         return [None] * len(cases)
@@ -166,7 +166,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         content = life_json(result)
         if grid is not None:
-            from wearsim.report.grid import grid_json
+            from wearsim.report.grid_convergence import grid_json
 
             content["grid"] = grid_json(grid)
         print_json(content, path, result.warnings)
@@ -175,7 +175,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         click.echo(answer(result, str(path)))
         if grid is not None:
-            from wearsim.report.grid import grid_text
+            from wearsim.report.grid_convergence import grid_text
 
             click.echo(grid_text(grid))
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.standard import standard
+from wearsim.command.options import standard
 
 _TABLES = ("chains", "materials", "wear-conditions", "cases", "quantities")
 
@@ -33,7 +33,7 @@ def _rows(table: str) -> list[dict[str, str]]:
         return [vars(quantity) for quantity in quantities().values()]
     if table == "cases":
         return [_case(path) for path in shipped_cases()]
-    from wearsim.catalogue.tables import rows
+    from wearsim.catalogue.catalogues import rows
 
     return rows(table.replace("-", "_"))
 

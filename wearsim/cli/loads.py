@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import finite, load_cases, overrides, standard, warn
+from wearsim.command.complete import CasePath
+from wearsim.command.options import finite, load_cases, overrides, standard, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
@@ -34,8 +34,8 @@ def loads(
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
     (loaded,) = load_cases([case], settings, as_json)
-    from wearsim.report.loads import loads_json, loads_table
-    from wearsim.simulation.loads import tooth_loads
+    from wearsim.report.loads_table import loads_json, loads_table
+    from wearsim.simulation.tooth_loads import tooth_loads
 
     found = tooth_loads(
         loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase

@@ -10,38 +10,38 @@ from types import FrameType
 
 import click
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.cli.animate import animate
-from wearsim.cli.calibrate import calibrate
 from wearsim.cli.check import check
 from wearsim.cli.cite import cite
 from wearsim.cli.compare import compare
 from wearsim.cli.completion import completion, use_own_bash
-from wearsim.cli.convex_concave import convex_concave
 from wearsim.cli.doctor import doctor
 from wearsim.cli.export import export
-from wearsim.cli.face_load import face_load
-from wearsim.cli.hertz_check import hertz_check
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
 from wearsim.cli.loads import loads
-from wearsim.cli.maintain import maintain
-from wearsim.cli.optimise import optimise
 from wearsim.cli.profile import profile
-from wearsim.cli.remaining import remaining
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
-from wearsim.cli.sensitivity import sensitivity
-from wearsim.cli.standard import BAD_INPUT, exit_code, show_error, standard
-from wearsim.cli.stiffness_spectrum import stiffness_spectrum
-from wearsim.cli.strength import strength
-from wearsim.cli.sweep import sweep
-from wearsim.cli.synthesise import synthesise
 from wearsim.cli.ui import ui
-from wearsim.cli.uncertainty import uncertainty
-from wearsim.cli.wave_drive import wave_drive
+from wearsim.command.options import BAD_INPUT, exit_code, show_error, standard
 from wearsim.errors import WearsimError
+from wearsim.handbook.convex_concave.command import convex_concave
+from wearsim.handbook.face_load.command import face_load
+from wearsim.handbook.hertz_check.command import hertz_check
+from wearsim.handbook.stiffness_spectrum.command import stiffness_spectrum
+from wearsim.handbook.strength.command import strength
+from wearsim.handbook.synthesise.command import synthesise
+from wearsim.handbook.wave_drive.command import wave_drive
+from wearsim.study.calibrate.command import calibrate
+from wearsim.study.maintain.command import maintain
+from wearsim.study.optimise.command import optimise
+from wearsim.study.remaining.command import remaining
+from wearsim.study.sensitivity.command import sensitivity
+from wearsim.study.sweep.command import sweep
+from wearsim.study.uncertainty.command import uncertainty
 
 _EXAMPLES = """\b
 How long will this sprocket live?
@@ -65,7 +65,7 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 
 
 @click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(wearsim.__version__, prog_name="wearsim")
+@click.version_option(__version__, prog_name="wearsim")
 @standard
 def wearsim_command() -> None:
     """Group of all commands."""

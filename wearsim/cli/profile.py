@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import load_cases, overrides, standard
+from wearsim.command.complete import CasePath
+from wearsim.command.options import load_cases, overrides, standard
 from wearsim.errors import OutputError
 
 
@@ -20,14 +20,14 @@ from wearsim.errors import OutputError
 @standard
 def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
-    from wearsim.output import check_free, write_file
+    from wearsim.files import check_free, write_file
 
     if str(out) != "-":
         check_free(out, force)
         if out.resolve() == case.resolve():
             raise OutputError(f"{out}: must not be the case itself: choose another place")
     (loaded,) = load_cases([case], settings, as_json=False)
-    from wearsim.report.profile import profile_table
+    from wearsim.report.flank_table import profile_table
 
     text = profile_table(loaded).to_csv(index=False)
     if str(out) == "-":

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.cli.sources import results_of
-from wearsim.cli.standard import SOME_FAILED, overrides, standard, warn
+from wearsim.command.cases_and_runs import results_of
+from wearsim.command.options import SOME_FAILED, overrides, standard, warn
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
@@ -42,12 +42,12 @@ def report(
     compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
     """
     from wearsim.extras import check_installed
-    from wearsim.output import check_folder
+    from wearsim.files import check_folder
 
     check_installed(("jinja2", "plotly"), "report", "report")
     check_folder(out, force)
     found = results_of(sources, settings, False)
-    from wearsim.report.compare import differing_limits, distinct
+    from wearsim.report.comparison import differing_limits, distinct
     from wearsim.report.html.writer import save_report
 
     results = distinct(list(found.values()), [str(path) for path in found])

@@ -4,8 +4,8 @@ import json
 
 import click
 
-from wearsim.cli.complete import complete_kind
-from wearsim.cli.standard import standard
+from wearsim.command.complete import complete_kind
+from wearsim.command.options import standard
 
 
 @click.command(short_help="JSON Schema of the input file or of the result.")
@@ -27,14 +27,14 @@ def schema(of_result: bool, command: str | None) -> None:
 
         click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
         return
-    from wearsim.case.schema import CaseTables
-    from wearsim.case.schema.calculations import OTHER_FILES
+    from wearsim.command.registry import OTHER_FILES, tables_of
+    from wearsim.input.schema import CaseTables
 
     if command and command not in OTHER_FILES:
         raise click.BadParameter(
             f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of"
         )
-    model = OTHER_FILES[command] if command else CaseTables
+    model = tables_of(command) if command else CaseTables
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **model.model_json_schema(),

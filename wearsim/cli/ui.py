@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.cli.complete import CasePath
-from wearsim.cli.standard import overrides, standard, warn
+from wearsim.command.complete import CasePath
+from wearsim.command.options import overrides, standard, warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
-    from wearsim.ui.file import CaseFile
+    from wearsim.page.file import CaseFile
 
 _NEW = Path("drive.toml")
 
@@ -35,10 +35,10 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
     opened = _Opened(case, settings)
     opened()
-    from wearsim.ui.listener import loopback_socket
+    from wearsim.page.listening_socket import loopback_socket
 
     listener = loopback_socket(port)
-    from wearsim.ui.server import serve  # takes a second
+    from wearsim.page.server import serve  # takes a second
 
     address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
     click.echo(address)
@@ -60,7 +60,7 @@ class _Opened:
 
     def __call__(self) -> "tuple[CaseFile, str]":
         from wearsim.cli.init import new_case
-        from wearsim.ui.file import new_file, read_file
+        from wearsim.page.file import new_file, read_file
 
         if self._path is None:
             file, text = new_file(_NEW), new_case("16B-1", 20, "strand")
@@ -73,7 +73,7 @@ class _Opened:
 
 
 def _with_setting(text: str, setting: str) -> str:
-    from wearsim.ui.source import tables_of, with_value
+    from wearsim.page.source import tables_of, with_value
 
     key, equals, typed = setting.partition("=")
     if not equals or not all(key.strip().split(".")):
@@ -85,7 +85,7 @@ def _with_setting(text: str, setting: str) -> str:
 
 def _cases_to_warm() -> tuple[str, ...]:
     from wearsim.cli.init import new_case
-    from wearsim.ui.source import with_value
+    from wearsim.page.source import with_value
 
     wrap = new_case("08B-1", 19, "wrap")
     for key, least in (("mechanism.phases", "1"), ("sprocket.nodes", "51")):

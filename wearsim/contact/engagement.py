@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
 
 
 class Kind(Enum):

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import GeometryError
-from wearsim.geometry.line_synthesis import PoleCrossing
-from wearsim.geometry.plane_gearing import Contacts, PitchCircles
+from wearsim.geometry.gear.line_synthesis import PoleCrossing
+from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
 from wearsim.geometry.profile import Vector
 
 

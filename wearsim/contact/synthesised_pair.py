@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.contact.prescribed_stress import LoadedPair
-from wearsim.geometry.line_of_action import LineOfAction
-from wearsim.geometry.line_synthesis import Synthesis
-from wearsim.geometry.mesh import Mesh, mesh_on
-from wearsim.geometry.plane_gearing import PitchCircles
+from wearsim.geometry.gear.line_of_action import LineOfAction
+from wearsim.geometry.gear.line_synthesis import Synthesis
+from wearsim.geometry.gear.mesh import Mesh, mesh_on
+from wearsim.geometry.gear.plane_gearing import PitchCircles
 
 
 @dataclass(frozen=True, eq=False)

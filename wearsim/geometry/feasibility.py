@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand, contact_ratio, evolute_flank
+from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth, cut_depth, sweep_path
 
 THINNEST_PER_PITCH = 0.05

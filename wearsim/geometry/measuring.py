@@ -28,7 +28,7 @@ def seated_radius(gap: Gap, pin_diameter: float) -> float:
 
     Examples
     --------
-    >>> from wearsim.geometry.iso606 import iso606_gap
+    >>> from wearsim.geometry.forms.iso606 import iso606_gap
     >>> gap = iso606_gap(10.0, 6.0, 6, seat_centre="root_diameter")
     >>> round(seated_radius(gap, 6.0), 12)
     10.0

@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from wearsim.errors import GeometryError
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
 
 Vector = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.evolute import Strand
+from wearsim.geometry.forms.evolute import Strand
 from wearsim.geometry.profile import Profile, Vector
 
 CUT_TOLERANCE = 1e-3

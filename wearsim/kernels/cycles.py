@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften, update_status, wear_depth
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64
-from wearsim.kernels.wear import DEPTH_REACHED, RUNNING, soften, update_status, wear_depth
 
 if TYPE_CHECKING:
     from collections.abc import Callable

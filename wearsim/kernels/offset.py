@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften, update_status
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
-from wearsim.kernels.wear import DEPTH_REACHED, RUNNING, soften, update_status
 
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector

@@ -13,9 +13,9 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, flank_rate, soften, wear_depth
 from wearsim.kernels.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.tridiagonal import factorise, solve
-from wearsim.kernels.wear import BROKEN, CONFORMING, flank_rate, soften, wear_depth
 
 if TYPE_CHECKING:
     from collections.abc import Callable

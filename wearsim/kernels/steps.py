@@ -6,6 +6,16 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import (
+    BROKEN,
+    CONFORMING,
+    DEPTH_REACHED,
+    HORIZON,
+    RUNNING,
+    TOOTHED,
+    flank_rate,
+    sawtooth,
+)
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
     CUBE,
@@ -15,16 +25,6 @@ from wearsim.kernels.signatures import (
     float64,
     int64,
     void,
-)
-from wearsim.kernels.wear import (
-    BROKEN,
-    CONFORMING,
-    DEPTH_REACHED,
-    HORIZON,
-    RUNNING,
-    TOOTHED,
-    flank_rate,
-    sawtooth,
 )
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from wearsim.kernels.event_rows import (
     EVENT_TOUCHED,
 )
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64
-from wearsim.kernels.wrap import (
+from wearsim.kernels.wrap_equilibrium import (
     CENTRE_X,
     CENTRE_Y,
     NORMAL_X,

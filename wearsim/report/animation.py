@@ -11,7 +11,8 @@ from PIL import Image
 
 from wearsim.report.animation_file import encoded
 from wearsim.report.animation_panels import Moving, depth_panel, elongation_panel, flank_panel
-from wearsim.report.answer import ending, grouped, hours
+from wearsim.report.answer import ending, hours
+from wearsim.report.lines import grouped
 from wearsim.report.worn_flank import worn_flanks
 from wearsim.result import WearResult
 

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-import wearsim
+from wearsim._version import __version__
 
 FORMATS = ("gif", "webp", "png")
 """Endings of the files."""
@@ -103,7 +103,7 @@ def _few_colours(frames: list[Image.Image]) -> list[Image.Image]:
 
 def _own(form: str, text: str) -> dict[str, Any]:
     """What a format takes beside what all take: the text, and that no detail is lost."""
-    tool = f"wearsim {wearsim.__version__}"
+    tool = f"wearsim {__version__}"
     if form == "gif":
         return {"comment": f"{text} ({tool})".encode()}
     if form == "webp":

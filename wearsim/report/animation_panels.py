@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Polygon
 
 from wearsim.geometry.profile import Vector
-from wearsim.report.answer import grouped
 from wearsim.report.flank_view import outline
+from wearsim.report.lines import grouped
 from wearsim.report.worn_flank import WornFlank, mate
 from wearsim.result import Life, WearResult
 

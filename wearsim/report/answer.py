@@ -1,17 +1,13 @@
 """The answer on screen."""
 
-import re
 import shlex
-import textwrap
 from collections.abc import Mapping
 from typing import Any
 
+from wearsim.chain.selection import Finding
+from wearsim.report.lines import grouped, numbered, row
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LimitState, LowerBound, WearResult
-from wearsim.sizing.selection import Finding
-
-_WIDTH = 100
-_LABEL = 13
 
 BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
 OVERLOADED = "Overloaded:"
@@ -25,36 +21,6 @@ _FAR, _SAFE = 1000.0, 2.0
 
 _LEAST_AREA = 1e-10
 """Area that is lost in the digits of the points of a flank [mm2]."""
-
-_DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
-
-
-def grouped(value: float, digits: int = 4) -> str:
-    """Return a number with few digits and thousands set apart, as one reads it aloud.
-
-    Parameters
-    ----------
-    value : float
-        Any finite number.
-    digits : int
-        Significant digits.
-
-    Returns
-    -------
-    str
-        Such as ``15 150``.
-
-    Examples
-    --------
-    >>> grouped(15149.24)
-    '15 150'
-    >>> grouped(0.012341)
-    '0.01234'
-    """
-    rounded = float(f"{value:.{digits}g}")
-    if abs(rounded) >= 10 ** (digits - 1):
-        return f"{rounded:,.0f}".replace(",", " ")
-    return f"{rounded:.{digits}g}"
 
 
 def hours(life: Life | LowerBound) -> str:
@@ -377,30 +343,6 @@ def _service(result: WearResult) -> list[tuple[str, str]]:
     return [("In service", text)] if text else []
 
 
-def row(label: str, text: str) -> str:
-    """Return one line of an answer, folded under its label.
-
-    Parameters
-    ----------
-    label, text : str
-        What stands on the left and on the right.
-
-    Returns
-    -------
-    str
-        Lines of at most a hundred characters.
-    """
-    lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
-    return textwrap.fill(
-        text,
-        _WIDTH,
-        initial_indent=lead,
-        subsequent_indent=" " * _LABEL,
-        break_on_hyphens=False,
-        break_long_words=False,
-    )
-
-
 def ending(result: WearResult) -> str:
     """Return in words what ended a life, or what is worn off where nothing did.
 
@@ -461,52 +403,6 @@ def _compare(result: WearResult, source: str) -> str:
 
 def _band(result: WearResult) -> str:
     return f"{hours(result.life_high)} / {hours(result.life_low)}   ({result.band})"
-
-
-def numbered(assumptions: tuple[str, ...]) -> str:
-    """Return assumptions with their numbers; the defaults taken share the last one.
-
-    Parameters
-    ----------
-    assumptions : tuple of str
-        Of a result.
-
-    Returns
-    -------
-    str
-        One text.
-
-    Examples
-    --------
-    >>> numbered(("all teeth alike", "run.method = advance (default)", "wear.law = archard (default)"))
-    '1 all teeth alike; 2 defaults: run.method = advance, wear.law = archard'
-    """
-    shown, defaults = told_apart(assumptions)
-    if defaults:
-        shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
-    return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
-
-
-def told_apart(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
-    """Return what a result takes for granted, and the defaults it takes.
-
-    Parameters
-    ----------
-    assumptions : tuple of str
-        Of a result.
-
-    Returns
-    -------
-    tuple of list of str
-        The two kinds, each in its order.
-
-    Examples
-    --------
-    >>> told_apart(("all teeth alike", "wear.law = archard (default)"))
-    (['all teeth alike'], ['wear.law = archard (default)'])
-    """
-    defaults = [text for text in assumptions if _DEFAULT.match(text)]
-    return [text for text in assumptions if text not in defaults], defaults
 
 
 def _worst(result: WearResult) -> str:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.case.model import Case, GearDrive, StrandDrive
-from wearsim.catalogue.tables import chains
+from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile import Vector
-from wearsim.report.answer import grouped
+from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 from wearsim.result.folder import with_files
 

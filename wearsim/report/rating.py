@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from wearsim.case.model import Case, WrapDrive
-from wearsim.geometry.drive_layout import Meetings, polygon_effect
-from wearsim.report.answer import grouped
-from wearsim.sizing.rating import rated_drive, rating, rules_without_limit
-from wearsim.sizing.selection import Finding
+from wearsim.chain.drive_layout import Meetings, polygon_effect
+from wearsim.chain.selection import Finding
+from wearsim.report.lines import grouped
+from wearsim.simulation.chain_rating import rated_drive, rating, rules_without_limit
 
 _WIDTH = 100
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wearsim.chain.selection import Finding
 from wearsim.errors import OutputError
+from wearsim.files import new_folder
 from wearsim.geometry.profile import Vector
-from wearsim.output import new_folder
 from wearsim.result.life import Life, LimitState, LowerBound
 from wearsim.result.parquet import write_parquet
-from wearsim.sizing.selection import Finding
 
 if TYPE_CHECKING:
     from wearsim.result.wear_result import WearResult

@@ -10,12 +10,12 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import wearsim
+from wearsim._version import __version__
+from wearsim.chain.selection import Finding, overloading
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.life import Life, LimitState, LowerBound, first_life, life_keys
-from wearsim.sizing.selection import Finding, overloading
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -272,7 +272,7 @@ def environment() -> dict[str, str]:
     """
     libraries = ("numpy", "scipy", "shapely", "numba", "pandas", "pydantic")
     return {
-        "wearsim": wearsim.__version__,
+        "wearsim": __version__,
         "kernels": source_hash(),
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",

@@ -56,8 +56,8 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     """
     # Kernels compile where their module is imported for the first time: only those needed.
     if isinstance(case.drive, WrapDrive):
-        from wearsim.simulation.loads import check_hold
-        from wearsim.simulation.wrap import simulate_wrap
+        from wearsim.simulation.tooth_loads import check_hold
+        from wearsim.simulation.wrap_life import simulate_wrap
 
         check_hold(case)
         return simulate_wrap(case, case.drive, progress)
@@ -88,7 +88,7 @@ def verify_grid(case: Case) -> "GridStudy":
     """
     tolerance = case.run.life_tolerance
     if isinstance(case.drive, WrapDrive):
-        from wearsim.simulation.wrap import wrap_grid_study
+        from wearsim.simulation.wrap_life import wrap_grid_study
 
         return wrap_grid_study(case, case.drive, tolerance)
     from wearsim.simulation.pointwise import points_grid_study

@@ -30,8 +30,8 @@ def new_peak_pressure(case: Case) -> float:
     """
     # Kernels compile where their module is imported for the first time: only those needed.
     if isinstance(case.drive, WrapDrive):
-        from wearsim.simulation.law import wear_law
-        from wearsim.simulation.wrap import wrap_contact
+        from wearsim.simulation.law_of_case import wear_law
+        from wearsim.simulation.wrap_life import wrap_contact
         from wearsim.wear.bodies import highest_load
 
         law = wear_law(case.wear, case.wear.coefficient)

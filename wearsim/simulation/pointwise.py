@@ -12,7 +12,7 @@ from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.grids import LEVELS, Search, Settled, settle
-from wearsim.simulation.law import running_in_assumptions
+from wearsim.simulation.law_of_case import running_in_assumptions
 from wearsim.simulation.limits import limit_states
 from wearsim.simulation.new_flank import new_contact_pressure
 from wearsim.simulation.task import Task, task
@@ -129,7 +129,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
     # Kernels compile where they are imported for the first time: each case imports its own.
     drive = case.drive
     if isinstance(drive, StrandDrive):
-        from wearsim.mechanisms.strand import StrandMechanism
+        from wearsim.mechanisms.strand.contact import StrandMechanism
 
         return StrandMechanism(
             strand=drive.tooth.strand,
@@ -143,7 +143,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
             modulus=case.modulus,
         )
     if isinstance(drive, GearDrive):
-        from wearsim.mechanisms.gear_pair import GearPairMechanism
+        from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 
         return GearPairMechanism(
             pair=drive.pair,
@@ -159,7 +159,7 @@ def pointwise_mechanism(case: Case) -> Mechanism:
 
 
 def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
-    from wearsim.mechanisms.prescribed import PrescribedMechanism
+    from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 
     table = drive.table
     path = table.sliding_distance
@@ -328,7 +328,7 @@ def _fatigue(
     """Return the lives until pitting; none where they are not asked for."""
     if case.fatigue is None:
         return {}
-    from wearsim.simulation.fatigue import fatigue_parts, pointwise_stresses
+    from wearsim.simulation.pitting import fatigue_parts, pointwise_stresses
 
     stresses = pointwise_stresses(case, case.fatigue, peak_pressure)
     lives, found = fatigue_parts(case, case.fatigue, stresses, life, life)

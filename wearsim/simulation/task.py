@@ -8,11 +8,11 @@ import numpy as np
 from wearsim.case.model import Case, StrandDrive
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.contact.hertz import half_width
-from wearsim.simulation.law import running_in, wear_law
+from wearsim.simulation.law_of_case import running_in, wear_law
 from wearsim.simulation.limits import mate_criteria, tooth_criteria
 from wearsim.wear.advance import run_advance
 from wearsim.wear.criteria import Criterion
-from wearsim.wear.duty import DutyPart, equivalent_factor
+from wearsim.wear.duty_average import DutyPart, equivalent_factor
 from wearsim.wear.law import Law
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory

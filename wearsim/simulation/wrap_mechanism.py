@@ -2,7 +2,7 @@
 
 from wearsim.case.model import Case, WrapDrive
 from wearsim.geometry.roller_path import roller_path
-from wearsim.mechanisms.wrap import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 
 def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:

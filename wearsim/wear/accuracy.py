@@ -7,8 +7,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
+from wearsim.contact.resting_engagement import Dwelling
 from wearsim.geometry.profile import Vector
 from wearsim.wear.trajectory import Trajectory, depth_at
 

@@ -16,10 +16,11 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
+from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.geometry.profile import Vector
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import (
     CLOCK,
@@ -34,7 +35,6 @@ from wearsim.kernels.steps import (
     states_between,
     wear_in_steps,
 )
-from wearsim.kernels.wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
 from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding

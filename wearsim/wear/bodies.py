@@ -6,10 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.dwelling import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Profile
-from wearsim.kernels.dwelling import (
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
+from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
+from wearsim.kernels.wrap_wear import (
     AREA,
     CASE_DEPTH,
     COEFFICIENT,
@@ -27,8 +29,6 @@ from wearsim.kernels.dwelling import (
     UNBALANCED,
     wear_events,
 )
-from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
-from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
 from wearsim.wear.law import Law
 
 Rows = NDArray[np.float64]

@@ -9,11 +9,11 @@ from types import FrameType
 
 import numpy as np
 
-from wearsim.contact.dwelling import Dwelling
 from wearsim.contact.engagement import Contact
+from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
-from wearsim.kernels.wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
+from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
 from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
@@ -161,7 +161,7 @@ def run_per_cycle(
     """
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.dwelling import run_dwelling
+        from wearsim.wear.implicit_steps import run_dwelling
 
         return run_dwelling(contact, law, criteria, horizon, 0, float(cycles_per_update))
     run = _Run(contact, law, cycles_per_update, criteria[0].limit)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.kernels.wear import sawtooth
+from wearsim.kernels.hertz_wear import sawtooth
 from wearsim.wear.criteria import Criterion
 
 SNAPSHOTS = 180

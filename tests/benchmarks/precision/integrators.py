@@ -7,6 +7,16 @@ rates it has evaluated. The matrix is the package's, along the normals at the st
 import math
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import (
+    BROKEN,
+    CONFORMING,
+    DEPTH_REACHED,
+    HORIZON,
+    RUNNING,
+    TOOTHED,
+    flank_rate,
+    sawtooth,
+)
 from wearsim.kernels.rosenbrock import slope_rate, wear_rows
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
@@ -34,16 +44,6 @@ from wearsim.kernels.steps import (
 )
 from wearsim.kernels.steps import STEP as NEXT_STEP
 from wearsim.kernels.tridiagonal import factorise, solve
-from wearsim.kernels.wear import (
-    BROKEN,
-    CONFORMING,
-    DEPTH_REACHED,
-    HORIZON,
-    RUNNING,
-    TOOTHED,
-    flank_rate,
-    sawtooth,
-)
 
 WORK_ROWS, REPORT = 20, 19
 """Of ``work``; the last row holds the evaluations of a step."""

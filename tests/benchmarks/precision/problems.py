@@ -12,14 +12,14 @@ import integrators
 import numpy as np
 from scipy.integrate import LSODA, RK45
 
-from wearsim.case.load import load_case
+from wearsim.case.load_case import load_case
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.kernels.cycles import run_cycles
-from wearsim.kernels.flank import flank_frame
+from wearsim.kernels.flank_geometry import flank_frame
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften, wear_depth
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
-from wearsim.kernels.wear import DEPTH_REACHED, soften, wear_depth
-from wearsim.mechanisms.prescribed import PrescribedMechanism
+from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import Law, archard, power

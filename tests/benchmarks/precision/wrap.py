@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from wearsim.case.load import load_case
-from wearsim.simulation.wrap import wrap_contact
+from wearsim.case.load_case import load_case
+from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.criteria import depth_criterion
-from wearsim.wear.dwelling import run_dwelling
+from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard
 
 CASE = Path(__file__).parents[3] / "cases" / "520-15t-wrap.toml"

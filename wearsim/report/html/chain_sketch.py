@@ -6,11 +6,10 @@ import numpy as np
 import shapely
 
 from wearsim.case.model import StrandDrive, WrapDrive
+from wearsim.chain.drive_layout import DriveLayout
 from wearsim.errors import GeometryError
-from wearsim.geometry.drive_layout import DriveLayout
 from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
-from wearsim.report.answer import grouped
 from wearsim.report.html.sketch import (
     Label,
     Sketch,
@@ -23,6 +22,7 @@ from wearsim.report.html.sketch import (
     text_size,
     turn_arrow,
 )
+from wearsim.report.lines import grouped
 
 _FINE = 5e-3
 """Deviation of a drawn outline, as a fraction of the pitch."""
@@ -113,7 +113,7 @@ def roller_places(layout: DriveLayout) -> Vector:
     --------
     Two equal sprockets 300 mm apart: half of the 80 rollers lie on each side of the middle.
 
-    >>> from wearsim.geometry.drive_layout import layout_with_links
+    >>> from wearsim.chain.drive_layout import layout_with_links
     >>> places = roller_places(layout_with_links(10.0, 20, 20, 80))
     >>> len(places), int((places[:, 0] < 149.0).sum()), round(float(places[0, 1]), 2)
     (80, 39, 31.96)

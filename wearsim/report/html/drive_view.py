@@ -49,7 +49,7 @@ def tooth_load_chart(case: Case) -> Chart | None:
     """
     if not isinstance(case.drive, WrapDrive):
         return None
-    from wearsim.simulation.loads import tooth_loads  # takes 0.4 s, for its kernels
+    from wearsim.simulation.tooth_loads import tooth_loads  # takes 0.4 s, for its kernels
 
     grown = tooth_loads(case, case.drive.joint.elongation_limit)
     return loads_chart(tooth_loads(case), grown)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wearsim.case.origin import InputRow, input_rows
-from wearsim.catalogue.tables import rows
+from wearsim.catalogue.catalogues import rows
 from wearsim.result import WearResult
 
 

@@ -4,8 +4,9 @@ import html
 import math
 from collections.abc import Sequence
 
-from wearsim.report.answer import grouped, hours, limit_text
+from wearsim.report.answer import hours, limit_text
 from wearsim.report.html.charts import Chart, Values, panels, rounded, series
+from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 

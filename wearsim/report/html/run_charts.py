@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wearsim.report.answer import grouped, hours
+from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
 from wearsim.report.html.charts import (
     Chart,
@@ -19,10 +19,11 @@ from wearsim.report.html.charts import (
     rounded,
     series,
 )
+from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
-    from wearsim.simulation.loads import ToothLoads
+    from wearsim.simulation.tooth_loads import ToothLoads
 
 _ROWS = 21
 """Rows of a table of values beside a chart."""

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from wearsim.geometry.profile import Vector
-from wearsim.report.answer import grouped
 from wearsim.report.flank_view import life_time, outline
 from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
+from wearsim.report.lines import grouped
 from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
 from wearsim.result import WearResult
 

@@ -10,9 +10,9 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-import wearsim
-from wearsim.output import new_folder
-from wearsim.report.html.page import comparison_page, drive_page
+from wearsim._version import __version__
+from wearsim.files import new_folder
+from wearsim.report.html.page_content import comparison_page, drive_page
 from wearsim.result import WearResult
 
 _HERE = Path(__file__).parent
@@ -99,11 +99,11 @@ def render(template: str, page: Any, single_file: bool, several: bool) -> str:
     charts = [*getattr(page, "tooth", ()), *page.charts]
     content = {chart.name: chart.content for chart in charts}
     # Not to be guessed by whoever writes a title: it follows from all that the page holds.
-    nonce = hashlib.sha256(repr((wearsim.__version__, content, page)).encode()).hexdigest()[:32]
+    nonce = hashlib.sha256(repr((__version__, content, page)).encode()).hexdigest()[:32]
     return environment.get_template(template).render(
         page=page,
         content=content,
-        version=wearsim.__version__,
+        version=__version__,
         several=several,
         nonce=nonce,
         style=Markup((_HERE / "style.css").read_text(encoding="utf-8")),  # noqa: S704

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.output import check_free, write_file
+from wearsim.files import check_free, write_file
 from wearsim.report.workbook.answer_page import write_answer_page
 from wearsim.report.workbook.book import Book
-from wearsim.report.workbook.charts import add_charts
 from wearsim.report.workbook.inputs_page import write_inputs_page
 from wearsim.report.workbook.names import sheet_names
+from wearsim.report.workbook.native_charts import add_charts
 from wearsim.report.workbook.result_page import write_result_page
 from wearsim.result import WearResult
 

@@ -12,7 +12,7 @@ from wearsim.report.answer import (
     limit_state,
     overload_text,
 )
-from wearsim.report.compare import comparison_table, differing_limits
+from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.rating import rule
 from wearsim.report.service import life_json
 from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format

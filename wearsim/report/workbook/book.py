@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from datetime import UTC, datetime
 from typing import Any
 
-import wearsim
+from wearsim._version import __version__
 from wearsim.report.workbook.names import clean
 
 _LONGEST_TEXT = 32767
@@ -165,7 +165,7 @@ class Book:
             {
                 "title": clean(title)[:255],
                 "subject": "Life by wear",
-                "author": f"wearsim {wearsim.__version__}",
+                "author": f"wearsim {__version__}",
                 "comments": "Inputs and assumptions are on their own sheet.",
                 "created": datetime.now(UTC).replace(tzinfo=None),
             }

@@ -1,0 +1,288 @@
+"""How hard and how fast the drive runs: blocks of constant load, one for a constant drive."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from wearsim.catalogue.catalogues import Chain, regimes
+from wearsim.input.case_record import Resolution
+from wearsim.input.csv_tables import read_log
+from wearsim.input.duty_log import LogBlock, log_blocks, merged
+from wearsim.input.schema import DutyBlock
+from wearsim.input.schema.load import LOAD_KEYS
+
+BINS = [20, 8]
+"""Bins of tension and speed that a log is sorted into."""
+
+_MOST_BLOCKS = 12
+"""Blocks of a log on a wrap, where every block adds its contacts to a cycle."""
+
+_SUM_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class LoadBlock:
+    """A part of the duty as the case gives it.
+
+    Attributes
+    ----------
+    share : float
+        Of the cycles.
+    speed_rpm : float
+        Of this sprocket.
+    kind : str
+        ``tension_N``, ``power_kW`` or ``torque_N_m``.
+    value : float
+        Of that key.
+    wear_factor : float
+        On the wear coefficient of the tooth.
+    joint_factor : float
+        On that of the chain's joints.
+    key : str
+        Of the case, for faults.
+    part : float
+        Of the useful pull, for typical regimes.
+    measured : bool
+        Whether it comes from a log, which may hold idling.
+    """
+
+    share: float
+    speed_rpm: float
+    kind: str
+    value: float
+    wear_factor: float
+    joint_factor: float
+    key: str
+    part: float = 1.0
+    measured: bool = False
+
+
+@dataclass(frozen=True)
+class Duty:
+    """What a drive does, in blocks.
+
+    Attributes
+    ----------
+    blocks : tuple of LoadBlock
+        Their shares sum to 1; none where a table of loads takes their place.
+    speed_rpm : float
+        Mean over the time.
+    rated : tuple of LoadBlock
+        The loads that strength and ratings are judged by: the blocks, but of a typical regime
+        the load given.
+    """
+
+    blocks: tuple[LoadBlock, ...]
+    speed_rpm: float
+    rated: tuple[LoadBlock, ...]
+
+
+def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
+    """Return the duty of a case: from [[duty]], a log, a typical regime or constant.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    kind : str
+        Kind of its mechanism.
+    chain : Chain
+        Its chain.
+
+    Returns
+    -------
+    Duty or None
+        None where there was a fault.
+    """
+    tables, load, faults = case.tables, case.tables.load, case.faults
+    if not tables.duty:
+        case.inputs.pop("duty", None)
+    if kind == "prescribed" and (tables.duty or load.duty_file or load.regime):
+        key = "duty" if tables.duty else f"load.{'duty_file' if load.duty_file else 'regime'}"
+        faults.add(key, "a table of loads already holds the load of a cycle: remove this")
+        return None
+    if tables.duty:
+        return _given(case, kind)
+    if load.duty_file is not None:
+        return _logged(case, load.duty_file, _MOST_BLOCKS if kind == "wrap" else 0, chain)
+    if "load" not in tables.model_fields_set:
+        return None
+    name = next((key for key in LOAD_KEYS if getattr(load, key) is not None), None)
+    if name is None and kind != "prescribed":
+        faults.add("load.tension_N", f"give exactly one of {', '.join(LOAD_KEYS)} (got none)")
+        return None
+    if load.speed_rpm is None:
+        return None
+    if name is None or kind == "prescribed":
+        return Duty((), load.speed_rpm, ())
+    block = LoadBlock(1.0, load.speed_rpm, name, getattr(load, name), 1.0, 1.0, f"load.{name}")
+    return Duty(_regime(case, block), load.speed_rpm, (block,))
+
+
+def _regime(case: Resolution, block: LoadBlock) -> tuple[LoadBlock, ...]:
+    """Return a constant load, or the parts of it in the given typical regime."""
+    name = case.tables.load.regime
+    if name is None:
+        return (block,)
+    parts = regimes()[name]
+    case.assumptions.append(
+        f"typical regime {name}: the load given is the highest, "
+        + ", ".join(f"{part:.3g} of it for {100 * share:.3g} %" for part, share in parts)
+        + " of the cycles, a distribution with the published coefficients of equivalence"
+    )
+    _say_heaviest(case, len(parts))
+    return tuple(replace(block, share=share, part=part) for part, share in parts)
+
+
+def _given(case: Resolution, kind: str) -> Duty | None:
+    """Return the blocks of [[duty]] on a mechanism of this kind."""
+    tables, faults = case.tables, case.faults
+    before, blocks = faults.count, tables.duty
+    for key in sorted(tables.load.model_fields_set):
+        if getattr(tables.load, key) is not None:
+            faults.add(f"load.{key}", "[[duty]] gives load and speed: remove one of both")
+    kinds = ("share_of_time", "share_of_cycles")
+    first = next(kind for kind in kinds if getattr(blocks[0], kind) is not None)
+    for number, block in enumerate(blocks, start=1):
+        if block.applies_to == "joints" and kind != "wrap":
+            faults.add(
+                f"duty.{number}.applies_to",
+                f"joints wear only where a chain wraps the sprocket, here kind = {kind!r}: "
+                "take 'all' or 'teeth', or mechanism.kind = 'wrap'",
+            )
+        if getattr(block, first) is None:
+            other = kinds[1 - kinds.index(first)]
+            faults.add(
+                f"duty.{number}.{other}",
+                f"all blocks must give the same share, block 1 has {first}",
+            )
+    if faults.count > before:
+        return None
+    shares = [getattr(block, first) for block in blocks]
+    total = math.fsum(shares)
+    if abs(total - 1.0) > _SUM_TOLERANCE:
+        faults.add("duty", f"{first} of all blocks must sum to 1 (got {total:.9g})")
+        return None
+    cycles, speed = _shares_of_cycles(
+        [share / total for share in shares],
+        [block.speed_rpm for block in blocks],
+        first == "share_of_time",
+    )
+    found = _joined(
+        _load_block(block, number, share)
+        for number, (block, share) in enumerate(zip(blocks, cycles, strict=True), start=1)
+    )
+    case.assumptions.append(f"speed {speed:.6g} rpm is the mean over the time of the duty")
+    _say_heaviest(case, len(found))
+    return Duty(found, speed, found)
+
+
+def _load_block(block: DutyBlock, number: int, share: float) -> LoadBlock:
+    kind = next(key for key in LOAD_KEYS if getattr(block, key) is not None)
+    return LoadBlock(
+        share=share,
+        speed_rpm=block.speed_rpm,
+        kind=kind,
+        value=getattr(block, kind),
+        wear_factor=1.0 if block.applies_to == "joints" else block.wear_factor,
+        joint_factor=1.0 if block.applies_to == "teeth" else block.wear_factor,
+        key=f"duty.{number}.{kind}",
+    )
+
+
+def _shares_of_cycles(
+    shares: list[float], speeds: list[float], of_time: bool
+) -> tuple[list[float], float]:
+    """Return the shares of the cycles and the mean speed over the time."""
+    if of_time:
+        mean = math.fsum(share * speed for share, speed in zip(shares, speeds, strict=True))
+        return [share * speed / mean for share, speed in zip(shares, speeds, strict=True)], mean
+    # Relative to the first speed: a constant one comes out to the last digit.
+    slow = math.fsum(
+        share * (speeds[0] / speed) for share, speed in zip(shares, speeds, strict=True)
+    )
+    return shares, speeds[0] / slow
+
+
+def _joined(blocks: Iterable[LoadBlock]) -> tuple[LoadBlock, ...]:
+    """Join blocks of the same load and speed: shares add up, the factors on wear are their means."""
+    found: dict[tuple[str, float, float], LoadBlock] = {}
+    for block in blocks:
+        same = found.get((block.kind, block.value, block.speed_rpm))
+        if same is not None:
+            block = replace(
+                same,
+                share=same.share + block.share,
+                wear_factor=_mean(same, block, same.wear_factor, block.wear_factor),
+                joint_factor=_mean(same, block, same.joint_factor, block.joint_factor),
+            )
+        found[block.kind, block.value, block.speed_rpm] = block
+    return tuple(found.values())
+
+
+def _mean(one: LoadBlock, other: LoadBlock, first: float, second: float) -> float:
+    """Return the mean of a number of two blocks by their shares; equal ones stay to the last digit."""
+    if first == second:
+        return first
+    return (one.share * first + other.share * second) / (one.share + other.share)
+
+
+def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None:
+    """Return the blocks of a log of tension and speed."""
+    key = "load.duty_file"
+    path = case.path(key, name)
+    log = read_log(path, key, case.faults)
+    bins = case.tables.load.duty_bins
+    if bins is None:
+        bins = BINS
+        case.take("load.duty_bins", bins, "bins of tension and speed of the log")
+    if log is None:
+        return None
+    heaviest = int(log.tension.argmax())
+    if chain.tensile and log.tension[heaviest] >= chain.tensile:
+        case.faults.add(
+            key,
+            f"{path.name}:{heaviest + 2}: tension_N must stay below the chain's tensile strength "
+            f"{chain.tensile:g} N (got {log.tension[heaviest]:g})",
+        )
+        return None
+    sorted_in = log_blocks(log, bins[0], bins[1])
+    blocks = merged(sorted_in, most) if most else sorted_in
+    case.assumptions.append(_log_summary(path.name, log.duration, sorted_in, blocks))
+    _say_heaviest(case, len(blocks))
+    cycles = math.fsum(block.revolutions for block in blocks)
+    found = tuple(
+        LoadBlock(
+            share=block.revolutions / cycles,
+            speed_rpm=60.0 * block.revolutions / block.time,
+            kind="tension_N",
+            value=block.tension,
+            wear_factor=1.0,
+            joint_factor=1.0,
+            key=key,
+            measured=True,
+        )
+        for block in blocks
+    )
+    return Duty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
+
+
+def _log_summary(
+    name: str, duration: float, sorted_in: list[LogBlock], blocks: list[LogBlock]
+) -> str:
+    text = f"{name}: {duration:.6g} s, every row holds until the next, {len(sorted_in)} blocks"
+    if len(blocks) < len(sorted_in):
+        square = [sum(b.revolutions * b.tension**2 for b in part) for part in (blocks, sorted_in)]
+        text += (
+            f", the smallest joined with their neighbours to {len(blocks)}, which keeps time, cycles and "
+            f"mean tension and takes {100 * (1 - square[0] / square[1]):.2g} % off its mean square"
+        )
+    return text
+
+
+def _say_heaviest(case: Resolution, count: int) -> None:
+    if count > 1:
+        case.assumptions.append(
+            f"wear in a cycle is the mean over {count} blocks of the duty, weighted by their cycles; "
+            "pressure is that of the heaviest one"
+        )

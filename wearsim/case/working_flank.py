@@ -1,0 +1,244 @@
+"""The working flank of a sprocket, completed: an evolute one, or one through points."""
+
+import math
+from functools import lru_cache
+
+from wearsim.catalogue.catalogues import Chain
+from wearsim.errors import GeometryError
+from wearsim.geometry.feasibility import (
+    OFFSET_RESERVE,
+    evolute_limits,
+    remedy,
+    smallest_offset,
+    tooth_limits,
+)
+from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
+from wearsim.geometry.measured.points import (
+    contact_range,
+    flank_from_points,
+    phase_error,
+    working_side,
+)
+from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
+from wearsim.input.case_record import Resolution
+from wearsim.input.csv_tables import read_points
+from wearsim.input.schema import SprocketTable
+
+CONTACT_END_PER_PITCH = 0.16
+CONTACT_RATIO = 1.05
+_PHASE_TOLERANCE = math.radians(0.1)
+POINTS_NOISE = 1e-4
+"""Error of a flank's points assumed where none is given [mm]."""
+
+
+def evolute_tooth(
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
+) -> tuple[Tooth, float, float] | None:
+    """Complete a tooth around an evolute flank.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+    centrode : float
+        Radius of the centrode [mm].
+    nodes : int
+        Points along the flank.
+
+    Returns
+    -------
+    tuple of Tooth and two floats, or None
+        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
+    """
+    end, start, offset = table.contact_end_mm, table.contact_start_mm, table.evolute_offset_mm
+    if end is None:
+        end = float(f"{CONTACT_END_PER_PITCH * chain.pitch:.6g}")
+        case.take("sprocket.contact_end_mm", end, "0.16 pitch")
+    if start is None:
+        start = float(f"{end + CONTACT_RATIO * chain.pitch:.6g}")
+        case.take("sprocket.contact_start_mm", start, "contact ratio 1.05")
+    if "back_flank" not in table.model_fields_set:
+        case.take("sprocket.back_flank", table.back_flank, "default")
+    radius = 0.5 * chain.roller_diameter
+    if offset is None:
+        offset = _default_offset(case, table, chain, centrode, (end, start))
+        if offset is None:
+            return None
+    strand = Strand(centrode, radius, offset)
+    limits, tooth, thin = _feasible(
+        strand, (end, start), nodes, table.teeth, _relief(table, chain), chain.pitch
+    )
+    for name, message in limits:
+        help_out = offset >= centrode and name == "evolute_offset"
+        advice = _remedy(table, chain, (end, start)) if help_out else ""
+        case.faults.add(f"sprocket.{name}_mm", f"{message}{advice}")
+    for message in thin:
+        case.faults.add("sprocket.teeth", f"{message}{_remedy(table, chain, (end, start))}")
+    return None if tooth is None or thin else (tooth, end, start)
+
+
+@lru_cache(maxsize=32)
+def _feasible(
+    strand: Strand,
+    contact: tuple[float, float],
+    nodes: int,
+    teeth: int,
+    relief: float,
+    pitch: float,
+) -> tuple[list[tuple[str, str]], Tooth | None, list[str]]:
+    """Limits of the flank that fail, the tooth around it, and limits of the tooth that fail.
+
+    Cases of a study share their tooth, which takes longer to check than all the rest of a case.
+    """
+    limits = evolute_limits(strand, *contact, pitch)
+    if limits:
+        return limits, None, []
+    flank = evolute_flank(strand, *contact, nodes).profile
+    tooth = Tooth(strand, flank, teeth, relief)
+    try:
+        return [], tooth, tooth_limits(tooth, pitch)
+    except GeometryError as error:
+        return [], tooth, [str(error)]
+
+
+def _default_offset(
+    case: Resolution,
+    table: SprocketTable,
+    chain: Chain,
+    centrode: float,
+    contact: tuple[float, float],
+) -> float | None:
+    if not 1.0 < contact_ratio(*contact, chain.pitch) < 2.0:
+        # The range is at fault and will be named; any offset serves until then.
+        return 0.1 * centrode
+    try:
+        smallest = smallest_offset(centrode, 0.5 * chain.roller_diameter, *contact)
+    except GeometryError as error:
+        case.faults.add("sprocket.teeth", f"{error}{_remedy(table, chain, contact)}")
+        return None
+    offset = float(f"{OFFSET_RESERVE * smallest:.4g}")
+    case.take("sprocket.evolute_offset_mm", offset, "1.05 of the smallest that the roller clears")
+    return offset
+
+
+def _remedy(table: SprocketTable, chain: Chain, contact: tuple[float, float]) -> str:
+    radius = 0.5 * chain.roller_diameter
+    return remedy(chain.pitch, radius, table.teeth, table.engaged_every, *contact)
+
+
+def _relief(table: SprocketTable, chain: Chain) -> float:
+    return 0.0 if table.back_flank == "mirrored" else RELIEF_PER_PITCH * chain.pitch
+
+
+def points_tooth(
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
+) -> tuple[Tooth, float, float] | None:
+    """Complete a tooth around a flank given by points.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+    centrode : float
+        Radius of the centrode [mm].
+    nodes : int
+        Points along the flank.
+
+    Returns
+    -------
+    tuple of Tooth and two floats, or None
+        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
+    """
+    faults = case.faults
+    if table.points_file is None or table.evolute_offset_mm is None:
+        faults.add("sprocket.evolute_offset_mm", "profile = 'points' on a strand needs this key")
+        return None
+    points = read_points(
+        case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults
+    )
+    noise = table.points_noise_mm
+    if noise is None:
+        noise = POINTS_NOISE
+        case.take("sprocket.points_noise_mm", noise, "error of the points, sets the smoothing")
+    if points is None:
+        return None
+    strand = Strand(centrode, 0.5 * chain.roller_diameter, table.evolute_offset_mm)
+    try:
+        flank = working_side(flank_from_points(*points, noise, nodes))
+        reached = contact_range(flank, strand.height, strand.roller_radius)
+        turned = phase_error(flank, strand)
+    except GeometryError as error:
+        faults.add("sprocket.points_file", str(error))
+        return None
+    end, start = table.contact_end_mm, table.contact_start_mm
+    if end is None:
+        end = float(f"{reached[0]:.6g}")
+        case.take("sprocket.contact_end_mm", end, "where the flank's root end is touched")
+    if start is None:
+        start = float(f"{reached[1]:.6g}")
+        case.take("sprocket.contact_start_mm", start, "where the flank's tip end is touched")
+    ratio = contact_ratio(end, start, chain.pitch)
+    if not 1.0 < ratio < 2.0:
+        faults.add(
+            "sprocket.contact_start_mm" if table.contact_start_mm else "sprocket.points_file",
+            "contact ratio (contact_start - contact_end) / pitch must lie between 1 and 2, is "
+            f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
+        )
+        return None
+    if abs(turned) > _PHASE_TOLERANCE:
+        case.warnings.append(
+            f"the points are turned by {math.degrees(turned):.3g} degrees against a gap centred on +y: "
+            "turned back for the tooth around them"
+        )
+        flank = flank.rotated(-turned)
+    _check_reach(case, (end, start), reached, 0.01 * chain.pitch)
+    case.assumptions.append(
+        "the flank is a quintic smoothing spline through the points, their error taken as "
+        f"{noise:g} mm; no check that the flank is conjugate to the roller"
+    )
+    if "back_flank" not in table.model_fields_set:
+        case.take("sprocket.back_flank", table.back_flank, "default")
+    tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
+    _doubt_points(case, tooth, noise)
+    return tooth, end, start
+
+
+def _check_reach(
+    case: Resolution,
+    contact: tuple[float, float],
+    reached: tuple[float, float],
+    tolerance: float,
+) -> None:
+    """Add a fault where the range of contact goes on past an end of the flank."""
+    (end, start), (root, tip) = contact, reached
+    if end < root - tolerance:
+        case.faults.add(
+            "sprocket.contact_end_mm",
+            f"the flank's root end is touched at {root:.6g} mm: at least that (got {end:g})",
+        )
+    if start > tip + tolerance:
+        case.faults.add(
+            "sprocket.contact_start_mm",
+            f"the flank's tip end is touched at {tip:.6g} mm: at most that (got {start:g})",
+        )
+
+
+def _doubt_points(case: Resolution, tooth: Tooth, noise: float) -> None:
+    """Warn where a drawn or measured tooth is thin or cut; it may be what the user has."""
+    try:
+        cut = tooth.cut_depth()
+    except GeometryError as error:
+        case.warnings.append(str(error))
+        return
+    if cut > CUT_TOLERANCE + 3.0 * noise:
+        case.warnings.append(
+            f"the roller cuts {cut:.3g} mm off the tooth of the points on its way in or out"
+        )

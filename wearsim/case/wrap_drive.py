@@ -1,0 +1,327 @@
+"""A chain around a sprocket, completed: gap, layout of the drive, tensions, joints."""
+
+import math
+
+from wearsim.case.duty_blocks import Duty, LoadBlock
+from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
+from wearsim.case.strand_drive import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.wrapped_gap import gap_shape
+from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
+from wearsim.chain.chain_length import even_links, handbook_links
+from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
+from wearsim.errors import GeometryError
+from wearsim.input.case_record import Resolution
+from wearsim.input.schema import DriveTable, JointTable
+
+CENTRE_IN_PITCHES = 40.0
+SAG_PERCENT = 2.0
+LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
+SLIP_FRACTION = 0.1
+PHASES = 16
+WELL_LUBRICATED = "hardened, oiled"
+"""Wear condition whose joints a drive has where its case names none."""
+
+
+def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive | None:
+    """Complete a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    chain : Chain
+        Its chain.
+    duty : Duty or None
+        Its duty, None where that was at fault.
+
+    Returns
+    -------
+    WrapDrive or None
+        None where there was a fault.
+    """
+    tables, faults = case.tables, case.faults
+    table = tables.sprocket
+    if table is None:
+        faults.add("sprocket", "this table is required and missing")
+        return None
+    before = faults.count
+    _check_chain(case, chain)
+    if table.role is None:
+        case.take("sprocket.role", "driver", "default")
+    layout = _layout(case, chain, tables.drive or DriveTable())
+    shape = gap_shape(case, table, chain)
+    if layout is None or shape is None or duty is None or faults.count > before:
+        return None
+    driver = table.role != "driven"
+    tensions = _tensions(case, chain, layout, duty)
+    if tensions is None:
+        return None
+    blocks, rated, slack = tensions
+    width = face_width(case, table, chain)
+    mechanism = tables.mechanism
+    if mechanism.phases is None:
+        case.take("mechanism.phases", PHASES, "default")
+    frictions = mechanism.friction_roller_tooth, mechanism.friction_roller_bush
+    for key, value in zip(("tooth", "bush"), frictions, strict=True):
+        if value is None:
+            case.take(f"mechanism.friction_roller_{key}", 0.0, "default")
+    return WrapDrive(
+        outline=shape.outline,
+        gap=shape.gap,
+        gaps=table.teeth,
+        pitch_angle=2.0 * math.pi * table.engaged_every / table.teeth,
+        layout=layout,
+        driver=driver,
+        wrap_angle=layout.wrap_1 if driver else layout.wrap_2,
+        face_width=width,
+        blocks=blocks,
+        rated=rated,
+        slack=slack,
+        link_stiffness=_link_stiffness(case, chain),
+        bush_radius=0.5 * _bush_diameter(case, chain),
+        phases=mechanism.phases or PHASES,
+        slip_fraction=slip_fraction(case, SLIP_FRACTION),
+        friction_roller_tooth=frictions[0] or 0.0,
+        friction_roller_bush=frictions[1] or 0.0,
+        joint=_joint(case, chain, layout),
+        service_factor=_factor(case, "service", "smooth load", "power"),
+        exploitation_factor=_factor(
+            case, "exploitation", "steady, drip oil, one shift", "joint pressure"
+        ),
+        chain=chain,
+    )
+
+
+def _factor(case: Resolution, name: str, why: str, what: str) -> float:
+    key = f"{name}_factor"
+    given: float | None = getattr(case.tables.drive or DriveTable(), key)
+    effect = f"it changes the {what} in the ratings, not the wear"
+    if given is None:
+        case.take(f"drive.{key}", 1.0, f"{why}; {effect}")
+        return 1.0
+    case.assumptions.append(f"{name} factor {given:g}: {effect}")
+    return given
+
+
+def _check_chain(case: Resolution, chain: Chain) -> None:
+    for key, value in (
+        ("pin_diameter_mm", chain.pin_diameter),
+        ("bearing_area_mm2", chain.bearing_area),
+        ("mass_kg_per_m", chain.mass_per_length),
+    ):
+        if not value:
+            known = f"the catalogue has none for {chain.designation}" if chain.designation else ""
+            case.faults.add(
+                f"chain.{key}", f"kind = 'wrap' needs this key{': ' if known else ''}{known}"
+            )
+
+
+def _layout(case: Resolution, chain: Chain, table: DriveTable) -> DriveLayout | None:
+    sprocket = case.tables.sprocket
+    assert sprocket is not None
+    if sprocket.engaged_every > 1 and sprocket.teeth % sprocket.engaged_every:
+        case.warnings.append(
+            f"{sprocket.teeth} gaps of which every {sprocket.engaged_every}. carries a roller: the drive "
+            f"is laid out with {sprocket.teeth // sprocket.engaged_every} teeth"
+        )
+    teeth = sprocket.teeth // sprocket.engaged_every
+    mate = table.mate_teeth
+    if mate is None:
+        mate = teeth
+        case.take("drive.mate_teeth", mate, "as many as the sprocket: half a turn of wrap")
+    teeth_1, teeth_2 = (teeth, mate) if sprocket.role != "driven" else (mate, teeth)
+    links = table.links
+    try:
+        if table.centre_distance_mm is not None:
+            layout = layout_with_centre(chain.pitch, teeth_1, teeth_2, table.centre_distance_mm)
+            case.assumptions.append(
+                f"{layout.links} links, the next even number, at a centre distance of "
+                f"{layout.centre_distance:.6g} mm"
+            )
+        else:
+            if links is None:
+                links = even_links(handbook_links(teeth_1, teeth_2, CENTRE_IN_PITCHES))
+                case.take("drive.links", links, "about 40 pitches between the sprockets")
+            layout = layout_with_links(chain.pitch, teeth_1, teeth_2, links)
+    except GeometryError as error:
+        key = "centre_distance_mm" if table.centre_distance_mm is not None else "links"
+        case.faults.add(f"drive.{key}", str(error))
+        return None
+    if layout.needs_offset_link:
+        if _alternating(case):
+            case.faults.add(
+                "drive.links",
+                f"must be even where inner and outer links alternate (got {layout.links}): use "
+                f"{layout.links + 1}, or joint.pitch = 'uniform'",
+            )
+            return None
+        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+    return layout
+
+
+def _alternating(case: Resolution) -> bool:
+    joint = case.tables.joint or JointTable()
+    return joint.pitch != "uniform"
+
+
+def _tensions(
+    case: Resolution, chain: Chain, layout: DriveLayout, duty: Duty
+) -> tuple[tuple[Block, ...], tuple[Block, ...], float] | None:
+    """Return the blocks of the duty and the rated loads with their tensions, and the slack strand's."""
+    slack = _slack(case, chain, layout, max(_pull(case, chain, load) for load in duty.rated))
+    if slack is None:
+        return None
+    rated = [_block(case, chain, load, slack) for load in duty.rated]
+    found = [_block(case, chain, load, slack) for load in duty.blocks]
+    for load, block in zip((*duty.rated, *duty.blocks), (*rated, *found), strict=True):
+        if block.tension <= slack and not load.measured:
+            key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
+            _fault_slack(case, key, block.tension, slack)
+            return None
+    most = heaviest(tuple(rated))
+    if most.tension <= slack:
+        _fault_slack(case, duty.rated[0].key, most.tension, slack)
+        return None
+    idle = math.fsum(block.share for block in found if block.tension == slack)
+    if idle:
+        case.assumptions.append(
+            f"for {100 * idle:.3g} % of the cycles the tight strand of the log pulls no more than the "
+            "slack one, whose tension it takes then"
+        )
+    case.assumptions.append(
+        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "
+        f"{_range([block.centrifugal for block in found], 3)} N in both from the chain's own speed, which "
+        "loads joints but not teeth"
+    )
+    strained = max(rated, key=lambda block: block.tension + block.centrifugal)
+    key = duty.rated[rated.index(strained)].key
+    holds = within_strength(case, strained.tension + strained.centrifugal, chain, key)
+    return (tuple(found), tuple(rated), slack) if holds else None
+
+
+def _range(values: list[float], digits: int) -> str:
+    low, high = f"{min(values):.{digits}g}", f"{max(values):.{digits}g}"
+    return high if low == high else f"{low} to {high}"
+
+
+def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Block:
+    """Return a load with its tensions; that of a log is at least the slack one."""
+    pull = _pull(case, chain, load)
+    whole = pull if load.kind == "tension_N" else pull + slack
+    tight = whole - (1.0 - load.part) * (whole - slack)
+    if load.measured:
+        tight = max(tight, slack)
+    centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
+    return Block(
+        load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor
+    )
+
+
+def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:
+    case.faults.add(
+        key,
+        f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)",
+    )
+
+
+def _speed(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+    """Return the speed of the chain in a block [mm/s]."""
+    table = case.tables.sprocket
+    assert table is not None
+    return chain.pitch * table.teeth * block.speed_rpm / (60.0 * table.engaged_every)
+
+
+def _pull(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+    speed = _speed(case, chain, block)
+    return effective_pull(block, speed, 60.0 * speed / (2.0 * math.pi * block.speed_rpm))
+
+
+def _slack(case: Resolution, chain: Chain, layout: DriveLayout, pull: float) -> float | None:
+    """Return the tension of the slack strand as given, or of its catenary."""
+    table = case.tables.drive or DriveTable()
+    if table.slack_tension_N is not None:
+        return table.slack_tension_N
+    sag = table.sag_percent
+    if sag is None:
+        sag = SAG_PERCENT
+        case.take("drive.sag_percent", sag, "default")
+    if table.inclination_deg is None:
+        case.take("drive.inclination_deg", 0.0, "default")
+    slope = math.radians(table.inclination_deg or 0.0)
+    slack = catenary_tension(chain.mass_per_length, layout.span, sag / 100.0, slope)
+    if slack > 1e-9 * pull:
+        return slack
+    case.faults.add(
+        "drive.inclination_deg",
+        "a vertical span has no sag and no tension of its own: give drive.slack_tension_N",
+    )
+    return None
+
+
+def _link_stiffness(case: Resolution, chain: Chain) -> float:
+    given = (case.tables.drive or DriveTable()).link_stiffness_N_per_mm
+    if given is not None:
+        return given
+    stiffness = float(f"{LINK_STIFFNESS_PER_PITCH * chain.pitch:.3g}")
+    why = "5e4 N/mm at a pitch of 12.7 mm, in proportion to the pitch"
+    case.take("drive.link_stiffness_N_per_mm", stiffness, why)
+    return stiffness
+
+
+def _bush_diameter(case: Resolution, chain: Chain) -> float:
+    given = case.tables.chain.bush_diameter_mm
+    if given is not None:
+        return given
+    mean = float(f"{0.5 * (chain.pin_diameter + chain.roller_diameter):.4g}")
+    case.take("chain.bush_diameter_mm", mean, "mean of pin and roller")
+    return mean
+
+
+def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
+    table = case.tables.joint or JointTable()
+    if table.pitch is None:
+        case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
+    limit = case.tables.stop.elongation_percent
+    if limit is None:
+        limit = min(3.0, 200.0 / max(layout.teeth_1, layout.teeth_2))
+        limit = float(f"{limit:.4g}")
+        case.take("stop.elongation_percent", limit, "3 %, or 200 % over the larger number of teeth")
+    return JointInput(
+        coefficient=_joint_rate(case, table.specific_wear_rate_mm2_per_N),
+        bearing_area=chain.bearing_area,
+        alternating=_alternating(case),
+        elongation_limit=0.01 * limit,
+    )
+
+
+def _joint_rate(case: Resolution, given: float | None) -> float:
+    """Return the wear rate of the joints: the user's, or that of the state that the teeth are in."""
+    name = case.tables.wear.condition
+    state = wear_conditions()[name or WELL_LUBRICATED]
+    if given is None:
+        of = f"wear condition {name!r}" if name else f"as in {state.condition!r}, none is named"
+        case.take(
+            "joint.specific_wear_rate_mm2_per_N",
+            state.joint_typical,
+            f"{of}: {state.joint_low:g} to {state.joint_high:g}; {state.joint_source}",
+        )
+        return state.joint_typical
+    if name is not None:
+        _doubt_joint_rate(case, state, given)
+    return given
+
+
+def _doubt_joint_rate(case: Resolution, state: WearCondition, given: float) -> None:
+    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
+    alike = [row for row in wear_conditions().values() if row.lubricated == state.lubricated]
+    low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
+    if given <= high if state.lubricated else given >= low:
+        return
+    kinds = ("dry or contaminated", "lubricated")
+    case.warnings.append(
+        f"wear.condition = {state.condition!r} contradicts joint.specific_wear_rate_mm2_per_N = "
+        f"{given:g}: the teeth are {kinds[state.lubricated]}, and joints in that state have {low:g} to "
+        f"{high:g} mm2/N; this is a rate of {kinds[not state.lubricated]} joints: remove it, which takes "
+        f"{state.joint_typical:g}, or name another condition"
+    )

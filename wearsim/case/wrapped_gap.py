@@ -1,0 +1,297 @@
+"""The gap of a sprocket that a chain wraps, by its tooth form."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from wearsim.case.working_flank import POINTS_NOISE, evolute_tooth
+from wearsim.catalogue.catalogues import Chain, chains
+from wearsim.errors import GeometryError
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import gost591_gap
+from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
+from wearsim.geometry.gap import Gap
+from wearsim.geometry.gap_points import (
+    ON_CENTRE_LINE,
+    evolute_gap,
+    gap_from_points,
+    lowest_centre,
+)
+from wearsim.geometry.measured.dxf_outline import outline_from_dxf
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.input.case_record import Resolution
+from wearsim.input.csv_tables import read_points
+from wearsim.input.schema import SprocketTable
+from wearsim.input.schema.sprocket import BETWEEN_FORMS
+
+OUTLINE_NODES = 601
+
+_SAME_ROLLER = 0.1
+"""Difference of roller diameters [mm] within which one sprocket takes both chains."""
+
+_SAME_SEAT = 0.01
+"""Distance [mm] beyond the standards' seats of a roller up to which nothing is said."""
+
+_ENOUGH_POINTS = 70
+"""Points of a gap from which on the joints of a standard's arcs are found within 0.001 mm."""
+
+_FORMS: tuple[Literal["min", "max"], ...] = ("min", "max")
+"""Of ISO 606: with the least and the most room for the roller."""
+
+_ROUNDED = 1e-6
+"""Part by which a given number may be beyond a limit, as both are printed with seven digits."""
+
+_SERIES = {
+    "iso606": ("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H"),
+    "ansi_b29": ("ISO606-A/ANSI B29.1", "ISO606-H"),
+    "gost591": ("GOST13568",),
+}
+"""Series of the catalogue that a standard form is made for."""
+
+
+@dataclass(frozen=True, eq=False)
+class GapShape:
+    """A gap as points, and as exact arcs where it is a standard's.
+
+    Attributes
+    ----------
+    outline : Profile
+        From the right tip through the seat to the left tip.
+    gap : Gap or None
+        The exact arcs.
+    """
+
+    outline: Profile
+    gap: Gap | None
+
+
+def gap_shape(case: Resolution, table: SprocketTable, chain: Chain) -> GapShape | None:
+    """Return the gap of a sprocket.
+
+    Parameters
+    ----------
+    case : Resolution
+        The case so far.
+    table : SprocketTable
+        Its sprocket.
+    chain : Chain
+        Its chain.
+
+    Returns
+    -------
+    GapShape or None
+        None where there was a fault.
+    """
+    nodes = table.nodes or OUTLINE_NODES
+    if table.nodes is None:
+        case.take("sprocket.nodes", nodes, "default")
+    if table.profile == "evolute":
+        return _evolute(case, table, chain, nodes)
+    if table.profile in ("points", "dxf"):
+        return _drawn(case, table, chain, nodes)
+    _check_series(case, table, chain)
+    try:
+        gap = _standard(case, table, chain)
+        return GapShape(gap.outline(nodes), gap)
+    except GeometryError as error:
+        case.faults.add("sprocket.teeth", str(error))
+        return None
+
+
+def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
+    seat = table.seat_centre
+    if seat is None:
+        seat = "pitch_circle"
+        case.take("sprocket.seat_centre", seat, "default")
+    # Where only every second gap carries a roller the gaps lie nearer than a pitch.
+    radius = _pitch_radius(table, chain)
+    pitch = chain.pitch
+    if table.engaged_every > 1:
+        pitch = 2.0 * radius * math.sin(math.pi / table.teeth)
+    common = (pitch, chain.roller_diameter, table.teeth)
+    if table.profile == "ansi_b29":
+        gap = ansi_b29_gap(*common, seat, table.tip_diameter_mm)
+    elif table.profile == "gost591":
+        if table.displaced is None:
+            case.take("sprocket.displaced", False, "default")
+        gap = gost591_gap(*common, table.displaced or False, seat, table.tip_diameter_mm)
+    else:
+        gap = iso606_gap(*common, _iso606_form(case, table, chain), seat, table.tip_diameter_mm)
+    if table.tip_diameter_mm is None:
+        case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "the standard's")
+    elif gap.truncated:
+        case.warnings.append(
+            f"the teeth are pointed at a diameter of {2.0 * gap.tip_radius:.5g} mm, below "
+            f"sprocket.tip_diameter_mm = {table.tip_diameter_mm:g}: cut off there"
+        )
+    return gap
+
+
+def _iso606_form(
+    case: Resolution, table: SprocketTable, chain: Chain
+) -> Literal["min", "max"] | GapForm:
+    """Form of the gap: one of the two of ISO 606, or by what is given between them."""
+    given = {key: getattr(table, key) for key in BETWEEN_FORMS}
+    if all(value is None for value in given.values()):
+        if table.form is None:
+            case.take("sprocket.form", "min", "default")
+        return table.form or "min"
+    least, most = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
+    for key, value in given.items():
+        low, high = sorted((least[key], most[key]))
+        if value is None:
+            case.take(f"sprocket.{key}", least[key], "minimum form of ISO 606")
+        elif not low * (1.0 - _ROUNDED) <= value <= high * (1.0 + _ROUNDED):
+            case.faults.add(
+                f"sprocket.{key}",
+                f"must lie between the two forms of ISO 606, {low:.7g} and {high:.7g} for rollers of "
+                f"{chain.roller_diameter:g} mm and {table.teeth} teeth (got {value:g})",
+            )
+    radius, flank, angle = (given[key] or least[key] for key in BETWEEN_FORMS)
+    return GapForm(flank, radius, math.radians(angle))
+
+
+def _lengths(form: GapForm) -> dict[str, float]:
+    """The numbers of a form by their keys."""
+    lengths = form.seat_radius, form.flank_radius, math.degrees(form.seating_angle)
+    return dict(zip(BETWEEN_FORMS, lengths, strict=True))
+
+
+def _pitch_radius(table: SprocketTable, chain: Chain) -> float:
+    """Radius of the circle through the centres of the rollers [mm]."""
+    return 0.5 * chain.pitch / math.sin(math.pi * table.engaged_every / table.teeth)
+
+
+def _check_series(case: Resolution, table: SprocketTable, chain: Chain) -> None:
+    """Add a fault where the standard's sprockets of this pitch take other rollers."""
+    if not chain.designation:
+        return
+    series = _SERIES[table.profile]
+    made_for = {
+        known.designation: known.roller_diameter
+        for known in chains().values()
+        if known.series in series
+        and known.strands == 1
+        and abs(known.pitch - chain.pitch) < 0.01 * chain.pitch
+    }
+    if any(abs(diameter - chain.roller_diameter) <= _SAME_ROLLER for diameter in made_for.values()):
+        return
+    others = ", ".join(f"{name} ({size:g} mm)" for name, size in made_for.items()) or "none"
+    case.faults.add(
+        "sprocket.profile",
+        f"a {table.profile} sprocket must be cut for the chain's roller, but chain {chain.designation} "
+        f"has rollers of {chain.roller_diameter:g} mm and those of pitch {chain.pitch:g} mm in that "
+        f"standard are {others}: choose the profile of the chain's own standard or another chain",
+    )
+
+
+def _evolute(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
+    centrode = chain.pitch * table.teeth / (2.0 * math.pi * table.engaged_every)
+    found = evolute_tooth(case, table, chain, centrode, nodes)
+    if found is None:
+        return None
+    case.assumptions.append(
+        "the evolute flank of the straight strand is moved out until its gap seats the roller on the "
+        "pitch circle; its contact ratio does not apply to a wrap"
+    )
+    try:
+        return GapShape(evolute_gap(found[0], chain.pitch, nodes), None)
+    except GeometryError as error:
+        case.faults.add("sprocket.profile", str(error))
+        return None
+
+
+def _drawn(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
+    """Return a gap from a table of points or from a drawing."""
+    key = "sprocket.points_file" if table.points_file else "sprocket.dxf_file"
+    noise = table.points_noise_mm
+    if noise is None:
+        noise = POINTS_NOISE if table.points_file else 0.0
+        case.take("sprocket.points_noise_mm", noise, "error of the points, sets the smoothing")
+    name = table.points_file or table.dxf_file
+    assert name is not None
+    points = _points(case, key, name, table)
+    if points is None or not _has_right_size(case, key, points, table, chain):
+        return None
+    x, y = points
+    try:
+        outline = gap_from_points(x, y, noise, nodes, 0.5 * chain.roller_diameter)
+    except GeometryError as error:
+        case.faults.add(key, f"{name}: {error}")
+        return None
+    count = 2 * x.size if abs(x[0]) <= ON_CENTRE_LINE else x.size
+    if count < _ENOUGH_POINTS:
+        case.warnings.append(
+            f"{name} gives the gap by {count} points: where arcs meet the outline may be 0.01 mm off, "
+            f"forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs or shorter "
+            "lines"
+        )
+    return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
+
+
+def _points(
+    case: Resolution, key: str, name: str, table: SprocketTable
+) -> tuple[Vector, Vector] | None:
+    """Coordinates from the file, None where there was a fault."""
+    path = case.path(key, name)
+    if table.points_file:
+        return read_points(path, key, case.faults)
+    try:
+        points, notes = outline_from_dxf(path, table.teeth, layer=table.dxf_layer)
+    except GeometryError as error:
+        case.faults.add(key, str(error))
+        return None
+    case.assumptions += [f"drawing {name}: {note}" for note in notes]
+    return points[:, 0], points[:, 1]
+
+
+def _has_right_size(
+    case: Resolution, key: str, points: tuple[Vector, Vector], table: SprocketTable, chain: Chain
+) -> bool:
+    """Whether the bottom lies less than a pitch inside the pitch circle, else a fault."""
+    radius, bottom = _pitch_radius(table, chain), float(np.hypot(*points).min())
+    if radius - chain.pitch < bottom < radius:
+        return True
+    case.faults.add(
+        key,
+        f"the bottom of the gap must lie inside the pitch circle of radius {radius:.5g} mm, by less than "
+        f"a pitch, but lies {bottom:.5g} mm from the sprocket's centre: check sprocket.teeth, the chain, "
+        "the unit of the file ($INSUNITS in a drawing) and that the centre is at (0, 0)",
+    )
+    return False
+
+
+def _seats_roller(
+    case: Resolution, key: str, outline: Profile, table: SprocketTable, chain: Chain
+) -> bool:
+    """Whether a roller seats about as on new sprockets of these teeth, else a fault.
+
+    Standard forms seat it on the pitch circle or below, the lowest of them ISO 606's maximum
+    form by 0.005 d1 + 0.069 cbrt(d1): by 0.65 mm on the largest chain of the catalogue and by
+    0.022 p on the smallest, from 9 to 150 teeth. A tooth more or less moves all of them by
+    p/(2 pi engaged_every); from halfway to there on it is a fault, between a warning.
+    """
+    radius, roller_radius = _pitch_radius(table, chain), 0.5 * chain.roller_diameter
+    seat = math.hypot(*lowest_centre(outline.x, outline.y, roller_radius))
+    deepest = gap_form("max", chain.roller_diameter, table.teeth).seat_radius - roller_radius
+    beyond = max(seat - radius, radius - deepest - seat)
+    step = chain.pitch / (2.0 * math.pi * table.engaged_every)
+    new = f"{radius - deepest:.5g} to {radius:.5g} mm"
+    if beyond > 0.5 * (step - deepest):
+        case.faults.add(
+            key,
+            f"the gap must seat a roller of {chain.roller_diameter:g} mm near the pitch circle of radius "
+            f"{radius:.5g} mm, as new sprockets do at {new}, but seats it {seat:.5g} mm from the "
+            f"sprocket's centre: check sprocket.teeth = {table.teeth}, the chain and the unit of the file",
+        )
+        return False
+    if beyond > _SAME_SEAT + (table.points_noise_mm or 0.0):
+        way = "higher" if seat > radius else "lower"
+        case.warnings.append(
+            f"the gap of {key} seats a roller {seat:.5g} mm from the sprocket's centre, {beyond:.2g} mm "
+            f"{way} than a new sprocket of {table.teeth} teeth would ({new}): right if it is worn or made "
+            "so, else check teeth, chain and points"
+        )
+    return True

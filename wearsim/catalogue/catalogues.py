@@ -1,0 +1,378 @@
+"""Chains, materials, wear conditions and regimes of loading, read from the data files beside this one."""
+
+import csv
+import difflib
+import re
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+
+@cache
+def regimes() -> dict[str, tuple[tuple[float, float], ...]]:
+    """Return the typical regimes of loading as blocks.
+
+    Only moments are published, mu = sum share x^k with k = 3 (contact), 6 and 9
+    (bending) of the relative load x = T/T_max; the curves of figure 2 are lost. The blocks
+    are four Gauss nodes of the distribution named in the table, which reproduce its
+    moments up to the seventh: those of wear, between the first and the second, lie
+    within 1e-4 of it.
+
+    Returns
+    -------
+    dict
+        From ``0`` (constant), ``I`` (heavy) to ``V`` (very light): pairs of relative load
+        and share of the cycles, the heaviest first.
+
+    Examples
+    --------
+    Where all loads are equally probable, the mean of x^3 is 1/4:
+
+    >>> round(sum(share * load**3 for load, share in regimes()["II"]), 6)
+    0.25
+    """
+    found: dict[str, tuple[tuple[float, float], ...]] = {}
+    for row in rows("regimes"):
+        block = float(row["relative_load"]), float(row["share_of_cycles"])
+        found[row["regime"]] = (*found.get(row["regime"], ()), block)
+    return found
+
+
+KG_PER_M = 1e-6
+"""A mass per length of 1 kg/m in the units inside, t/mm = N s^2/mm^2."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A roller chain.
+
+    Attributes
+    ----------
+    designation : str
+        As in its standard; empty for a chain of one's own.
+    pitch, roller_diameter, inner_width : float
+        p, d1 and b1 [mm].
+    strands : int
+        Chains side by side.
+    tensile : float
+        Minimum tensile strength [N], 0 where it is not known.
+    note : str
+        Doubtful numbers of the table and what else there is to know about the row.
+    series : str
+        Standard and series as in the table, such as ``ISO606-B``; empty for a chain of one's own.
+    pin_diameter : float
+        d2 [mm], 0 where it is not known.
+    bearing_area : float
+        Projected area of pin in bush, all strands together [mm2], 0 where it is not known.
+    mass_per_length : float
+        q, all strands together [t/mm = N s^2/mm^2], 0 where it is not known: `KG_PER_M` times
+        the kg/m of the table, so that q v^2 with v in mm/s is a force in N.
+    transverse_pitch : float
+        Distance of the strands [mm], 0 where it is not known.
+
+    Examples
+    --------
+    >>> duplex = chains()["08B-2"]
+    >>> duplex.strands, duplex.bearing_area  # 2 * 50.3
+    (2, 100.6)
+    >>> round(duplex.mass_per_length / KG_PER_M, 6)  # 2 * 0.70 kg/m
+    1.4
+    """
+
+    designation: str
+    pitch: float
+    roller_diameter: float
+    inner_width: float
+    strands: int = 1
+    tensile: float = 0.0
+    note: str = ""
+    series: str = ""
+    pin_diameter: float = 0.0
+    bearing_area: float = 0.0
+    mass_per_length: float = 0.0
+    transverse_pitch: float = 0.0
+
+    @property
+    def face_width(self) -> float:
+        """Width of the standard tooth under all strands [mm] (ISO 606 rim width b_f1)."""
+        wide = self.pitch > 12.7
+        single, multiple = (0.95, 0.93) if wide else (0.93, 0.91)
+        return self.strands * self.inner_width * (single if self.strands == 1 else multiple)
+
+
+@dataclass(frozen=True)
+class Material:
+    """An elastic material.
+
+    Attributes
+    ----------
+    name : str
+        As in the table.
+    youngs_modulus : float
+        E [MPa].
+    poissons_ratio : float
+        Poisson's ratio.
+    density : float
+        Mass over volume [kg/m3].
+    """
+
+    name: str
+    youngs_modulus: float
+    poissons_ratio: float
+    density: float
+
+
+@dataclass(frozen=True)
+class WearCondition:
+    """A typical state of surface and lubricant with its specific wear rates.
+
+    Attributes
+    ----------
+    condition : str
+        As in the table.
+    low, typical, high : float
+        Specific wear rate k of a tooth [mm2/N].
+    source : str
+        Where the numbers come from.
+    lubricated : bool
+        Whether oil or grease reaches teeth and joints, and no dirt.
+    joint_low, joint_typical, joint_high : float
+        Specific wear rate of pin and bush together in that state [mm2/N].
+    joint_source : str
+        Where the numbers of the joints come from.
+    """
+
+    condition: str
+    low: float
+    typical: float
+    high: float
+    source: str
+    lubricated: bool
+    joint_low: float
+    joint_typical: float
+    joint_high: float
+    joint_source: str
+
+
+def rows(table: str) -> list[dict[str, str]]:
+    """Return a table as it stands in its file.
+
+    Parameters
+    ----------
+    table : str
+        ``chains``, ``materials`` or ``wear_conditions``.
+
+    Returns
+    -------
+    list of dict
+        One dictionary of strings for each row.
+    """
+    path = Path(__file__).with_name(f"{table}.csv")
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@cache
+def chains() -> dict[str, Chain]:
+    """Return the chains by every name they go by.
+
+    Returns
+    -------
+    dict
+        A row ``08A-1 (ANSI 40)`` stands under ``08A-1``, ``08A`` and ``ANSI 40``. A row of
+        ISO 606 with a transverse pitch also stands for its chains of two and three strands,
+        ``08A-2``, ``ANSI 40-2`` and so on: area, tensile strength and mass are then n times
+        the single row, and the note says so.
+
+    Examples
+    --------
+    >>> chains()["16B"] is chains()["16B-1"]
+    True
+    >>> chains()["ANSI 40-3"].designation
+    '08A-3'
+    """
+    found: dict[str, Chain] = {}
+    for row in rows("chains"):
+        chain = _chain(row)
+        _, _, other = row["designation"].partition(" (")
+        ansi = other.rstrip(")")
+        base = chain.designation
+        if chain.series.startswith("ISO606"):
+            base = base.removesuffix("-1")
+        found |= {name: chain for name in (chain.designation, base, ansi) if name}
+        if base == chain.designation or not chain.transverse_pitch:
+            continue
+        for strands in (2, 3):
+            multiple = _multiple(chain, f"{base}-{strands}", strands)
+            found |= {f"{name}-{strands}": multiple for name in (base, ansi) if name}
+    return found
+
+
+def chain_name(typed: str) -> str | None:
+    """Return the name of the catalogue that a typed designation stands for.
+
+    Parameters
+    ----------
+    typed : str
+        In any case, with or without the spaces and hyphens that set letters off from digits;
+        ``#40`` and ``no. 40`` stand for ``ANSI 40``, a decimal point for a comma.
+
+    Returns
+    -------
+    str or None
+        A key of `chains`, the very same where it is one; None where no chain goes by it, as by
+        a bare ``40``.
+
+    Examples
+    --------
+    >>> chain_name("08b"), chain_name("#40"), chain_name("40")
+    ('08B', 'ANSI 40', None)
+    """
+    return typed if typed in chains() else _spellings().get(_plain(typed))
+
+
+def nearest_chain(typed: str) -> str:
+    """Return a hint at the chains most like a designation that is none.
+
+    Parameters
+    ----------
+    typed : str
+        What was given.
+
+    Returns
+    -------
+    str
+        Those that lack only ``ANSI``, a leading zero or the letter of the series, with their
+        pitches; else as `nearest`.
+
+    Examples
+    --------
+    >>> nearest_chain("8B")
+    "; did you mean '08B' (pitch 12.7 mm)?"
+    """
+    plain, known = _plain(typed), _spellings()
+    likely = [f"ANSI{plain}"]
+    likely += [f"{zero}{plain}{series}" for zero in ("", "0") for series in ("", *"ABCH")]
+    found = [known[spelling] for spelling in likely if spelling in known]
+    if not found:
+        return nearest(typed, dict(chains()))
+    shown = (f"{name!r} (pitch {chains()[name].pitch:g} mm)" for name in found)
+    return f"; did you mean {' or '.join(shown)}?"
+
+
+@cache
+def _spellings() -> dict[str, str]:
+    return {_plain(name): name for name in chains()}
+
+
+def _plain(name: str) -> str:
+    """Return a designation in capitals, its parts apart only where digits meet."""
+    text = re.sub(r"^(ANSI)?[\s-]*(#|№|NO\.?)\s*(?=\d)", "ANSI", name.strip().upper())
+    text = re.sub(r"[\s\u2010-\u2015-]+", "-", text.replace(".", ","))
+    return re.sub(r"(?<!\d)-|-(?!\d)", "", text)
+
+
+def _chain(row: dict[str, str]) -> Chain:
+    designation = row["designation"].partition(" (")[0]
+    first = designation[0]
+    return Chain(
+        designation=designation,
+        pitch=float(row["pitch_mm"]),
+        roller_diameter=float(row["roller_diameter_mm"]),
+        inner_width=float(row["inner_width_mm"]),
+        strands=int(first) if first.isdigit() and designation[1:3] == "ПР" else 1,
+        tensile=1000.0 * float(row["tensile_kN"]),
+        note=_note(row),
+        series=row["series"],
+        pin_diameter=float(row["pin_diameter_mm"] or 0.0),
+        bearing_area=float(row["bearing_area_mm2"] or 0.0),
+        mass_per_length=KG_PER_M * float(row["mass_kg_per_m"] or 0.0),
+        transverse_pitch=float(row["transverse_pitch_mm"] or 0.0),
+    )
+
+
+def _note(row: dict[str, str]) -> str:
+    """What a case that uses the row must tell: its doubtful numbers first."""
+    _, doubtful, columns = row["trust"].partition("doubtful: ")
+    return ", ".join(part for part in (doubtful + columns, row["note"]) if part)
+
+
+def _multiple(single: Chain, designation: str, strands: int) -> Chain:
+    note = f"area, tensile strength and mass are {strands} times the single row (approximation)"
+    if single.series == "ISO606-B":
+        note += "; the tensile strength may be less: 2ПР-12,7-31,8 has 1.75 times the single row"
+    return replace(
+        single,
+        designation=designation,
+        strands=strands,
+        tensile=strands * single.tensile,
+        bearing_area=strands * single.bearing_area,
+        mass_per_length=strands * single.mass_per_length,
+        note="; ".join(part for part in (single.note, note) if part),
+    )
+
+
+@cache
+def materials() -> dict[str, Material]:
+    """Return the materials by name.
+
+    Returns
+    -------
+    dict
+        Material by name.
+    """
+    return {
+        row["name"]: Material(
+            row["name"],
+            float(row["youngs_modulus_MPa"]),
+            float(row["poissons_ratio"]),
+            float(row["density_kg_per_m3"]),
+        )
+        for row in rows("materials")
+    }
+
+
+@cache
+def wear_conditions() -> dict[str, WearCondition]:
+    """Return the wear conditions by name.
+
+    Returns
+    -------
+    dict
+        Condition by name.
+    """
+    return {
+        row["condition"]: WearCondition(
+            row["condition"],
+            float(row["low_mm2_per_N"]),
+            float(row["typical_mm2_per_N"]),
+            float(row["high_mm2_per_N"]),
+            row["source"],
+            row["lubricated"] == "yes",
+            float(row["joint_low_mm2_per_N"]),
+            float(row["joint_typical_mm2_per_N"]),
+            float(row["joint_high_mm2_per_N"]),
+            row["joint_source"],
+        )
+        for row in rows("wear_conditions")
+    }
+
+
+def nearest(name: str, names: "list[str] | dict[str, object]") -> str:
+    """Return a hint at the names most like a wrong one.
+
+    Parameters
+    ----------
+    name : str
+        What was given.
+    names : list or dict of str
+        What is allowed.
+
+    Returns
+    -------
+    str
+        ``; did you mean ...``, or nothing where no name is close.
+    """
+    upper = {known.upper(): known for known in names}
+    close = difflib.get_close_matches(name.upper(), upper, n=3, cutoff=0.6)
+    return f"; did you mean {' or '.join(repr(upper[match]) for match in close)}?" if close else ""

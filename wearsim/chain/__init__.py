@@ -1,0 +1,1 @@
+"""Roller chains: length, layout of a drive, tension of spans, ratings."""

@@ -1,0 +1,307 @@
+"""Two sprockets and a closed chain: centre distance, wrap, speed, who meets whom."""
+
+import math
+from dataclasses import dataclass
+
+from wearsim.chain.chain_length import (
+    even_links,
+    handbook_centre,
+    handbook_links,
+)
+from wearsim.errors import GeometryError
+from wearsim.geometry.gap import pitch_diameter
+
+
+def polygon_effect(teeth: int) -> float:
+    """Return the fluctuation of the chain's speed over a tooth, 1 - cos(pi/z).
+
+    Parameters
+    ----------
+    teeth : int
+        Number of gaps of the driving sprocket.
+
+    Returns
+    -------
+    float
+        (v_max - v_min)/v_max of a long straight span.
+
+    Examples
+    --------
+    >>> round(100 * polygon_effect(6), 4)  # 1 - cos(30 deg)
+    13.3975
+    """
+    return 1.0 - math.cos(math.pi / teeth)
+
+
+@dataclass(frozen=True)
+class Meetings:
+    """Which tooth meets which roller.
+
+    With g = gcd(z, X) the teeth fall into g classes that never share a roller: a tooth meets
+    X/g of the X rollers, a roller z/g of the z teeth, and all repeats after X/g revolutions of
+    the sprocket (lcm(z, X) engagements). With g = 1 the drive hunts: every tooth meets every
+    roller and both wear evenly. With g even a tooth meets the same kind of link, inner or outer,
+    for life.
+
+    Attributes
+    ----------
+    teeth, links : int
+        z and X.
+
+    Examples
+    --------
+    >>> meetings = Meetings(teeth=20, links=114)
+    >>> meetings.classes, meetings.rollers_per_tooth, meetings.teeth_per_roller
+    (2, 57, 10)
+    """
+
+    teeth: int
+    links: int
+
+    @property
+    def classes(self) -> int:
+        """Classes of teeth that never share a roller, g = gcd(z, X)."""
+        return math.gcd(self.teeth, self.links)
+
+    @property
+    def rollers_per_tooth(self) -> int:
+        """Different rollers that a tooth meets, X/g; also the revolutions until all repeats."""
+        return self.links // self.classes
+
+    @property
+    def teeth_per_roller(self) -> int:
+        """Different teeth that a roller meets, z/g."""
+        return self.teeth // self.classes
+
+    @property
+    def hunts(self) -> bool:
+        """Whether every tooth meets every roller."""
+        return self.classes == 1
+
+    @property
+    def same_link_kind(self) -> bool:
+        """Whether a tooth meets only inner or only outer links."""
+        return self.classes % 2 == 0
+
+
+@dataclass(frozen=True)
+class DriveLayout:
+    """Two sprockets at a centre distance with a closed chain of so many links.
+
+    Attributes
+    ----------
+    pitch : float
+        Chain pitch [mm], above 0.
+    teeth_1, teeth_2 : int
+        Gaps of the driving and the driven sprocket, at least 5 each.
+    links : int
+        Links X of the chain.
+    centre_distance : float
+        a [mm]; the tip circles, taken with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1, must
+        not overlap, and the chain must reach. It may be less than that of the taut chain.
+
+    Raises
+    ------
+    GeometryError
+        A number is out of its range, the sprockets overlap or the chain is too short.
+
+    Examples
+    --------
+    >>> layout = layout_with_links(pitch=10.0, teeth_1=20, teeth_2=20, links=80)
+    >>> layout.centre_distance, layout.span, layout.engaged_1
+    (300.0, 300.0, 10.0)
+    """
+
+    pitch: float
+    teeth_1: int
+    teeth_2: int
+    links: int
+    centre_distance: float
+
+    def __post_init__(self) -> None:
+        _refuse_sprockets(self.pitch, self.teeth_1, self.teeth_2, self.centre_distance)
+        needed = handbook_links(self.teeth_1, self.teeth_2, self.centre_distance / self.pitch)
+        if not self.links > needed - 1e-6:
+            raise GeometryError(
+                f"drive layout: a centre distance of {self.centre_distance:.6g} mm needs {needed:.6g} "
+                f"links, are {self.links}: use {even_links(needed)}"
+            )
+
+    @property
+    def ratio(self) -> float:
+        """Speed of sprocket 1 over that of sprocket 2, z2/z1."""
+        return self.teeth_2 / self.teeth_1
+
+    @property
+    def needs_offset_link(self) -> bool:
+        """Whether the number of links is odd, so that one link must be an offset (cranked) one."""
+        return self.links % 2 == 1
+
+    @property
+    def pitch_diameter_1(self) -> float:
+        """Pitch diameter of sprocket 1 [mm]."""
+        return pitch_diameter(self.pitch, self.teeth_1)
+
+    @property
+    def pitch_diameter_2(self) -> float:
+        """Pitch diameter of sprocket 2 [mm]."""
+        return pitch_diameter(self.pitch, self.teeth_2)
+
+    @property
+    def inclination(self) -> float:
+        """Angle of a span to the line of centres, asin((d2 - d1)/(2 a)) [rad]."""
+        half = 0.5 * (self.pitch_diameter_2 - self.pitch_diameter_1)
+        return math.asin(half / self.centre_distance)
+
+    @property
+    def wrap_1(self) -> float:
+        """Wrap angle of sprocket 1, pi - 2 asin((d2 - d1)/(2 a)) [rad]."""
+        return math.pi - 2.0 * self.inclination
+
+    @property
+    def wrap_2(self) -> float:
+        """Wrap angle of sprocket 2, pi + 2 asin((d2 - d1)/(2 a)) [rad]."""
+        return math.pi + 2.0 * self.inclination
+
+    @property
+    def engaged_1(self) -> float:
+        """Pitches on sprocket 1, wrap_1 z1/(2 pi)."""
+        return self.wrap_1 * self.teeth_1 / (2.0 * math.pi)
+
+    @property
+    def engaged_2(self) -> float:
+        """Pitches on sprocket 2, wrap_2 z2/(2 pi)."""
+        return self.wrap_2 * self.teeth_2 / (2.0 * math.pi)
+
+    @property
+    def span(self) -> float:
+        """Length of a straight span between the pitch circles, a cos(inclination) [mm]."""
+        return self.centre_distance * math.cos(self.inclination)
+
+    @property
+    def meetings_1(self) -> Meetings:
+        """Which tooth of sprocket 1 meets which roller."""
+        return Meetings(self.teeth_1, self.links)
+
+    @property
+    def meetings_2(self) -> Meetings:
+        """Which tooth of sprocket 2 meets which roller."""
+        return Meetings(self.teeth_2, self.links)
+
+    def chain_speed(self, angular_speed: float) -> float:
+        """Return the mean speed of the chain, v = z1 p omega/(2 pi).
+
+        Parameters
+        ----------
+        angular_speed : float
+            Of sprocket 1 [rad/s].
+
+        Returns
+        -------
+        float
+            Speed [mm/s].
+        """
+        return self.teeth_1 * self.pitch * angular_speed / (2.0 * math.pi)
+
+
+def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> DriveLayout:
+    """Return the layout of a chain of given links, centre distance by `handbook_centre`.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth_1, teeth_2 : int
+        Gaps of the driving and the driven sprocket.
+    links : int
+        Links of the chain; an odd number is taken as it is (`DriveLayout.needs_offset_link`).
+
+    Returns
+    -------
+    DriveLayout
+        Layout of the taut chain; the distance to install is less by 0.002 to 0.004 of it, which
+        gives the slack span its sag.
+
+    Raises
+    ------
+    GeometryError
+        The sprockets would overlap on so short a chain, or a number is out of its range.
+
+    Examples
+    --------
+    >>> round(layout_with_links(25.4, 27, 51, 100).centre_distance, 2)
+    768.58
+    """
+    _refuse_numbers(pitch, teeth_1, teeth_2)
+    centre = pitch * handbook_centre(teeth_1, teeth_2, links)
+    least = _least_centre(pitch, teeth_1, teeth_2)
+    if centre < least:
+        needed = even_links(handbook_links(teeth_1, teeth_2, least / pitch))
+        raise GeometryError(
+            f"drive layout: the sprockets must not overlap, but {links} links leave a centre "
+            f"distance of {centre:.6g} mm of the {least:.6g} mm needed: use {needed} links or more"
+        )
+    return DriveLayout(pitch, teeth_1, teeth_2, links, centre)
+
+
+def layout_with_centre(
+    pitch: float, teeth_1: int, teeth_2: int, centre_distance: float
+) -> DriveLayout:
+    """Return the layout nearest above a wished centre distance that has an even number of links.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth_1, teeth_2 : int
+        Gaps of the driving and the driven sprocket.
+    centre_distance : float
+        Wished centre distance [mm].
+
+    Returns
+    -------
+    DriveLayout
+        With the next even number of links and the centre distance that belongs to it, longer
+        than the wish by less than a pitch and a bit.
+
+    Raises
+    ------
+    GeometryError
+        The sprockets overlap at the wished distance, or a number is out of its range.
+
+    Examples
+    --------
+    >>> layout = layout_with_centre(44.45, 17, 34, 25 * 44.45)
+    >>> layout.links, round(layout.centre_distance / 44.45, 4)
+    (76, 25.1042)
+    """
+    _refuse_sprockets(pitch, teeth_1, teeth_2, centre_distance)
+    links = handbook_links(teeth_1, teeth_2, centre_distance / pitch)
+    return layout_with_links(pitch, teeth_1, teeth_2, even_links(links))
+
+
+def _least_centre(pitch: float, teeth_1: int, teeth_2: int) -> float:
+    tips = sum(0.6 + 1.0 / math.tan(math.pi / teeth) for teeth in (teeth_1, teeth_2))
+    return 0.5 * pitch * tips
+
+
+def _refuse_numbers(pitch: float, teeth_1: int, teeth_2: int) -> None:
+    if not pitch > 0.0:
+        raise GeometryError(
+            f"drive layout: the pitch must be above 0, is {pitch:g} mm: give the chain's"
+        )
+    if min(teeth_1, teeth_2) < 5:
+        raise GeometryError(
+            f"drive layout: both sprockets need at least 5 teeth, have {teeth_1} and {teeth_2}: "
+            "use more"
+        )
+
+
+def _refuse_sprockets(pitch: float, teeth_1: int, teeth_2: int, centre_distance: float) -> None:
+    _refuse_numbers(pitch, teeth_1, teeth_2)
+    least = _least_centre(pitch, teeth_1, teeth_2)
+    if not centre_distance >= least:
+        raise GeometryError(
+            "drive layout: the sprockets must not overlap, the centre distance is "
+            f"{centre_distance:.6g} mm: use at least {math.ceil(1e3 * least) / 1e3:.10g} mm"
+        )

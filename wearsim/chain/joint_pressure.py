@@ -1,0 +1,168 @@
+"""Pressure between pin and bush against what GOST practice allows, and its speed limits.
+
+The tables are empirical and written in the handbooks' units: speed in rpm.
+"""
+
+import math
+from itertools import pairwise
+
+from wearsim.catalogue.factors import factor, rows
+from wearsim.chain.power_rating import strand_factor
+from wearsim.errors import CaseError, Fault
+
+_SAME = 1e-3
+"""Difference within which two pitches are the same [mm]."""
+
+
+def exploitation_factor(
+    load: str = "steady",
+    lubrication: str = "drip",
+    shifts: str = "one",
+    adjustment: str = "movable axis",
+    slope: float = 0.0,
+) -> float:
+    """Return K_e, the product of the GOST factors for how the drive is used.
+
+    Parameters
+    ----------
+    load : str
+        ``steady`` 1, ``moderate shocks`` 1.35 (of 1.2 to 1.5) or ``heavy shocks`` 1.8.
+    lubrication : str
+        ``continuous`` 0.8, ``drip`` 1 or ``periodic`` 1.5.
+    shifts : str
+        Shifts a day: ``one`` 1, ``two`` 1.25 or ``three`` 1.45.
+    adjustment : str
+        Of the tension: ``movable axis`` 1, ``tensioner`` 1.1 or ``none`` 1.25.
+    slope : float
+        Angle psi of the line of centres to the horizontal [rad]: 1 up to 60 degrees,
+        0.15 sqrt(psi in degrees) above.
+
+    Returns
+    -------
+    float
+        Factor; handbooks ask for another drive where it exceeds 3.
+
+    Raises
+    ------
+    CaseError
+        A word is none of these.
+
+    Examples
+    --------
+    >>> exploitation_factor(shifts="two", adjustment="none")  # 1.25 * 1.25
+    1.5625
+    """
+    causes = {
+        "load": load,
+        "lubrication": lubrication,
+        "shifts": shifts,
+        "adjustment": adjustment,
+    }
+    used = math.prod(
+        factor("exploitation_factors", cause=cause, state=state) for cause, state in causes.items()
+    )
+    degrees = abs(math.degrees(slope))
+    return used * (0.15 * math.sqrt(degrees) if degrees > 60.0 else 1.0)
+
+
+def joint_pressure(
+    pull: float, bearing_area: float, strands: int = 1, exploitation: float = 1.0
+) -> float:
+    """Return the pressure in the joint by GOST practice, p = F_t K_e/(A m_p).
+
+    Parameters
+    ----------
+    pull : float
+        F_t [N].
+    bearing_area : float
+        Projected area of pin in bush of all strands together, as in the catalogue [mm2]; A is
+        that of one strand.
+    strands : int
+        1 to 3.
+    exploitation : float
+        K_e of `exploitation_factor`.
+
+    Returns
+    -------
+    float
+        Pressure [MPa].
+
+    Raises
+    ------
+    CaseError
+        The area is not above 0, or the table has no factor m_p for so many strands.
+
+    Examples
+    --------
+    >>> joint_pressure(2000.0, 100.0, exploitation=1.5)
+    30.0
+    """
+    if not bearing_area > 0.0:
+        message = (
+            f"joint pressure: the bearing area must be above 0, is {bearing_area:g} mm2: take it "
+            "from the catalogue of the chain's maker"
+        )
+        raise CaseError([Fault(message)])
+    return pull * exploitation * strands / (bearing_area * strand_factor(strands, "GOST"))
+
+
+def allowable_joint_pressure(pitch: float, speed: float) -> float | None:
+    """Return the allowable pressure [p] of the GOST practice, interpolated in the speed.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    speed : float
+        Speed of the smaller sprocket [rpm]; below the 50 of the table its value at 50 holds.
+
+    Returns
+    -------
+    float or None
+        Pressure [MPa]; None where the table knows neither the pitch (12.7 to 15.9, 19.05 to
+        25.4, 31.75 to 38.1, 44.45 to 50.8 mm) nor, above its last column, the speed.
+
+    Examples
+    --------
+    >>> allowable_joint_pressure(25.4, 300)  # halfway between 30 and 26
+    28.0
+    """
+    column = [
+        (float(row["speed_rpm"]), float(row["pressure_MPa"]))
+        for row in rows("joint_pressure")
+        if float(row["smallest_pitch_mm"]) - _SAME
+        <= pitch
+        <= float(row["largest_pitch_mm"]) + _SAME
+    ]
+    if not column or speed > column[-1][0]:
+        return None
+    if speed <= column[0][0]:
+        return column[0][1]
+    for (slower, high), (faster, low) in pairwise(column):
+        if speed <= faster:
+            return high + (low - high) * (speed - slower) / (faster - slower)
+    return None
+
+
+def speed_limits(pitch: float) -> tuple[float, float] | None:
+    """Return the recommended and the greatest speed of the smaller sprocket for a pitch.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+
+    Returns
+    -------
+    tuple of float or None
+        Recommended and greatest speed [rpm]; None for a pitch that the table does not hold.
+
+    Examples
+    --------
+    >>> speed_limits(25.4)
+    (800.0, 1200.0)
+    """
+    for row in rows("speed_limits"):
+        if abs(float(row["pitch_mm"]) - pitch) <= _SAME:
+            return float(row["recommended_rpm"]), float(row["greatest_rpm"])
+    return None

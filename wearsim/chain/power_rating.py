@@ -1,0 +1,213 @@
+"""Power that a roller chain carries for 15 000 hours: ANSI rating, ISO 10823 correction.
+
+The formulas are empirical and written in the handbooks' units: power in kW, speed in rpm.
+"""
+
+from wearsim.catalogue.factors import factor
+
+HORSEPOWER = 0.745699872
+"""1 hp = 550 ft lbf/s [kW]."""
+
+REFERENCE_TEETH = 19
+"""Teeth of the small sprocket of the reference drive of ISO 10823."""
+
+_INCH = 25.4
+
+
+def application_factor(driver: str, driven: str) -> float:
+    """Return f1 of ISO 10823, the factor on the power for shocks.
+
+    Parameters
+    ----------
+    driver : str
+        ``smooth`` (electric motor, turbine), ``slight shocks`` (engine of six or more cylinders)
+        or ``moderate shocks`` (fewer cylinders).
+    driven : str
+        ``smooth``, ``moderate shocks`` or ``heavy shocks``.
+
+    Returns
+    -------
+    float
+        Factor, 1.0 to 2.1.
+
+    Raises
+    ------
+    CaseError
+        A word is none of these.
+
+    Examples
+    --------
+    >>> application_factor("slight shocks", "moderate shocks")
+    1.5
+    """
+    return factor("application_factors", driver=driver, driven=driven)
+
+
+def tooth_factor(teeth: float) -> float:
+    """Return f2 of ISO 10823, the factor on the power for the small sprocket, (19/z1)^1.08.
+
+    Parameters
+    ----------
+    teeth : float
+        Gaps of the smaller sprocket.
+
+    Returns
+    -------
+    float
+        Factor.
+
+    Examples
+    --------
+    >>> tooth_factor(19)
+    1.0
+    """
+    return float((REFERENCE_TEETH / teeth) ** 1.08)
+
+
+def corrected_power(power: float, service_factor: float, teeth: float) -> float:
+    """Return the power that the reference drive would have to carry, Pc = P f1 f2.
+
+    The reference drive of ISO 10823 has 19 teeth, 120 links, a ratio of 1:3 to 3:1, a uniform
+    load, clean surroundings, full lubrication and 15 000 hours to 3 % elongation.
+
+    Parameters
+    ----------
+    power : float
+        Transmitted power P [kW].
+    service_factor : float
+        f1, `application_factor` times whatever reserve is wanted.
+    teeth : float
+        Gaps of the smaller sprocket.
+
+    Returns
+    -------
+    float
+        Corrected power [kW].
+
+    Examples
+    --------
+    >>> corrected_power(10.0, 1.4, 19)
+    14.0
+    """
+    return power * service_factor * tooth_factor(teeth)
+
+
+def strand_factor(strands: int, method: str = "ANSI") -> float:
+    """Return how many times the load of one strand several strands carry.
+
+    Parameters
+    ----------
+    strands : int
+        1 to 6; 1 to 3 for GOST.
+    method : str
+        ``ANSI`` (B29.1: 1, 1.7, 2.5, 3.3, 3.9, 4.6) or ``GOST`` (m_p: 1, 1.7, 2.5).
+
+    Returns
+    -------
+    float
+        Factor.
+
+    Raises
+    ------
+    CaseError
+        The table has no such number of strands.
+
+    Examples
+    --------
+    >>> strand_factor(3)
+    2.5
+    """
+    return factor("strand_factors", method=method, strands=str(strands))
+
+
+def plate_fatigue_rating(pitch: float, teeth: float, speed: float, light: bool = False) -> float:
+    """Return the power of one strand at the fatigue limit of the link plates.
+
+    H1 = 0.004 N^1.08 n^0.9 P^(3 - 0.07 P) [hp], P in inches (ANSI B29.1; Shigley eq. 17-32),
+    0.0022 in place of 0.004 for no. 41. For the A series, 15 000 h; it governs at low speed.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth : float
+        Gaps of the smaller sprocket.
+    speed : float
+        Speed of the smaller sprocket [rpm].
+    light : bool
+        Whether the chain is no. 41 (085-1).
+
+    Returns
+    -------
+    float
+        Rating H1 [kW].
+
+    Examples
+    --------
+    >>> round(plate_fatigue_rating(44.45, 17, 300) / HORSEPOWER, 2)  # no. 140, Shigley: 72.4 hp
+    72.39
+    """
+    inches = pitch / _INCH
+    constant = 0.0022 if light else 0.004
+    power = constant * teeth**1.08 * speed**0.9 * inches ** (3.0 - 0.07 * inches)
+    return float(HORSEPOWER * power)
+
+
+def roller_impact_rating(pitch: float, teeth: float, speed: float, light: bool = False) -> float:
+    """Return the power of one strand at the fatigue limit of rollers and bushes under impact.
+
+    H2 = 1000 Kr N^1.5 P^0.8/n^1.5 [hp], P in inches (ANSI B29.1; Shigley eq. 17-33), Kr = 29 for
+    no. 25 and 35, 3.4 for no. 41, 17 for no. 40 to 240. It governs at high speed.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth : float
+        Gaps of the smaller sprocket.
+    speed : float
+        Speed of the smaller sprocket [rpm].
+    light : bool
+        Whether the chain is no. 41 (085-1).
+
+    Returns
+    -------
+    float
+        Rating H2 [kW].
+
+    Examples
+    --------
+    >>> round(roller_impact_rating(25.4, 25, 1000) / HORSEPOWER, 2)  # 17e6 / 10**4.5 * 125e-3
+    67.2
+    """
+    inches = pitch / _INCH
+    small = pitch < 12.0
+    constant = 3.4 if light else 29.0 if small else 17.0
+    power = 1000.0 * constant * teeth**1.5 * inches**0.8 / speed**1.5
+    return float(HORSEPOWER * power)
+
+
+def power_rating(pitch: float, teeth: float, speed: float, light: bool = False) -> float:
+    """Return the power of one strand, the smaller of both fatigue ratings.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth : float
+        Gaps of the smaller sprocket.
+    speed : float
+        Speed of the smaller sprocket [rpm].
+    light : bool
+        Whether the chain is no. 41 (085-1).
+
+    Returns
+    -------
+    float
+        Rating [kW]; the third limit of the handbooks, galling of the joints at speeds above both,
+        is not in it.
+    """
+    return min(
+        plate_fatigue_rating(pitch, teeth, speed, light),
+        roller_impact_rating(pitch, teeth, speed, light),
+    )

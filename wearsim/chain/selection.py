@@ -1,0 +1,336 @@
+"""Is a chain drive inside its rating: one finding for each rule of the handbooks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from wearsim.chain.joint_pressure import (
+    allowable_joint_pressure,
+    joint_pressure,
+    speed_limits,
+)
+from wearsim.chain.power_rating import (
+    REFERENCE_TEETH,
+    corrected_power,
+    plate_fatigue_rating,
+    power_rating,
+    roller_impact_rating,
+    strand_factor,
+)
+from wearsim.errors import CaseError, Fault
+
+LARGEST_PITCH = 76.2
+"""Of the chains that the ANSI rating knows, no. 240 [mm]."""
+
+RULES = (
+    "plate fatigue",
+    "roller impact",
+    "corrected power",
+    "joint pressure",
+    "recommended speed",
+    "greatest speed",
+    "safety against breaking",
+)
+"""Names of the findings in the order of `assess`."""
+
+_CAPACITY = RULES[:4]
+"""Those of them that say how much load a chain carries."""
+
+LEAST_SAFETY = 7.0
+"""Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
+
+
+@dataclass(frozen=True)
+class RatedDrive:
+    """What the ratings need to know of a drive; 0 stands for not known.
+
+    Attributes
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth : float
+        Gaps of the smaller sprocket; no whole number where only some gaps carry a roller.
+    speed : float
+        Speed of the smaller sprocket [rpm].
+    power : float
+        Transmitted power [kW].
+    strands : int
+        Chains side by side.
+    bearing_area : float
+        Projected area of pin in bush, all strands together [mm2].
+    tensile : float
+        Minimum tensile strength, all strands together [N].
+    own_tension : float
+        Catenary and centrifugal tension of the tight span [N].
+    series : str
+        As in the catalogue: ``ISO606-A/ANSI B29.1``, ``ISO606-B``, ``ISO606-H``, ``GOST13568``.
+    light : bool
+        Whether the chain is no. 41 (085-1).
+
+    Raises
+    ------
+    CaseError
+        Pitch, teeth, speed, power or strands are not above 0.
+
+    Examples
+    --------
+    >>> drive = RatedDrive(pitch=25.4, teeth=20, speed=750.0, power=30.0)
+    >>> round(drive.pull, 2)  # 30 kW at 6.35 m/s
+    4724.41
+    """
+
+    pitch: float
+    teeth: float
+    speed: float
+    power: float
+    strands: int = 1
+    bearing_area: float = 0.0
+    tensile: float = 0.0
+    own_tension: float = 0.0
+    series: str = ""
+    light: bool = False
+
+    def __post_init__(self) -> None:
+        faults = [
+            Fault(f"rating: {name} must be above 0, is {getattr(self, name):g}: give the drive's")
+            for name in ("pitch", "teeth", "speed", "power", "strands")
+            if not getattr(self, name) > 0.0
+        ]
+        if faults:
+            raise CaseError(faults)
+
+    @property
+    def pull(self) -> float:
+        """F_t = P/v with v = z p n [N]."""
+        return 6.0e7 * self.power / (self.teeth * self.pitch * self.speed)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A number of the drive beside what a rule allows.
+
+    Attributes
+    ----------
+    name : str
+        What is compared.
+    value, limit : float
+        Of the drive, and by the rule, both in `unit`.
+    unit : str
+        Unit of both, empty for a ratio.
+    source : str
+        Whose rule it is.
+    note : str
+        Why the rule is only indicative here; empty where it applies as it stands.
+    at_least : bool
+        Whether the limit is a lower one.
+    load : str
+        Which of several loads of the drive it is about; empty where there is one.
+
+    Examples
+    --------
+    >>> Finding("safety", 6.0, 7.0, "", "iwis", at_least=True).ok
+    False
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    source: str
+    note: str = ""
+    at_least: bool = False
+    load: str = ""
+
+    @property
+    def used(self) -> float:
+        """Part of the limit that the value takes up, above 1 outside."""
+        return self.limit / self.value if self.at_least else self.value / self.limit
+
+    @property
+    def margin(self) -> float:
+        """What is left to the limit in `unit`, below 0 outside."""
+        return self.value - self.limit if self.at_least else self.limit - self.value
+
+    @property
+    def ok(self) -> bool:
+        """Whether the value keeps to the limit."""
+        return self.value >= self.limit if self.at_least else self.value <= self.limit
+
+
+def overloading(ratings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """Return the ratings that a drive is overloaded by.
+
+    Those outside but for the recommended speed, above which a drive may run, and the elongation,
+    which is a limit of its own. Where a rating of the load applies as it stands, those that are
+    only indicative overload no drive by themselves.
+
+    Parameters
+    ----------
+    ratings : sequence of Finding
+        All of a drive.
+
+    Returns
+    -------
+    tuple of Finding
+        Empty where it is not overloaded.
+
+    Examples
+    --------
+    >>> plates = Finding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
+    >>> pressure = Finding("joint pressure", 26.0, 22.5, "MPa", "GOST practice", "indicative")
+    >>> overloading([plates, pressure])
+    ()
+    >>> [finding.name for finding in overloading([pressure])]
+    ['joint pressure']
+    """
+    outside = tuple(
+        finding
+        for finding in ratings
+        if not finding.ok and finding.name in RULES and finding.name != "recommended speed"
+    )
+    judged = any(finding.name in _CAPACITY and not finding.note for finding in ratings)
+    return () if judged and all(finding.note for finding in outside) else outside
+
+
+def elongation_limit(teeth: int, adjustable: bool = True) -> float:
+    """Return the elongation at which a chain is worn out.
+
+    3 % where the centre distance can be adjusted or a tensioner takes it up, 1.5 % where not;
+    never above 2/z of the larger sprocket, at which the rollers ride 0.318 p too high.
+
+    Parameters
+    ----------
+    teeth : int
+        Gaps of the larger sprocket.
+    adjustable : bool
+        Whether the elongation can be taken up.
+
+    Returns
+    -------
+    float
+        Elongation as a fraction.
+
+    Examples
+    --------
+    >>> elongation_limit(57), elongation_limit(100), elongation_limit(57, adjustable=False)
+    (0.03, 0.02, 0.015)
+    """
+    return min(0.03 if adjustable else 0.015, 2.0 / teeth)
+
+
+def rating_note(series: str) -> str:
+    """Return what limits the use of the ANSI power ratings for a series of chains.
+
+    Parameters
+    ----------
+    series : str
+        As in the catalogue.
+
+    Returns
+    -------
+    str
+        Empty for the A series, for which they are made.
+
+    Examples
+    --------
+    >>> rating_note("ISO606-A/ANSI B29.1")
+    ''
+    """
+    if series.startswith("ISO606-A"):
+        return ""
+    kinds = {
+        "ISO606-B": "a B chain has other plates and rollers: see its maker's chart",
+        "ISO606-H": "thicker plates carry more than the A chain of this pitch",
+        "GOST13568": "GOST practice rates these chains by joint pressure",
+    }
+    return f"indicative, the formula is for the A series; {kinds.get(series, 'series not known')}"
+
+
+def assess(
+    drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0
+) -> tuple[Finding, ...]:
+    """Return what the handbooks say about a drive.
+
+    Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference
+    drive; joint pressure and speed against the tables of GOST practice; tensile strength.
+
+    Parameters
+    ----------
+    drive : RatedDrive
+        The drive.
+    service_factor : float
+        f1 on the power, `application_factor` times whatever reserve is wanted.
+    exploitation : float
+        K_e on the joint pressure, of `exploitation_factor`.
+
+    Returns
+    -------
+    tuple of Finding
+        Rules that need a number which is not known, or a row that a table does not have, are
+        left out.
+
+    Raises
+    ------
+    CaseError
+        The ANSI table has no such number of strands.
+
+    Examples
+    --------
+    No. 80, 20 teeth, 750 rpm carries 39.33 hp = 29.33 kW:
+
+    >>> [finding.ok for finding in assess(RatedDrive(25.4, 20, 750.0, 29.3))][:3]
+    [True, True, True]
+    """
+    return (
+        *_power_findings(drive, service_factor),
+        *_pressure_findings(drive, exploitation),
+        *_speed_findings(drive),
+        *_tensile_findings(drive),
+    )
+
+
+def _power_findings(drive: RatedDrive, service_factor: float) -> list[Finding]:
+    if drive.pitch > LARGEST_PITCH:
+        return []
+    note = rating_note(drive.series)
+    several = strand_factor(drive.strands)
+    required = drive.power * service_factor
+    here = (drive.pitch, drive.teeth, drive.speed, drive.light)
+    reference = power_rating(drive.pitch, REFERENCE_TEETH, drive.speed, drive.light)
+    plates = several * plate_fatigue_rating(*here)
+    impact = several * roller_impact_rating(*here)
+    corrected = corrected_power(drive.power, service_factor, drive.teeth)
+    iso = "ISO 10823, f1 f2; rating of 19 teeth by ANSI B29.1"
+    return [
+        Finding("plate fatigue", required, plates, "kW", "ANSI B29.1, H1", note),
+        Finding("roller impact", required, impact, "kW", "ANSI B29.1, H2", note),
+        Finding("corrected power", corrected, several * reference, "kW", iso, note),
+    ]
+
+
+def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[Finding]:
+    allowed = allowable_joint_pressure(drive.pitch, drive.speed)
+    if allowed is None or not drive.bearing_area or drive.strands > 3:
+        return []
+    found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, exploitation)
+    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    return [Finding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
+
+
+def _speed_findings(drive: RatedDrive) -> list[Finding]:
+    limits = speed_limits(drive.pitch)
+    if limits is None:
+        return []
+    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    names = ("recommended speed", "greatest speed")
+    return [
+        Finding(name, drive.speed, limit, "rpm", "GOST practice", note)
+        for name, limit in zip(names, limits, strict=True)
+    ]
+
+
+def _tensile_findings(drive: RatedDrive) -> list[Finding]:
+    if not drive.tensile:
+        return []
+    safety = drive.tensile / (drive.pull + drive.own_tension)
+    rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
+    return [Finding("safety against breaking", safety, LEAST_SAFETY, "", rule, at_least=True)]

@@ -1,0 +1,281 @@
+"""What commands share: options, exit codes and the form of a failed case."""
+
+import json
+import math
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from wearsim.command.complete import complete_setting
+from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.result import WearResult
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+BAD_INPUT, FAILED, NOT_MET, SOME_FAILED = 2, 3, 4, 5
+
+
+def standard(function: Function) -> Function:
+    """Add ``-q`` and ``--debug``, which every command takes.
+
+    Parameters
+    ----------
+    function : callable
+        Command to be.
+
+    Returns
+    -------
+    callable
+        The same with two more options.
+    """
+
+    def _quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
+        if value:
+            context.find_root().meta["wearsim.quiet"] = True
+
+    function = click.option(
+        "-q", "--quiet", is_flag=True, expose_value=False, callback=_quiet,
+        help="Print no warnings and no progress on stderr.",
+    )(function)  # fmt: skip
+    return click.option(
+        "--debug", is_flag=True, expose_value=False, help="Show the traceback of an error."
+    )(function)
+
+
+def overrides(function: Function) -> Function:
+    """Add ``--set``, which every command that takes a CASE takes.
+
+    Parameters
+    ----------
+    function : callable
+        Command to be.
+
+    Returns
+    -------
+    callable
+        The same with one more option.
+    """
+    return click.option(
+        "--set", "settings", multiple=True, metavar="TABLE.KEY=VALUE",
+        shell_complete=complete_setting,
+        help="Override a key of the case; VALUE is TOML, else a string. Repeatable.",
+    )(function)  # fmt: skip
+
+
+def warn(text: str) -> None:
+    """Print a note on stderr unless ``-q`` was given.
+
+    Parameters
+    ----------
+    text : str
+        The note.
+    """
+    if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
+        click.echo(text, err=True)
+
+
+@contextmanager
+def working(text: str) -> Iterator[Callable[[float], None]]:
+    """Show on a terminal's stderr that something is under way, and the time left once that is known.
+
+    Parameters
+    ----------
+    text : str
+        What it is.
+
+    Yields
+    ------
+    callable
+        To be told how much of the work is done, from 0 to 1; less than before where it
+        starts again.
+    """
+    quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
+    if quiet or not sys.stderr.isatty():
+        yield lambda part: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
+
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(text, total=None)
+
+        def told(part: float) -> None:
+            if part < bar.tasks[0].completed:
+                bar.reset(task)
+            bar.update(task, completed=part, total=1.0)
+
+        yield told
+
+
+def worn(case: "Case") -> "WearResult":
+    """Run a case and show on a terminal how far it is.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    WearResult
+        Its run.
+    """
+    from wearsim.simulation import simulate
+
+    with working(f"wearing {case.title}") as told:
+        return simulate(case, told)
+
+
+def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:
+    """Print an object on one line of stdout, and warnings on stderr.
+
+    Parameters
+    ----------
+    content : mapping
+        Plain values, never nan.
+    source : pathlib.Path
+        What the warnings are about.
+    warnings : iterable of str
+        What the user should look at.
+    """
+    click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
+    for text in warnings:
+        warn(f"{source}: warning: {text}")
+
+
+def show_error(error: WearsimError, path: Path | None = None) -> None:
+    """Print an error on stderr, with its traceback if ``--debug`` was given.
+
+    Parameters
+    ----------
+    error : WearsimError
+        The error.
+    path : pathlib.Path, optional
+        Case that it belongs to, where its message does not say so.
+    """
+    if "--debug" in sys.argv:
+        traceback.print_exception(error)
+    else:
+        click.echo(f"{path}: {error}" if path else str(error), err=True)
+
+
+def exit_code(error: WearsimError) -> int:
+    """Return the exit code of an error.
+
+    Parameters
+    ----------
+    error : WearsimError
+        The error.
+
+    Returns
+    -------
+    int
+        2 for bad input, 3 for a calculation that failed.
+    """
+    return BAD_INPUT if isinstance(error, CaseError | OutputError) else FAILED
+
+
+def error_json(case: str, error: WearsimError) -> str:
+    """Return a failed case as one line of JSON.
+
+    Parameters
+    ----------
+    case : str
+        Name of the case.
+    error : WearsimError
+        What went wrong.
+
+    Returns
+    -------
+    str
+        With the file, line and key of the first fault.
+    """
+    first = error.faults[0] if isinstance(error, CaseError) else Fault(str(error))
+    file, _, override = first.file.partition("--set ")
+    content = {
+        "kind": type(error).__name__,
+        "message": str(error),
+        "file": file or None,
+        "line": first.line or None,
+        "key": first.key or override or None,
+    }
+    return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
+
+
+def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case]":
+    """Load all cases before the first one runs; report all faults of all of them.
+
+    Parameters
+    ----------
+    paths : sequence of pathlib.Path
+        Input files.
+    settings : sequence of str
+        Overrides.
+    as_json : bool
+        Print a faulty case as JSON on stdout.
+
+    Returns
+    -------
+    list of Case
+        In the order of the paths.
+    """
+    from wearsim.case.load_case import load_case
+
+    cases, failed = [], False
+    for path in paths:
+        try:
+            case = load_case(path, settings)
+            _check_hold(case)
+            cases.append(case)
+        except (CaseError, GeometryError) as error:
+            failed = True
+            if as_json:
+                click.echo(error_json(path.stem, error))
+            show_error(error)
+    if failed:
+        raise click.exceptions.Exit(BAD_INPUT)
+    return cases
+
+
+def _check_hold(case: "Case") -> None:
+    """Find a chain that jumps, which takes the solver but no run."""
+    if case.inputs["mechanism"]["kind"] == "wrap":
+        from wearsim.simulation.tooth_loads import check_hold
+
+        check_hold(case)
+
+
+def finite(context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
+    """Refuse nan and infinity, which click's ranges let pass.
+
+    Parameters
+    ----------
+    context : click.Context
+        Not used.
+    parameter : click.Parameter
+        Not used.
+    value : float or None
+        What was given.
+
+    Returns
+    -------
+    float or None
+        The value.
+    """
+    if value is None or math.isfinite(value):
+        return value
+    raise click.BadParameter(f"{value} is not a finite number.")

@@ -1,0 +1,75 @@
+"""What every study leaves in its folder and prints: tables, pictures, plain values."""
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from wearsim.files import write_file
+from wearsim.report.figure_text import literal
+from wearsim.report.figures import picture_bytes
+
+
+def save_texts(folder: Path, files: Mapping[str, str]) -> None:
+    """Write the tables of a study, each in place of that of an earlier run.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the study.
+    files : mapping of str to str
+        Contents by file name.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written.
+    """
+    for name, content in files.items():
+        write_file(folder / name, content, force=True)
+
+
+def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
+    """Write the pictures of a study as PNG and SVG.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the study.
+    title : str
+        Stands above each.
+    figures : mapping of str to matplotlib.figure.Figure
+        By file stem.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written.
+    """
+    for name, figure in figures.items():
+        figure.suptitle(literal(title), fontsize=10)
+        for kind in ("png", "svg"):
+            write_file(folder / f"{name}.{kind}", picture_bytes(figure, kind), force=True)
+
+
+def plain(value: Any) -> Any:
+    """Return a value as JSON has it.
+
+    Parameters
+    ----------
+    value : object
+        A number, a text or a list.
+
+    Returns
+    -------
+    object
+        None for a number that is not known.
+
+    Examples
+    --------
+    >>> plain(math.nan), plain(2.5)
+    (None, 2.5)
+    """
+    return None if isinstance(value, float) and not math.isfinite(value) else value

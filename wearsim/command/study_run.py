@@ -1,0 +1,208 @@
+"""Running the cases of a study for its command, and what is told of that."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing, contextmanager
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from wearsim.command.options import SOME_FAILED, warn
+from wearsim.command.study import Place
+from wearsim.errors import StudyError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from wearsim.runner.design import Design
+    from wearsim.runner.run_study import Told
+    from wearsim.runner.store import Store
+
+INTERRUPTED = 130
+
+
+def run(
+    design: "Design", place: Place, told: Mapping[str, Any], text: str
+) -> "pd.DataFrame | None":
+    """Run the cases of a study, or only tell what it would take.
+
+    Parameters
+    ----------
+    design : Design
+        Its cases.
+    place : Place
+        Where they run.
+    told : mapping
+        What the manifest of the folder tells of the study.
+    text : str
+        What is shown beside the bar.
+
+    Returns
+    -------
+    pandas.DataFrame or None
+        A row for each case; None for a dry run.
+    """
+    from wearsim.runner.run_study import run_study
+    from wearsim.runner.store import check_store
+
+    workers = place.workers()
+    if place.dry_run:
+        if place.out is not None:
+            check_store(place.out, design, told, place.force)
+        _show_plan(design, place)
+        return None
+    store = _store(design, place, told)
+    with _interrupted(place), _counting(text) as count:
+        return run_study(design, workers, store, count)
+
+
+@contextmanager
+def in_batches(
+    design: "Design", place: Place, told: Mapping[str, Any], text: str, most: int
+) -> "Iterator[Callable[[Design], pd.DataFrame]]":
+    """Run cases of a study batch by batch, where each depends on the ones before.
+
+    Parameters
+    ----------
+    design : Design
+        What all batches have in common; its hash and ``told`` are those of the study.
+    place : Place
+        Where they run.
+    told : mapping
+        What the manifest of the folder tells of the study.
+    text : str
+        What is shown beside the bar.
+    most : int
+        Cases of all batches at most.
+
+    Yields
+    ------
+    callable
+        Runs a batch and returns a row for each case.
+    """
+    from wearsim.runner.run_study import run_study
+    from wearsim.runner.workers import KeptOpen
+
+    workers, done = KeptOpen(place.workers()), 0
+    store = _store(design, place, told)
+    with _interrupted(place), closing(workers), _counting(text) as count:
+
+        def run_batch(part: "Design") -> "pd.DataFrame":
+            nonlocal done
+            table = run_study(part, workers, store, lambda now, _: count(done + now, most))
+            done += len(part.rows)
+            return table
+
+        yield run_batch
+
+
+def _store(design: "Design", place: Place, told: Mapping[str, Any]) -> "Store | None":
+    if place.out is None:
+        return None
+    from wearsim.extras import library
+    from wearsim.runner.store import open_store
+
+    library("pyarrow", "study", "--out")
+    return open_store(place.out, design, told, place.force)
+
+
+@contextmanager
+def _interrupted(place: Place) -> "Iterator[None]":
+    """End on Ctrl-C, and say how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        kept = "nothing is kept without --out"
+        if place.out is not None:
+            kept = f"what is finished is kept in {place.out}: run the same command again to go on"
+        click.echo(f"interrupted: {kept}", err=True)
+        raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+def exit_code(table: "pd.DataFrame") -> int:
+    """Return 5 where cases have failed, and tell how many.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        A row for each case.
+
+    Returns
+    -------
+    int
+        Exit code.
+
+    Raises
+    ------
+    StudyError
+        All have failed.
+    """
+    failed = table[table["error"] != ""]
+    if failed.empty:
+        return 0
+    first = failed.iloc[0]
+    what = (
+        f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
+    )
+    if len(failed) == len(table):
+        raise StudyError(what)
+    warn(f"warning: {what}")
+    return SOME_FAILED
+
+
+def _show_plan(design: "Design", place: Place) -> None:
+    from wearsim.runner.shard import shards
+    from wearsim.runner.store import Store
+
+    waiting, shard_count = 0, 0
+    store = None if place.out is None else Store(place.out)
+    for shard in shards(design):
+        shard_count += 1
+        if store is None or not store.path(shard).exists():
+            waiting += shard.count
+    seconds, count = timed(design)
+    click.echo(f"cases        {len(design.rows)}, of which {waiting} are to be run")
+    click.echo(f"time         about {seconds * waiting:.3g} s in one thread, from {count} cases")
+    if place.out is not None:
+        click.echo(f"files        {shard_count} in {place.out / 'shards'}, and tables beside it")
+
+
+def timed(design: "Design") -> tuple[float, int]:
+    """Return the time that a case takes.
+
+    Parameters
+    ----------
+    design : Design
+        Cases.
+
+    Returns
+    -------
+    tuple of float and int
+        Seconds in one thread, and from how many cases.
+    """
+    from wearsim.runner.shard import Shard, run_shard, shards
+
+    first = next(shards(design))
+    some = Shard(0, first.design.part(0, min(_TIMED, first.count)), first.engine)
+    run_shard(Shard(0, first.design.part(0, 1), first.engine))
+    start = time.perf_counter()
+    run_shard(some)
+    return (time.perf_counter() - start) / some.count, some.count
+
+
+_TIMED = 4
+"""Cases that a dry run times."""
+
+
+@contextmanager
+def _counting(text: str) -> "Iterator[Told]":
+    """Show on a terminal how many cases are done, at what rate, and the time left."""
+    quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
+    if quiet or not sys.stderr.isatty():
+        yield lambda done, count: None
+        return
+    from wearsim.command.progress_bar import counting
+
+    with counting(text) as told:
+        yield told

@@ -1,0 +1,75 @@
+"""``--xlsx``, which several commands take."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from wearsim.command.options import warn
+from wearsim.errors import OutputError
+
+if TYPE_CHECKING:
+    from wearsim.result import WearResult
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def workbook_option(function: Function) -> Function:
+    """Add ``--xlsx``.
+
+    Parameters
+    ----------
+    function : callable
+        Command to be.
+
+    Returns
+    -------
+    callable
+        The same with one more option.
+    """
+    return click.option(
+        "--xlsx", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
+        help="New workbook with answers, tables, charts and inputs (pip install 'wearsim[report]').",
+    )(function)  # fmt: skip
+
+
+def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
+    """Find what is in the way of a workbook before the first case runs.
+
+    Parameters
+    ----------
+    out : pathlib.Path or None
+        The folder that is written too.
+    xlsx : pathlib.Path or None
+        Place of the workbook; None where none is asked for.
+    force : bool
+        Whether it may be replaced.
+    """
+    if xlsx is None:
+        return
+    from wearsim.report import workbook
+
+    if out is not None and out.resolve() == xlsx.resolve():
+        raise OutputError(f"{xlsx}: must not be the folder of --out: choose another place")
+    workbook.check_workbook(xlsx, force)
+
+
+def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool) -> None:
+    """Write results into a workbook, with titles that tell them apart, and say where it is.
+
+    Parameters
+    ----------
+    results : mapping of pathlib.Path to WearResult
+        By what the user named.
+    file : pathlib.Path
+        Place of the workbook.
+    force : bool
+        Replace what is there.
+    """
+    from wearsim.report.comparison import distinct
+    from wearsim.report.workbook import save_workbook
+
+    names = [str(path) for path in results]
+    save_workbook(distinct(list(results.values()), names), file, force)
+    warn(f"written to {file}")

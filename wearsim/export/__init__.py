@@ -1,0 +1,1 @@
+"""Wheels and gauges for CAD and on paper."""

@@ -1,0 +1,112 @@
+"""Wheels of a case or run in the formats of CAD."""
+
+from collections.abc import Sequence
+
+from wearsim._version import __version__
+from wearsim.case.model import Case
+from wearsim.export.wheel_drawing import drawing_box, wheel_drawing
+from wearsim.export.wheel_shapes import State, WheelShape, wheel_shapes
+from wearsim.report.lines import grouped
+from wearsim.result import WearResult
+
+
+def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
+    """Return the wheels of a case as the content of a file.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    result : WearResult or None
+        A run of it; may be None where only the new state is asked for.
+    states : sequence of str
+        ``new``, ``worn`` or both.
+    form : str
+        ``dxf``, ``svg``, ``csv`` or ``step``.
+
+    Returns
+    -------
+    bytes
+        All of the file.
+
+    Raises
+    ------
+    CaseError
+        The case has no wheel.
+    GeometryError
+        A solid of a gear whose root is not known.
+    """
+    shapes = wheel_shapes(case, result)
+    if form == "csv":
+        from wearsim.export.wheel_points import wheel_points
+
+        return wheel_points(shapes, states).to_csv(index=False).encode()
+    if form == "step":
+        from wearsim.export.step import step_bytes
+
+        return step_bytes(shapes, states)
+    note = wheel_note(case, result, shapes, states)
+    drawing = wheel_drawing(shapes, states, note)
+    if form == "svg":
+        from wearsim.export.printed_page import svg_text
+
+        return svg_text(drawing, drawing_box(shapes, note)).encode()
+    from wearsim.export.dxf_writer import dxf_text
+
+    return dxf_text(drawing).encode()
+
+
+def wheel_note(
+    case: Case, result: WearResult | None, shapes: Sequence[WheelShape], states: Sequence[State]
+) -> list[str]:
+    """Return what stands below the wheels in a drawing.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    result : WearResult or None
+        Its run.
+    shapes : sequence of WheelShape
+        Its wheels.
+    states : sequence of str
+        What is drawn of them.
+
+    Returns
+    -------
+    list of str
+        Title, hours, units and tolerance, what is taken for granted.
+    """
+    taken = [f"{shape.name}: {text}" for shape in shapes for text in shape.notes]
+    if len(shapes) > 1 and shapes[0].notes == shapes[1].notes:
+        taken = list(shapes[0].notes)
+    return [
+        f"{case.title} (case {case.name})",
+        _condition(result if "worn" in states else None, states),
+        "All in mm, 1:1. Vertices lie on the computed outline within 1e-6 mm; between points of a curve "
+        f"run arcs, {_greatest_sagitta(shapes):.1g} mm off their chords at most.",
+        *(f"{text[0].upper()}{text[1:]}." for text in taken),
+        f"wearsim {__version__}",
+    ]
+
+
+def _condition(result: WearResult | None, states: Sequence[State]) -> str:
+    if result is None:
+        return "New."
+    both = "New, and worn" if len(states) > 1 else "Worn"
+    deepest = f"{result.max_depth:.3g} mm off at the deepest point"
+    return f"{both} after {grouped(result.hours_run)} h: {deepest}."
+
+
+def _greatest_sagitta(shapes: Sequence[WheelShape]) -> float:
+    """Greatest distance of an arc between computed points from its chord [mm], 0 without any."""
+    return max(
+        (
+            stretch.sagitta
+            for shape in shapes
+            for space in (*shape.new[:1], *shape.worn[:2])
+            for stretch in (*space.right, *space.left)
+            if stretch.is_curve
+        ),
+        default=0.0,
+    )

@@ -1,0 +1,147 @@
+"""A go/no-go gauge: it goes in between two teeth that are worn to their limit, and no sooner.
+
+It is put in along the axis of the wheel, its shoulders on both tips. At the radii of the deepest
+wear it is as wide as the gap at the limit, elsewhere it keeps off the new teeth: the wear there
+alone decides. Along a radius it would often not come in, since gaps can be narrower between the
+tips than below.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely.geometry.polygon import orient
+
+from wearsim.export.wheel_shapes import WheelShape
+from wearsim.geometry.outline import along_ways, turned
+from wearsim.geometry.profile import Vector
+from wearsim.geometry.stretch import Stretch, angle_between, arc_about_axis, line
+from wearsim.geometry.wheel import Chain
+
+_HEAD = 0.5
+_LEAST_HEAD = 20.0
+"""Height of the gauge above the tips: part of the pitch, and its least [mm]."""
+
+_CLEARANCE = 0.02
+_LEAST_SHOULDER = 0.1
+"""Clearance to the new teeth, and least length of a shoulder: parts of the pitch."""
+
+_DEEP = 0.5
+"""Part of the greatest depth from which on the gauge is as wide as the worn gap."""
+
+_TOLERANCE = 1e-4
+"""Distance of chords from their arcs [mm]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """A gauge in the frame of its space, whose centre line is +y.
+
+    Attributes
+    ----------
+    name : str
+        Of the wheel.
+    outline : Chain
+        Closed, of short lines: what goes between the teeth, shoulders along the tips, head.
+    new : tuple of Chain
+        The new gap, for comparison.
+    clearance : float
+        To the new teeth, where the gauge is not as wide as the worn gap [mm].
+    pitch_radius, tip_radius : float
+        Of the wheel [mm].
+    """
+
+    name: str
+    outline: Chain
+    new: tuple[Chain, ...]
+    clearance: float
+    pitch_radius: float
+    tip_radius: float
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """Left, bottom, width and height [mm]."""
+        points = self.outline.vertices
+        low, high = points.min(axis=0) - 1.0, points.max(axis=0) + 1.0
+        return float(low[0]), float(low[1]), *(high - low).tolist()
+
+
+def gauge(shape: WheelShape) -> Gauge:
+    """Return the gauge of a wheel that is worn to its limit.
+
+    Parameters
+    ----------
+    shape : WheelShape
+        The wheel with its worn spaces.
+
+    Returns
+    -------
+    Gauge
+        Of the space worn most.
+    """
+    worn, new = shape.worn[shape.most_worn], shape.new[shape.most_worn]
+    pitch = math.tau * shape.pitch_radius / len(shape.new)
+    clearance = _CLEARANCE * pitch
+    top = shape.tip_radius + max(_LEAST_HEAD, _HEAD * pitch)
+    points, fresh = _points(worn.right + worn.left), _points(new.right + new.left)
+    steel = shapely.LineString(fresh)
+    depth = shapely.distance(shapely.points(points), steel)
+    deep = np.hypot(*points[depth >= _DEEP * depth.max()].T)
+    ring = _disc(deep.max() + 0.1 * clearance) - _disc(deep.min() - 0.1 * clearance)
+    whole = shapely.union_all(
+        [
+            _gap(fresh, clearance) - steel.buffer(clearance),
+            _gap(points, clearance) & ring,
+            _head(points, len(shape.new), top),
+        ]
+    )
+    body = max(shapely.get_parts(whole), key=shapely.area)
+    vertices = shapely.get_coordinates(orient(body).exterior)
+    rows = (new.right + new.left,) if new.rooted else (new.right, new.left)
+    return Gauge(
+        shape.name,
+        Chain((Stretch("gauge", vertices, np.zeros(len(vertices) - 1)),), (1,), True),
+        tuple(Chain(row, (1,) * len(row), False) for row in rows),
+        clearance,
+        shape.pitch_radius,
+        shape.tip_radius,
+    )
+
+
+def _points(stretches: tuple[Stretch, ...]) -> Vector:
+    """Points of stretches, arcs by chords, straight across where one does not start at the last."""
+    rows = []
+    for part in stretches:
+        points, _ = along_ways(part.vertices[:-1], part.vertices[1:], part.bulges, _TOLERANCE)
+        rows += [points, part.vertices[-1:]]
+    return np.concatenate(rows)
+
+
+def _gap(points: Vector, clearance: float) -> shapely.Polygon:
+    """Room of a gap, closed by a point in the head above the tangents to both tips."""
+    ends = points[[0, -1]]
+    above = (np.square(ends).sum(axis=1) / ends[:, 1]).max() + clearance
+    return shapely.Polygon([*points, (0.0, above)])
+
+
+def _disc(radius: float) -> shapely.Polygon:
+    return shapely.Point(0.0, 0.0).buffer(radius, quad_segs=2000)
+
+
+def _head(points: Vector, teeth: int, top: float) -> shapely.Polygon:
+    """Head over the tips, whose lower side rests on both of them."""
+    right, left = points[0], points[-1]
+    pitch = math.tau / teeth
+    half = max(0.5 * (pitch - angle_between(right, left)), _LEAST_SHOULDER * pitch)
+    left_end, right_end = turned(left, half), turned(right, -half)
+    upper = top / math.hypot(*right)
+    return shapely.Polygon(
+        _points(
+            (
+                *arc_about_axis("shoulder", right_end, left_end),
+                *line("head", left_end, left_end * upper),
+                *line("head", left_end * upper, right_end * upper),
+            )
+        )
+    )

@@ -1,0 +1,255 @@
+"""The go/no-go gauge of a case on a sheet to print 1:1, with a bar to check the print."""
+
+import math
+import textwrap
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wearsim._version import __version__
+from wearsim.case.model import Case, GearDrive, WrapDrive
+from wearsim.errors import CaseError, Fault, GeometryError
+from wearsim.export.dxf_writer import add_polyline, new_drawing
+from wearsim.export.gauge import Gauge, gauge
+from wearsim.export.wheel_drawing import add_text
+from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.geometry.stretch import arc_about_axis
+from wearsim.geometry.wheel import Chain
+from wearsim.report.flank_view import flanks
+from wearsim.report.lines import grouped
+from wearsim.result import Life, WearResult
+from wearsim.simulation.limits import tooth_criteria
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+
+BAR = 50.0
+SQUARE = 10.0
+"""Length of the bar and side of the square that check the print [mm]."""
+
+_SHEETS = ((210.0, 297.0), (297.0, 420.0), (420.0, 594.0), (594.0, 841.0), (841.0, 1189.0))
+_MARGIN = 15.0
+_TEXT, _LINE = 3.0, 5.2
+_LETTER = 0.68
+"""Height of letters, distance of lines [mm], and width of a letter over its height."""
+
+_COARSE = 0.5
+"""Depth of a limit [mm] below which paper is too coarse for it."""
+
+_LAYERS = {
+    "GAUGE": (7, 13, "Continuous"),
+    "NEW": (8, 9, "DASHED"),
+    "PITCH_CIRCLE": (8, 9, "DASHDOT"),
+    "CHECK": (7, 25, "Continuous"),
+    "NOTES": (7, 13, "Continuous"),
+}
+
+
+def is_worn_out(result: WearResult) -> bool:
+    """Return whether a run ends at a limit of its teeth.
+
+    Parameters
+    ----------
+    result : WearResult
+        The run.
+
+    Returns
+    -------
+    bool
+        On a wrap a limit of the sprocket, whatever chains were used up before.
+    """
+    return isinstance(result.parts.get("sprocket", result.life), Life)
+
+
+def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
+    """Return the gauge of a case as the content of a file.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    result : WearResult
+        A run of it to the limit of its teeth.
+    form : str
+        ``pdf``, ``svg`` or ``dxf``.
+
+    Returns
+    -------
+    bytes
+        All of the file; the smallest sheet from A4 on that takes the gauge.
+
+    Raises
+    ------
+    CaseError
+        The run did not reach a limit, or the case has no wheel.
+    GeometryError
+        The gauge is larger than A0.
+    """
+    if not is_worn_out(result):
+        message = (
+            f"a limit of the teeth must be reached for a gauge of it, but none is within "
+            f"{grouped(result.hours_run)} h: lower the limit, or give one under [stop]"
+        )
+        raise CaseError([Fault(message, "stop", case.name)])
+    drawing, (width, height) = sheet_drawing(case, result)
+    if form == "dxf":
+        from wearsim.export.dxf_writer import dxf_text
+
+        return dxf_text(drawing).encode()
+    from wearsim.export.printed_page import pdf_bytes, svg_text
+
+    if form == "svg":
+        return svg_text(drawing, (0.0, 0.0, width, height)).encode()
+    return pdf_bytes(drawing, (0.0, 0.0, width, height), f"Gauge: {case.title}")
+
+
+def sheet_drawing(case: Case, result: WearResult) -> "tuple[Drawing, tuple[float, float]]":
+    """Return the sheet as a drawing, its lower left corner at (0, 0), and its size.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    result : WearResult
+        A run of it to the limit of its teeth.
+
+    Returns
+    -------
+    drawing : ezdxf.document.Drawing
+        Layers GAUGE, NEW, PITCH_CIRCLE, CHECK and NOTES, in mm.
+    size : tuple of float
+        Width and height [mm].
+
+    Raises
+    ------
+    GeometryError
+        The gauge is larger than A0.
+    """
+    gauges = [gauge(shape) for shape in wheel_shapes(case, result)]
+    text = _text(case, result, gauges)
+    width, height, lines = _sheet(gauges, text)
+    drawing = new_drawing()
+    for name, (color, weight, kind) in _LAYERS.items():
+        drawing.layers.add(name, color=color, lineweight=weight, linetype=kind)
+    top = height - _MARGIN
+    for one in gauges:
+        left, _, wide, tall = one.box
+        _add_gauge(drawing, one, (0.5 * (width - wide) - left, top - one.box[1] - tall))
+        top -= tall + 12.0
+    base = _MARGIN + _LINE * len(lines)
+    for number, words in enumerate(lines, 1):
+        add_text(drawing, words, (_MARGIN, base - _LINE * number), _TEXT)
+    _add_check(drawing, (_MARGIN, base + 8.0))
+    return drawing, (width, height)
+
+
+def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str]]:
+    """Width and height of the smallest sheet, and the text in its lines."""
+    wide = max(one.box[2] for one in gauges)
+    tall = sum(one.box[3] + 12.0 for one in gauges)
+    for width, height in _SHEETS:
+        letters = int((width - 2.0 * _MARGIN) / (_TEXT * _LETTER))
+        lines = [line for words in text for line in textwrap.wrap(words, letters)]
+        below = _LINE * len(lines) + 8.0 + SQUARE + 8.0
+        if wide <= width - 2.0 * _MARGIN and tall + below <= height - 2.0 * _MARGIN:
+            return width, height, lines
+    raise GeometryError(
+        f"gauge: must fit on a sheet of {_SHEETS[-1][0]:g} by {_SHEETS[-1][1]:g} mm, is {wide:.0f} by "
+        f"{tall:.0f} mm: take --out with --state worn instead"
+    )
+
+
+def _add_gauge(drawing: "Drawing", one: Gauge, shift: tuple[float, float]) -> None:
+    outline = one.outline.moved(shift)
+    add_polyline(drawing, "GAUGE", outline.vertices, outline.bulges, closed=True)
+    for chain in (*one.new, _pitch_arc(one)):
+        there = chain.moved(shift)
+        layer = "NEW" if chain in one.new else "PITCH_CIRCLE"
+        add_polyline(drawing, layer, there.vertices, there.bulges, closed=False)
+    left, bottom, wide, tall = one.box
+    x, top = shift[0] + left, shift[1] + bottom + tall - 1.0
+    add_text(drawing, "W", (x + 4.0, top - 5.0), _TEXT)
+    add_text(drawing, "U", (x + wide - 7.0, top - 5.0), _TEXT)
+    if one.name != "sprocket":
+        add_text(drawing, one.name, (x + wide + 5.0, top - 5.0), _TEXT)
+
+
+def _pitch_arc(one: Gauge) -> Chain:
+    """Pitch circle across the gauge."""
+    half = min(0.5 * one.box[2] / one.pitch_radius, 1.0)
+    x, y = one.pitch_radius * math.sin(half), one.pitch_radius * math.cos(half)
+    ends = np.array([[x, y], [-x, y]])
+    return Chain(arc_about_axis("pitch_circle", ends[0], ends[1]), (1,), False)
+
+
+def _add_check(drawing: "Drawing", place: tuple[float, float]) -> None:
+    """Bar of 50 mm with a tick every 10 mm, and a square of 10 mm."""
+    x, y = place
+    space, ink = drawing.modelspace(), {"layer": "CHECK"}
+    space.add_line((x, y), (x + BAR, y), dxfattribs=ink)
+    for tick in range(6):
+        high = 5.0 if tick in (0, 5) else 3.0
+        space.add_line((x + 10.0 * tick, y), (x + 10.0 * tick, y + high), dxfattribs=ink)
+    add_text(drawing, f"{BAR:g} mm", (x + BAR + 3.0, y), _TEXT)
+    left = x + BAR + 25.0
+    corners = [(left, y), (left + SQUARE, y), (left + SQUARE, y + SQUARE), (left, y + SQUARE)]
+    space.add_lwpolyline(corners, close=True, dxfattribs=ink)
+    add_text(drawing, f"{SQUARE:g} x {SQUARE:g} mm", (left + SQUARE + 3.0, y), _TEXT)
+
+
+def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
+    drive = case.drive
+    if isinstance(drive, GearDrive):
+        what = f"{drive.pair.teeth[0]} and {drive.pair.teeth[1]} teeth"
+    else:
+        chain = drive.chain.designation or f"of {drive.chain.pitch:g} mm pitch"
+        what = f"{case.inputs['sprocket']['teeth']} teeth, chain {chain}"
+    depth = float(flanks(result, -1)["depth_mm"].max())
+    coarse = (
+        f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
+        if depth < _COARSE
+        else ""
+    )
+    return [
+        f"Go/no-go gauge of wear: {case.title} (case {case.name}; {what})",
+        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge is "
+        f"as wide as such a gap; elsewhere it keeps {gauges[0].clearance:.2g} mm off the new teeth.",
+        "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
+        "by 10 mm, else do not use this sheet.",
+        f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
+        "3. Put it in from the side of the wheel, along the axis, never from above, where it can catch "
+        "between the tips: edge W to the side of the gap that carries the load, edge U to the other, both "
+        "shoulders on the tips. Try the gap worn most.",
+        "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
+        "with both shoulders on the tips; light along W then shows wear beyond the limit.",
+        f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {__version__}",
+    ]
+
+
+def _limit(case: Case, result: WearResult) -> str:
+    """The limit that ends the life of the teeth, in words."""
+    name, value = result.stop, result.stop_value
+    if isinstance(case.drive, WrapDrive) and name == "elongation_percent":
+        name, value = _sprocket_limit(case, result)
+    if name == "min_slack_tension_N":
+        return "the wear at which the chain jumps"
+    quantity, _, unit = name.rpartition("_")
+    return f"the limit {quantity.replace('_', ' ')} = {value:.4g} {unit}"
+
+
+def _sprocket_limit(case: Case, result: WearResult) -> tuple[str, float]:
+    """The limit of the sprocket where the chain's comes before."""
+    last = flanks(result, -1)
+    columns = [last[name] for name in ("x_mm", "y_mm", "depth_mm")]
+    kinds = [last["gap_kind"] == kind for kind in set(last["gap_kind"].tolist())]
+    margins = [
+        (criterion.margin(*(column[kind] for column in columns)) / criterion.limit, criterion)
+        for criterion in tooth_criteria(case)
+        for kind in kinds
+    ]
+    least, criterion = min(margins, key=lambda pair: pair[0])
+    if least < 1e-3:
+        return criterion.name, criterion.limit
+    if "over_pins_change_mm" in case.more_limits:
+        return "over_pins_change_mm", case.more_limits["over_pins_change_mm"]
+    return "min_slack_tension_N", 0.0

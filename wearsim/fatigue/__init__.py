@@ -1,0 +1,1 @@
+"""Contact fatigue of flanks: endurance, heat treatments, hours until pitting."""

@@ -1,0 +1,1 @@
+"""Gears: flanks, mesh, lines of action."""

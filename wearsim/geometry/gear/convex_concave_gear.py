@@ -1,0 +1,248 @@
+"""A gear with convex-concave teeth: tip, thickness and the measurement over rollers."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.optimize import brentq
+
+from wearsim.errors import GeometryError
+from wearsim.geometry.gear.convex_concave_flank import Flank, Part
+from wearsim.geometry.measuring import measurement_over_pins
+from wearsim.geometry.profile import Vector
+
+_TOUCHING = 1e-9
+"""Depth [mm] up to which a roller only touches."""
+
+
+@dataclass(frozen=True)
+class Roller:
+    """A roller in a gap, and what a gauge finds over two of them.
+
+    Attributes
+    ----------
+    diameter : float
+        Diameter D [mm].
+    part : str
+        ``head`` or ``foot``: where it rests.
+    alpha : float
+        Pressure angle of the point where it rests [rad].
+    centre_radius : float
+        Distance R_c of its centre from the axis [mm].
+    over : float
+        Measurement M over rollers in the most opposite gaps [mm].
+    """
+
+    diameter: float
+    part: Part
+    alpha: float
+    centre_radius: float
+    over: float
+
+
+@dataclass(frozen=True)
+class ConvexConcaveGear:
+    """Pinion or wheel of a convex-concave pair.
+
+    The working flank passes through the pole on +y where the tooth is half a pitch thick. A
+    thinner tooth has both flanks turned about the axis towards its centre line, which keeps
+    them conjugate; the x-shift of the source (XBV in its listing) is right for the rack only.
+
+    Attributes
+    ----------
+    teeth : int
+        Number z.
+    module : float
+        Module m [mm].
+    pole_angle : float
+        Pressure angle alpha_C in the pole [rad].
+    head_arc, foot_arc : float
+        Radii r_k of the arcs of the line of action that head and foot belong to [mm].
+    addendum : float
+        Height of the tip above the pitch circle, and of the flank below it [mm].
+    thinning : float
+        What the tooth is thinner than half the pitch, along the pitch circle [mm].
+
+    Raises
+    ------
+    GeometryError
+        The foot is undercut, the tooth pointed below its tip, or the gap above the foot's end.
+
+    Examples
+    --------
+    >>> gear = ConvexConcaveGear(17, 4.5, math.radians(20.0), 10.0, 10.0, 4.5)
+    >>> round(gear.tip_thickness, 7)
+    1.0241877
+    >>> round(gear.over_rollers(8.0).over, 6)
+    87.609417
+    """
+
+    teeth: int
+    module: float
+    pole_angle: float
+    head_arc: float
+    foot_arc: float
+    addendum: float
+    thinning: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.foot_angle < self.foot.last_angle:
+            raise GeometryError(
+                f"foot of the tooth: z = {self.teeth} is undercut, its foot turns back at a pressure "
+                f"angle of {math.degrees(self.foot.last_angle):.4g} deg and must go on to "
+                f"{math.degrees(self.foot_angle):.4g} deg: lower the radius of its arc or addendum_ratio"
+            )
+        for what, width in (
+            ("tooth: its thickness at the tip", self.tip_thickness),
+            ("gap: its width at the end of the flank", self.foot_gap),
+        ):
+            if not width > 0.0:
+                raise GeometryError(
+                    f"{what} must be above 0 mm, is {width:.4g} mm with z = {self.teeth}: lower "
+                    "addendum_ratio or pole_angle_deg, or change the radii of the arcs"
+                )
+
+    @property
+    def pitch_radius(self) -> float:
+        """Radius r = m z / 2 of the pitch circle [mm]."""
+        return 0.5 * self.module * self.teeth
+
+    @property
+    def tip_radius(self) -> float:
+        """Radius r_a of the tip circle [mm]."""
+        return self.pitch_radius + self.addendum
+
+    @cached_property
+    def head(self) -> Flank:
+        """Flank outside the pitch circle."""
+        return Flank(self.pitch_radius, self.head_arc, self.pole_angle, "head")
+
+    @cached_property
+    def foot(self) -> Flank:
+        """Flank inside the pitch circle."""
+        return Flank(self.pitch_radius, self.foot_arc, self.pole_angle, "foot")
+
+    @cached_property
+    def tip_angle(self) -> float:
+        """Pressure angle at the tip [rad]."""
+        return self.head.angle_at_radius(self.tip_radius)
+
+    @cached_property
+    def foot_angle(self) -> float:
+        """Pressure angle at the end of the foot [rad], which a rack of the same addendum reaches."""
+        return self.foot.angle_at_depth(self.addendum)
+
+    def flanks(self) -> tuple[tuple[Flank, float], tuple[Flank, float]]:
+        """Return head and foot, each with the pressure angle at which it ends.
+
+        Returns
+        -------
+        tuple of tuple
+            Flank and angle [rad].
+        """
+        return (self.head, self.tip_angle), (self.foot, self.foot_angle)
+
+    @property
+    def turn(self) -> float:
+        """Angle by which a thinner tooth's flank is turned towards its centre line [rad]."""
+        return 0.5 * self.thinning / self.pitch_radius
+
+    @property
+    def half_tooth(self) -> float:
+        """Angle from the flank at the pitch circle to the centre line of the tooth [rad]."""
+        return 0.5 * math.pi / self.teeth - self.turn
+
+    @property
+    def half_gap(self) -> float:
+        """Angle from the flank at the pitch circle to the centre line of the gap [rad]."""
+        return 0.5 * math.pi / self.teeth + self.turn
+
+    @property
+    def tip_thickness(self) -> float:
+        """Chord of the tip between the two flanks [mm]."""
+        x, y = self.head.points(self.tip_angle)
+        return 2.0 * self.tip_radius * math.sin(self.half_tooth - math.atan2(x, y))
+
+    @property
+    def foot_gap(self) -> float:
+        """Chord of the gap between the ends of the feet of two teeth [mm]."""
+        return 2.0 * float(self.foot.points(self.foot_angle) @ self._across_gap)
+
+    @property
+    def _across_gap(self) -> Vector:
+        """Direction across the gap, from its centre line to the flank."""
+        return np.array([math.cos(self.half_gap), math.sin(self.half_gap)])
+
+    def seated_diameter(self, flank: Flank, alpha: float) -> float:
+        """Return the diameter of the roller that rests on a point of the flank in the gap's middle.
+
+        With the gap's centre line under an angle theta to the radius through the flank at the
+        pitch circle and P + n D / 2 on it: D = 2 P u / cos(alpha + phi_r + theta),
+        u = (cos theta, sin theta).
+
+        Parameters
+        ----------
+        flank : Flank
+            ``head`` or ``foot`` of this gear.
+        alpha : float
+            Pressure angle of the point [rad].
+
+        Returns
+        -------
+        float
+            Diameter D [mm].
+        """
+        u = self._across_gap
+        return float(-2.0 * (flank.points(alpha) @ u) / (flank.normals(alpha) @ u))
+
+    def _clear(self, centre: Vector) -> float:
+        """Least distance of the flank from a point."""
+        points = [
+            flank.points(np.linspace(self.pole_angle, end, 201)) for flank, end in self.flanks()
+        ]
+        return float(np.hypot(*(np.concatenate(points) - centre).T).min())
+
+    def over_rollers(self, diameter: float) -> Roller:
+        """Return the measurement over two rollers.
+
+        2 R_c cos(90 deg / z) + D for odd z, 2 R_c + D for even z.
+
+        Parameters
+        ----------
+        diameter : float
+            Diameter D of the rollers [mm].
+
+        Returns
+        -------
+        Roller
+            Where they rest and what they measure.
+
+        Raises
+        ------
+        GeometryError
+            The roller does not rest on the flank, or in two places of it.
+        """
+        (head, tip), (foot, end) = self.flanks()
+        least, most = self.seated_diameter(foot, end), self.seated_diameter(head, tip)
+        if not least <= diameter <= most:
+            raise GeometryError(
+                f"roller_diameters_mm: must be from {least:.5g} to {most:.5g} mm to rest on the flanks of "
+                f"z = {self.teeth}, is {diameter:g} mm: take a diameter between"
+            )
+        c = self.pole_angle
+        on_foot = diameter < self.seated_diameter(foot, c)
+        flank, last = (foot, end) if on_foot else (head, tip)
+        alpha = float(
+            brentq(lambda a: self.seated_diameter(flank, a) - diameter, c, last, xtol=1e-15)
+        )
+        centre = flank.points(alpha) + 0.5 * diameter * flank.normals(alpha)
+        if self._clear(centre) < 0.5 * diameter - _TOUCHING:
+            raise GeometryError(
+                f"roller_diameters_mm: {diameter:g} mm is larger than the hollow of the feet of "
+                f"z = {self.teeth} and must rest in one place: take another diameter or raise the radius "
+                "of the arc of the foot"
+            )
+        radius = math.hypot(*centre)
+        over = measurement_over_pins(radius, diameter, self.teeth)
+        return Roller(diameter, flank.part, alpha, radius, over)

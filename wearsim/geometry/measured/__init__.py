@@ -1,0 +1,1 @@
+"""Flanks that were measured or drawn."""

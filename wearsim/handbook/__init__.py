@@ -1,0 +1,1 @@
+"""Handbook calculations beside the wear run: a folder each."""

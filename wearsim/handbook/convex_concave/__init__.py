@@ -1,0 +1,1 @@
+"""Flanks, contact and outlines of convex-concave gears."""

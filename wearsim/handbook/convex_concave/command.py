@@ -1,0 +1,26 @@
+"""``wearsim convex-concave``: geometry of a pair of gears with convex-concave teeth."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wearsim.command.calculation_command import calculation
+
+if TYPE_CHECKING:
+    from wearsim.command.calculation_sheet import Sheet
+
+
+@calculation("convex-concave", "Flanks, contact and outlines of convex-concave gears.")
+def convex_concave(case: Path, settings: tuple[str, ...]) -> "Sheet":
+    """Lay out the convex-concave gears of CASE, whose line of action is two circular arcs.
+
+    Radii of curvature, contact ratio and reduced radius beside the involute pair of the same size,
+    the sign conditions, an arc for the rack's flank, and the measurement over rollers. --out
+    writes flanks and outlines (CSV, DXF, STL) too.
+    """
+    from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
+    from wearsim.handbook.convex_concave.model import convex_concave as layout
+    from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
+    from wearsim.input.calculation_file import load_calculation
+
+    tables = load_calculation(case, ConvexConcaveTables, settings)
+    return convex_concave_sheet(tables.title, layout(tables))

@@ -1,0 +1,40 @@
+"""The input of ``wearsim convex-concave``: a pair of gears with convex-concave teeth."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.table import Table
+from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
+
+Teeth = Annotated[int, Field(ge=5, le=400)]
+
+
+class ConvexConcaveTable(Table):
+    """The pair."""
+
+    module_mm: Positive
+    pinion_teeth: Teeth
+    wheel_teeth: Teeth
+    pole_angle_deg: Annotated[Positive, Field(lt=45.0)] = 20.0
+    head_arc_radius_mm: Positive
+    foot_arc_radius_mm: Positive | None = None
+    addendum_ratio: PositiveNumber = 1.0
+    backlash_mm: NotNegative = 0.0
+
+
+class GearsTable(Table):
+    """What outlines and measurement need besides the flanks."""
+
+    face_width_mm: Positive | None = None
+    root_form: Literal["fillet", "radial"] = "fillet"
+    root_clearance_ratio: Annotated[Number, Field(ge=0.0)] | None = None
+    roller_diameters_mm: Annotated[list[Positive], Field(min_length=1)] | None = None
+
+
+class ConvexConcaveTables(CalculationTables):
+    """The whole file."""
+
+    convex_concave: ConvexConcaveTable
+    gears: GearsTable = GearsTable()

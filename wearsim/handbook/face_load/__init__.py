@@ -1,0 +1,1 @@
+"""The face load factor of a wide, misaligned pair, new and run in."""

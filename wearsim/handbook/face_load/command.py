@@ -1,0 +1,25 @@
+"""``wearsim face-load``: load along the face of a wide, misaligned pair of gears."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wearsim.command.calculation_command import calculation
+
+if TYPE_CHECKING:
+    from wearsim.command.calculation_sheet import Sheet
+
+
+@calculation("face-load", "Face load factor of a wide misaligned pair, new and run in.")
+def face_load(case: Path, settings: tuple[str, ...]) -> "Sheet":
+    """Spread the load of the pair of CASE over its face width, and wear the flanks.
+
+    The part of the misalignment that is the same at every mesh runs in, the part that changes
+    from mesh to mesh does not; with a fixed and with a self-aligning pinion.
+    """
+    from wearsim.handbook.face_load.keys import FaceLoadTables
+    from wearsim.handbook.face_load.model import face_load as along_the_face
+    from wearsim.handbook.face_load.sheet import face_load_sheet
+    from wearsim.input.calculation_file import defaults_taken, load_calculation
+
+    tables = load_calculation(case, FaceLoadTables, settings)
+    return face_load_sheet(tables.title, along_the_face(tables), defaults_taken(tables))

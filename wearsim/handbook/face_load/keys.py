@@ -1,0 +1,63 @@
+"""The input of ``wearsim face-load``: a wide pair of gears, its misalignment and its wear."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.table import Table
+from wearsim.input.units import NotNegative, Positive, PositiveNumber
+
+VariesWith = Literal["load", "wheel", "pinion"]
+
+
+class WidePairTable(Table):
+    """The pair."""
+
+    face_width_mm: Positive
+    pinion_pitch_diameter_mm: Positive
+    gear_ratio: Annotated[PositiveNumber, Field(ge=1.0)]
+    mesh_stiffness_N_per_mm_um: Positive = 20.0
+    slices: Annotated[int, Field(ge=10, le=2000)] = 200
+
+
+class PairLoadTable(Table):
+    """What it carries."""
+
+    power_kW: Positive
+    pinion_speed_rpm: Positive
+    application_factor: Annotated[PositiveNumber, Field(ge=1.0)] = 1.0
+
+
+class MisalignmentTable(Table):
+    """The gap between the unloaded flanks over the face width."""
+
+    fixed_misalignment_um: NotNegative = 0.0
+    varying_misalignment_um: NotNegative = 0.0
+    varies_with: VariesWith = "load"
+    crown_um: NotNegative = 0.0
+
+
+class RunningInTable(Table):
+    """What the flanks lose."""
+
+    specific_wear_rate_mm2_per_N: Positive
+    wheel_wear_ratio: NotNegative = 1.0
+    slip_ratio: PositiveNumber
+    time_hours: Positive
+
+
+class SelfAligningTable(Table):
+    """A pinion that tilts freely in the plane of action, to be compared with a fixed one."""
+
+    pivot_friction_lever_mm: NotNegative | None = None
+
+
+class FaceLoadTables(CalculationTables):
+    """The whole file."""
+
+    pair: WidePairTable
+    load: PairLoadTable
+    misalignment: MisalignmentTable
+    running_in: RunningInTable
+    self_aligning: SelfAligningTable = SelfAligningTable()

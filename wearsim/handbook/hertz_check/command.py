@@ -1,0 +1,49 @@
+"""``wearsim hertz-check``: contact stress at the pole against a published comparison."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.command.calculation_command import calculation
+from wearsim.command.options import working
+
+if TYPE_CHECKING:
+    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.handbook.hertz_check.hertz_fem import FemContact
+    from wearsim.handbook.hertz_check.pole_contact import PoleContact
+
+
+@calculation(
+    "hertz-check",
+    "Contact stress of a gear pair at the pole, against a published one and finite elements.",
+    click.option(
+        "--fem", is_flag=True, help="Solve it by finite elements too (pip install 'wearsim[fem]')."
+    ),
+)
+def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "Sheet":
+    """Give contact stress and von Mises' stresses of the teeth of CASE that touch at the pole.
+
+    Published stresses are held against them: which inputs give them, what one input alone would
+    have to be, and what is lost in the published comparison.
+    """
+    from wearsim.handbook.hertz_check.model import hertz_check as checked
+    from wearsim.handbook.hertz_check.published import load_hertz_check
+    from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
+
+    tables, axis = load_hertz_check(case, settings)
+    found = checked(tables)
+    elements = tables.finite_elements.elements_per_half_width
+    meshes = _solved(found.contact, elements) if fem else []
+    return hertz_check_sheet(tables.title, found, meshes, axis)
+
+
+def _solved(contact: "PoleContact", elements: tuple[int, ...]) -> "list[FemContact]":
+    from wearsim.handbook.hertz_check.hertz_fem import hertz_fem
+
+    meshes = []
+    with working("finite elements") as told:
+        for place, number in enumerate(elements):
+            meshes.append(hertz_fem(contact, number))
+            told(sum(n * n for n in elements[: place + 1]) / sum(n * n for n in elements))
+    return meshes

@@ -1,0 +1,318 @@
+"""A published comparison of Hertz' formula with finite elements, completed and checked.
+
+Table 3 of source document 000, second paper, has three columns, of which two cells are lost, and
+does not say what its differences refer to.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from wearsim.geometry.gear.involute import InvolutePair
+from wearsim.handbook.hertz_check.keys import HertzCheckTables, PublishedTable, TeethTable
+from wearsim.handbook.hertz_check.pole_contact import (
+    PRINTED_DEPTH,
+    PRINTED_SURFACE,
+    Change,
+    PoleContact,
+    combinations,
+    pole_contact,
+    single_changes,
+)
+
+ROUNDING = 0.5
+"""Of a published contact stress [MPa]."""
+
+SHARES = {"contact": 1.0, "surface": PRINTED_SURFACE, "depth": PRINTED_DEPTH}
+"""Columns of the comparison, and what Hertz' contact stress is multiplied by there."""
+
+REFERENCES = ("larger", "hertz", "finite_elements")
+"""What a difference may be relative to."""
+
+
+def difference(hertz: float, finite_elements: float, reference: str) -> float:
+    """Return the difference of two stresses in percent of one of them.
+
+    Parameters
+    ----------
+    hertz, finite_elements : float
+        The stresses [MPa].
+    reference : {"larger", "hertz", "finite_elements"}
+        Which of them is the whole.
+
+    Returns
+    -------
+    float
+        Percent, at least 0.
+
+    Examples
+    --------
+    >>> round(difference(464.0, 418.0, "larger"), 4), round(difference(185.6, 216.0, "larger"), 4)
+    (9.9138, 14.0741)
+    >>> round(difference(464.0, 418.0, "finite_elements"), 4)
+    11.0048
+    """
+    whole = {
+        "larger": max(hertz, finite_elements),
+        "hertz": hertz,
+        "finite_elements": finite_elements,
+    }[reference]
+    return 100.0 * abs(hertz - finite_elements) / whole
+
+
+def stresses_at(hertz: float, percent: float, reference: str) -> tuple[float, float]:
+    """Return the stresses of finite elements that differ by a percentage from Hertz'.
+
+    Parameters
+    ----------
+    hertz : float
+        Hertz' stress [MPa].
+    percent : float
+        Difference, above 0 and below 100.
+    reference : {"larger", "hertz", "finite_elements"}
+        What it is relative to.
+
+    Returns
+    -------
+    tuple of float
+        The lower and the higher one [MPa].
+
+    Examples
+    --------
+    >>> [round(stress, 3) for stress in stresses_at(259.84, 12.3, "larger")]
+    [227.88, 296.283]
+    """
+    part = 0.01 * percent
+    lower = hertz / (1.0 + part) if reference == "finite_elements" else hertz * (1.0 - part)
+    higher = hertz * (1.0 + part) if reference == "hertz" else hertz / (1.0 - part)
+    return lower, higher
+
+
+def whole_stresses(hertz: float, percent: float, reference: str) -> list[int]:
+    """Return the whole stresses whose difference from Hertz' rounds to a percentage.
+
+    Parameters
+    ----------
+    hertz : float
+        Hertz' stress [MPa].
+    percent : float
+        Difference as printed, to a tenth.
+    reference : {"larger", "hertz", "finite_elements"}
+        What it is relative to.
+
+    Returns
+    -------
+    list of int
+        In MPa, in rising order.
+
+    Examples
+    --------
+    >>> whole_stresses(259.84, 12.3, "larger")
+    [228]
+    """
+    lowest, highest = stresses_at(hertz, min(percent + 0.1, 99.95), reference)
+    return [
+        stress
+        for stress in range(max(1, math.floor(lowest)), math.ceil(highest) + 1)
+        if _agrees(difference(hertz, stress, reference), percent)
+    ]
+
+
+def _agrees(found: float, printed: float) -> bool:
+    """Say whether a percentage is the printed one to a tenth."""
+    return abs(found - printed) < 0.05 + 1e-9
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the comparison; nan for what is not known.
+
+    Attributes
+    ----------
+    hertz, finite_elements : float
+        As published, or completed: Hertz' by its formula, that of finite elements from the
+        difference where just one whole stress has it [MPa].
+    printed_percent : float
+        The difference as printed.
+    differences : mapping
+        By what they are relative to [percent].
+    candidates : tuple of int
+        Whole stresses of finite elements with the printed difference, where that stress is lost [MPa].
+    computed : float
+        Hertz' stress of the contact of the input by the same formula [MPa].
+    computed_difference : float
+        Of that from the finite elements', relative to the larger one [percent].
+    """
+
+    hertz: float
+    finite_elements: float
+    printed_percent: float
+    differences: Mapping[str, float]
+    candidates: tuple[int, ...]
+    computed: float
+    computed_difference: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The published comparison.
+
+    Attributes
+    ----------
+    columns : mapping
+        ``contact``, ``surface`` and ``depth``.
+    references : tuple of str
+        What all printed differences may be relative to.
+    """
+
+    columns: Mapping[str, Column]
+    references: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class HertzCheck:
+    """What there is to say about a contact at the pole.
+
+    Attributes
+    ----------
+    contact : PoleContact
+        The contact.
+    literal : list of PoleContact
+        The combinations of the input; empty where none are asked for.
+    teeth : TeethTable or None
+        As given.
+    contact_ratio : float
+        Of the teeth without profile shift; nan where they are not given.
+    target : float
+        The published contact stress by Hertz [MPa]; nan where none is.
+    changes : list of Change
+        What each key alone must be for it.
+    comparison : Comparison or None
+        The published comparison, where there is one.
+    """
+
+    contact: PoleContact
+    literal: list[PoleContact]
+    teeth: TeethTable | None
+    contact_ratio: float
+    target: float
+    changes: list[Change]
+    comparison: Comparison | None
+
+
+def hertz_check(tables: HertzCheckTables) -> HertzCheck:
+    """Return everything that an input asks for but finite elements.
+
+    Parameters
+    ----------
+    tables : HertzCheckTables
+        The input.
+
+    Returns
+    -------
+    HertzCheck
+        What was found.
+
+    Raises
+    ------
+    GeometryError
+        There are no such teeth.
+    """
+    contact, asked, published = pole_contact(tables), tables.combinations, tables.published
+    literal = []
+    if asked is not None:
+        torques = [1e3 * torque for torque in asked.torque_N_m or ()]
+        literal = combinations(contact, torques, asked.face_width_mm or (), asked.gear_ratio or ())
+    target = math.nan if published is None else published.hertz.contact_stress_MPa
+    return HertzCheck(
+        contact=contact,
+        literal=literal,
+        teeth=tables.teeth,
+        contact_ratio=_contact_ratio(tables.teeth, contact.pressure_angle),
+        target=target,
+        changes=[] if published is None else single_changes(contact, target, ROUNDING),
+        comparison=None if published is None else completed(published, contact),
+    )
+
+
+def _contact_ratio(teeth: TeethTable | None, pressure_angle: float) -> float:
+    if teeth is None:
+        return math.nan
+    z1, z2 = teeth.pinion_teeth, teeth.wheel_teeth
+    tips = (0.5 * teeth.module_mm * (z1 + 2), 0.5 * teeth.module_mm * (z2 + 2))
+    pair = InvolutePair((z1, z2), teeth.module_mm, pressure_angle, (0.0, 0.0), tips)
+    pair.check()
+    return pair.contact_ratio
+
+
+def completed(published: PublishedTable, contact: PoleContact) -> Comparison:
+    """Complete a published comparison and hold the contact's own stresses against it.
+
+    Parameters
+    ----------
+    published : PublishedTable
+        What is legible of it.
+    contact : PoleContact
+        The contact it is about.
+
+    Returns
+    -------
+    Comparison
+        With what can be found of the lost cells.
+    """
+    rows = {name: _legible(published, name) for name in SHARES}
+    references = tuple(
+        reference
+        for reference in REFERENCES
+        if all(_fits(*row, reference) for row in rows.values())
+    )
+    return Comparison(
+        {
+            name: _column(
+                *rows[name], (references or REFERENCES)[0], share * contact.printed_stress
+            )
+            for name, share in SHARES.items()
+        },
+        references,
+    )
+
+
+def _legible(published: PublishedTable, name: str) -> tuple[float, float, float]:
+    """Return Hertz' stress, that of finite elements and their difference; nan for what is lost."""
+    key = "contact_stress_MPa" if name == "contact" else f"{name}_von_mises_MPa"
+    cells = (
+        getattr(published.hertz, key),
+        getattr(published.finite_elements, key),
+        getattr(published.difference, f"{name}_difference_percent"),
+    )
+    hertz, elements, percent = (math.nan if cell is None else float(cell) for cell in cells)
+    if math.isnan(hertz):
+        hertz = SHARES[name] * published.hertz.contact_stress_MPa
+    return hertz, elements, percent
+
+
+def _fits(hertz: float, elements: float, percent: float, reference: str) -> bool:
+    if math.isnan(percent):
+        return True
+    if math.isnan(elements):
+        return bool(whole_stresses(hertz, percent, reference))
+    return _agrees(difference(hertz, elements, reference), percent)
+
+
+def _column(
+    hertz: float, elements: float, percent: float, reference: str, computed: float
+) -> Column:
+    candidates: tuple[int, ...] = ()
+    if math.isnan(elements) and not math.isnan(percent):
+        candidates = tuple(whole_stresses(hertz, percent, reference))
+        if len(candidates) == 1:
+            elements = float(candidates[0])
+    return Column(
+        hertz,
+        elements,
+        percent,
+        {name: difference(hertz, elements, name) for name in REFERENCES},
+        candidates,
+        computed,
+        difference(computed, elements, "larger"),
+    )

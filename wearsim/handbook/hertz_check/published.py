@@ -1,0 +1,74 @@
+"""Reading the input of ``wearsim hertz-check`` with the stresses that it names."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.geometry.profile import Vector
+from wearsim.handbook.hertz_check.keys import HertzCheckTables
+from wearsim.input.calculation_file import checked
+from wearsim.input.csv_tables import read_columns
+from wearsim.input.document import Source, read_document
+
+_KEY = "finite_elements.axis_file"
+
+
+@dataclass(frozen=True, eq=False)
+class AxisFile:
+    """Stresses on the axis of a contact, from a file.
+
+    Attributes
+    ----------
+    depth : numpy.ndarray
+        Below the surface [mm].
+    von_mises : numpy.ndarray
+        Von Mises' stress there [MPa].
+    """
+
+    depth: Vector
+    von_mises: Vector
+
+
+def load_hertz_check(
+    source: Source, overrides: Sequence[str] = ()
+) -> tuple[HertzCheckTables, AxisFile | None]:
+    """Return the tables of a check, and the stresses of ``finite_elements.axis_file``.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A TOML file, or its tables as dictionaries.
+    overrides : sequence of str
+        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    HertzCheckTables
+        Its title is the name of the file where none is given.
+    AxisFile or None
+        None where no file is named.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input, with file and line.
+    """
+    document = read_document(source, overrides)
+    document.data.setdefault("title", document.name)
+    tables = checked(document, HertzCheckTables)
+    name = tables.finite_elements.axis_file
+    if name is None:
+        return tables, None
+    path, faults = document.folder / name, document.faults
+    columns = read_columns(path, ("below_surface_mm", "von_mises_MPa"), (), _KEY, faults)
+    for column, values in columns.items():
+        for index in np.flatnonzero(values < 0.0):
+            faults.add(
+                _KEY,
+                f"{path.name}:{index + 2}: {column} must be at least 0, but is {values[index]:g}",
+            )
+    if columns and columns["below_surface_mm"].size == 0:
+        faults.add(_KEY, f"{path.name}: needs at least one row, has none")
+    faults.check()
+    return tables, AxisFile(columns["below_surface_mm"], columns["von_mises_MPa"])

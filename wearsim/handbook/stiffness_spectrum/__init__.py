@@ -1,0 +1,1 @@
+"""The spectrum of the mesh stiffness of gears with pitch errors."""

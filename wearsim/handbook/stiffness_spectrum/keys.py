@@ -1,0 +1,103 @@
+"""The input of ``wearsim stiffness-spectrum``: a gear pair with pitch errors."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.table import Table
+from wearsim.input.units import NotNegative, Positive, PositiveNumber
+
+Model = Literal["pairs", "double_sum"]
+SeriesFormula = Literal[
+    "corrected", "printed", "printed_argument", "printed_sums", "printed_amplitude"
+]
+
+
+class WheelTable(Table):
+    """One of the two wheels and its pitch error, a sine over the tooth number."""
+
+    teeth: Annotated[int, Field(ge=5, le=300)]
+    pitch_error_mm: NotNegative
+    error_order: Annotated[int, Field(ge=1)] = 1
+    error_phase_deg: Annotated[NotNegative, Field(le=360.0)] = 0.0
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if 2 * self.error_order > self.teeth:
+            message = (
+                f"must be at most half the teeth, {self.teeth // 2}, is {self.error_order}: the teeth "
+                "show no more waves than that"
+            )
+            return [("error_order", message)]
+        if 2 * self.error_order == self.teeth and self.error_phase_deg % 180.0 == 0.0:
+            message = (
+                "must not be a multiple of 180 for an error_order of half the teeth, which are all on "
+                "zeros of the error then: take 90"
+            )
+            return [("error_phase_deg", message)]
+        return []
+
+
+class GearPairTable(Table):
+    """What both wheels share: standard teeth without profile shift."""
+
+    module_mm: Positive
+    pressure_angle_deg: Annotated[Positive, Field(ge=10.0, le=35.0)] = 20.0
+    pinion_speed_rpm: Positive | None = None
+
+
+class SpectrumTable(Table):
+    """What is counted as contact and which lines are wanted."""
+
+    model: Model = "pairs"
+    tooth_harmonics: Annotated[int, Field(ge=1, le=20)] = 3
+    sideband_order: Annotated[int, Field(ge=0, le=5)] = 2
+    lines_shown: Annotated[int, Field(ge=1, le=1000)] = 16
+    formula: SeriesFormula | None = None
+    series_harmonics: Annotated[int, Field(ge=10, le=100_000)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.model == "double_sum":
+            return []
+        message = 'belongs to the closed form of model = "double_sum": remove it or set that model'
+        return [
+            (key, message)
+            for key in ("formula", "series_harmonics")
+            if getattr(self, key) is not None
+        ]
+
+
+class StaticsTable(Table):
+    """Load and bodies for the deflection: what turns contacts into a stiffness."""
+
+    force_N: Positive | None = None
+    pinion_torque_N_m: Positive | None = None
+    pinion_curvature_radius_mm: Positive
+    wheel_curvature_radius_mm: Positive
+    youngs_modulus_MPa: Positive = 2.1e5
+    poissons_ratio: Annotated[PositiveNumber, Field(lt=0.5)] = 0.3
+    energy_exponent: Annotated[PositiveNumber, Field(ge=1.5, le=4.0)] = 2.5
+    formula: Literal["corrected", "printed"] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = []
+        if (self.force_N is None) == (self.pinion_torque_N_m is None):
+            given = "none" if self.force_N is None else "both"
+            message = f"give exactly one of force_N, pinion_torque_N_m (got {given})"
+            found.append(("pinion_torque_N_m", message))
+        if self.formula is not None and self.pinion_torque_N_m is None:
+            found.append(("formula", "belongs to pinion_torque_N_m: remove it"))
+        return found
+
+
+class StiffnessSpectrumTables(CalculationTables):
+    """The whole file."""
+
+    gear_pair: GearPairTable
+    pinion: WheelTable
+    wheel: WheelTable
+    spectrum: SpectrumTable = SpectrumTable()
+    statics: StaticsTable | None = None

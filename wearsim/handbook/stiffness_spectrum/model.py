@@ -1,0 +1,288 @@
+"""Lines of the mesh stiffness of a gear pair whose wheels have pitch errors.
+
+Golubkov et al. (2016; source document 003): the stiffness follows the number of contacts, whose
+spectrum has, beside the tooth frequency fz and its multiples, combination lines l fz + a f1 +
+b f2 of the turns f1 of the pinion and f2 of the wheel.
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from wearsim.handbook.stiffness_spectrum.contact_number import (
+    Floats,
+    GearPair,
+    StepFunction,
+    Wheel,
+    check_order,
+    contact_number,
+    contact_ratio,
+)
+from wearsim.handbook.stiffness_spectrum.contact_number_series import (
+    Formula,
+    one_sided,
+    series_coefficients,
+)
+from wearsim.handbook.stiffness_spectrum.keys import (
+    SpectrumTable,
+    StiffnessSpectrumTables,
+    WheelTable,
+)
+from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics, mesh_statics
+
+_SERIES_HARMONICS = 6000
+
+Combination = tuple[int, int, int]
+"""l, a and b of the frequency l fz + a f1 + b f2."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of the spectrum.
+
+    Attributes
+    ----------
+    harmonic : int
+        h, in common periods of the pair.
+    combinations : tuple
+        Ways to it of the lowest order, at least one.
+    two_sided : float
+        |S_h|, the magnitude of the complex coefficient.
+    series : float
+        One-sided amplitude by the closed form; nan where there is none.
+    stiffness : float
+        One-sided amplitude of the stiffness [N/mm]; nan without statics.
+    """
+
+    harmonic: int
+    combinations: tuple[Combination, ...]
+    two_sided: float
+    series: float
+    stiffness: float
+
+    @property
+    def one_sided(self) -> float:
+        """2 |S_h|, the amplitude of the cosine."""
+        return 2.0 * self.two_sided
+
+    @property
+    def name(self) -> str:
+        """Such as ``fz - f1``; equal ways are joined by an equals sign."""
+        return " = ".join(_name(combination) for combination in self.combinations)
+
+    @property
+    def short_name(self) -> str:
+        """The first of the ways, with dots for others that are too long for a table."""
+        first = _name(self.combinations[0])
+        return (
+            first if self.name == first else f"{first} = ..." if len(self.name) > 20 else self.name
+        )
+
+    @property
+    def family(self) -> str:
+        """Whose line it is: ``mesh``, ``pinion``, ``wheel``, or ``both``."""
+        kinds = {(a != 0, b != 0) for _, a, b in self.combinations}
+        names = {(False, False): "mesh", (True, False): "pinion", (False, True): "wheel"}
+        return names.get(kinds.pop(), "both") if len(kinds) == 1 else "both"
+
+
+@dataclass(frozen=True, eq=False)
+class StiffnessSpectrum:
+    """The whole answer.
+
+    Attributes
+    ----------
+    pair : GearPair
+        The wheels.
+    contacts, ideal : StepFunction
+        Number of contacts over the common period, with the pitch errors and without.
+    lines : tuple of Line
+        By frequency, the mean apart.
+    series_mean : float
+        Mean number of contacts by the closed form; nan where there is none.
+    mesh_frequency : float
+        fz [Hz]; nan without a speed.
+    statics : Statics or None
+        Where a load is given.
+    beyond_involute : str
+        Wheel whose tips reach beyond the tangent point of the other, empty where none does.
+    """
+
+    pair: GearPair
+    contacts: StepFunction
+    ideal: StepFunction
+    lines: tuple[Line, ...]
+    series_mean: float
+    mesh_frequency: float
+    statics: Statics | None
+    beyond_involute: str
+
+    @property
+    def variance_share(self) -> float:
+        """Part of the variance of the number of contacts that the lines hold (Parseval)."""
+        return 2.0 * sum(line.two_sided**2 for line in self.lines) / self.contacts.variance
+
+
+def stiffness_spectrum(tables: StiffnessSpectrumTables) -> StiffnessSpectrum:
+    """Return the spectrum of the contacts and, with statics, of the stiffness.
+
+    Parameters
+    ----------
+    tables : StiffnessSpectrumTables
+        Gear pair, errors and what is wanted.
+
+    Returns
+    -------
+    StiffnessSpectrum
+        The answer.
+
+    Raises
+    ------
+    GeometryError
+        The teeth cannot run so, or with a load, no tooth carries it at some moment.
+    """
+    spectrum, speed = tables.spectrum, tables.gear_pair.pinion_speed_rpm
+    pair = gear_pair(tables)
+    contacts = contact_number(pair, spectrum.model)
+    statics = mesh_statics(tables, contacts)
+    lattice = combinations(pair, spectrum.tooth_harmonics, spectrum.sideband_order)
+    exact = np.abs(contacts.coefficients(list(lattice)))
+    series = _series(pair, spectrum, [0, *lattice])
+    stiffness = np.full(len(lattice), math.nan)
+    if statics is not None:
+        stiffness = one_sided(statics.stiffness.coefficients(list(lattice)))
+    lines = tuple(
+        Line(h, ways, *map(float, values))
+        for (h, ways), *values in zip(lattice.items(), exact, series[1:], stiffness, strict=True)
+    )
+    frequency = math.nan if speed is None else speed / 60.0 * tables.pinion.teeth
+    return StiffnessSpectrum(
+        pair,
+        contacts,
+        contact_number(pair.without_error, spectrum.model),
+        lines,
+        float(series[0]),
+        frequency,
+        statics,
+        _beyond_involute(tables),
+    )
+
+
+def _series(pair: GearPair, spectrum: SpectrumTable, harmonics: list[int]) -> Floats:
+    """Return the mean and the one-sided amplitudes by the closed form; nan where there is none."""
+    if spectrum.model != "double_sum":
+        return np.full(len(harmonics), math.nan)
+    formula: Formula = spectrum.formula or "corrected"
+    limit = spectrum.series_harmonics or _SERIES_HARMONICS
+    found = series_coefficients(pair, harmonics, limit, formula)
+    return np.append(found[0].real, one_sided(found[1:], formula))
+
+
+def gear_pair(tables: StiffnessSpectrumTables) -> GearPair:
+    """Return the wheels of an input.
+
+    Parameters
+    ----------
+    tables : StiffnessSpectrumTables
+        The input.
+
+    Returns
+    -------
+    GearPair
+        With the contact ratio.
+
+    Raises
+    ------
+    GeometryError
+        Teeth change places by their errors.
+    """
+    angle = math.radians(tables.gear_pair.pressure_angle_deg)
+    ratio = contact_ratio(tables.pinion.teeth, tables.wheel.teeth, angle)
+    wheels = [
+        _wheel(one, place, 0.5 * tables.gear_pair.module_mm * one.teeth)
+        for one, place in ((tables.pinion, "pinion"), (tables.wheel, "wheel"))
+    ]
+    return GearPair(wheels[0], wheels[1], ratio)
+
+
+def _wheel(table: WheelTable, place: str, pitch_radius: float) -> Wheel:
+    phase = math.radians(table.error_phase_deg)
+    wheel = Wheel(table.teeth, table.pitch_error_mm / pitch_radius, table.error_order, phase)
+    check_order(wheel, place, pitch_radius)
+    return wheel
+
+
+def _beyond_involute(tables: StiffnessSpectrumTables) -> str:
+    """Return whose tips reach past the tangent of the other's base circle, where no involute is."""
+    sine = math.sin(math.radians(tables.gear_pair.pressure_angle_deg))
+    teeth = {"pinion": tables.pinion.teeth, "wheel": tables.wheel.teeth}
+    line = sum(teeth.values()) / 2.0 * sine
+    beyond = [
+        name for name, z in teeth.items() if math.sqrt((z * sine / 2.0) ** 2 + z + 1.0) > line
+    ]
+    return " and ".join(beyond)
+
+
+def combinations(
+    pair: GearPair, tooth_harmonics: int, sideband_order: int
+) -> dict[int, tuple[Combination, ...]]:
+    """Return the lines that pitch errors can give, with what they are combined of.
+
+    A wheel whose error has kappa waves in a turn gives sidebands at multiples of kappa turns; a
+    wheel without error gives none. Ways to one frequency by more sidebands than needed are left
+    out, such as 3 f2 = 2 f1 of 20 and 30 teeth for 2 f1.
+
+    Equation stiffness-spectrum.md (4).
+
+    Parameters
+    ----------
+    pair : GearPair
+        The wheels.
+    tooth_harmonics : int
+        Greatest l.
+    sideband_order : int
+        Greatest number of sidebands, those of both wheels together.
+
+    Returns
+    -------
+    dict
+        Combinations by harmonic of the common period, ascending; without h = 0.
+
+    Examples
+    --------
+    >>> pair = GearPair(Wheel(20, 0.01), Wheel(30, 0.0), 1.6)
+    >>> combinations(pair, 1, 1)
+    {3: ((0, 1, 0),), 57: ((1, -1, 0),), 60: ((1, 0, 0),), 63: ((1, 1, 0),)}
+    """
+    sides = [
+        range(-sideband_order, sideband_order + 1) if wheel.error_angle > 0.0 else range(1)
+        for wheel in (pair.pinion, pair.wheel)
+    ]
+    ways: dict[int, list[tuple[int, Combination]]] = {}
+    for l, a, b in product(range(tooth_harmonics + 1), *sides):
+        order = abs(a) + abs(b)
+        turns = (a * pair.pinion.error_order, b * pair.wheel.error_order)
+        h = l * pair.meshes + turns[0] * pair.pinion_turns + turns[1] * pair.wheel_turns
+        if h > 0 and order <= sideband_order:
+            ways.setdefault(h, []).append((order, (l, *turns)))
+    return {
+        h: tuple(
+            sorted(
+                (way for order, way in ways[h] if order == min(ways[h])[0]),
+                key=lambda way: (way[0], abs(way[2])),
+            )
+        )
+        for h in sorted(ways)
+    }
+
+
+def _name(combination: Combination) -> str:
+    terms = zip(combination, ("fz", "f1", "f2"), strict=True)
+    shown = sorted(((count, name) for count, name in terms if count), key=lambda term: term[0] < 0)
+    text = " ".join(
+        f"{'+' if count > 0 else '-'} {'' if abs(count) == 1 else abs(count)}{name}"
+        for count, name in shown
+    )
+    return text.removeprefix("+ ")

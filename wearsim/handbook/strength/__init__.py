@@ -1,0 +1,1 @@
+"""Allowable stresses, life factors and fatigue life of a gear pair."""

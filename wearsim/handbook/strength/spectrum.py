@@ -1,0 +1,144 @@
+"""Load spectra of gears and the constant load that fatigues as much.
+
+Source 001, formula (22) and table 2.2: typical regimes and cyclograms. An overload, which acts
+for less than 5e4 cycles, is no part of the sum; it is judged against the static limits.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from wearsim.catalogue.catalogues import regimes
+from wearsim.catalogue.factors import rows
+from wearsim.errors import GeometryError
+from wearsim.handbook.strength.keys import OVERLOAD_CYCLES
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Torques of a gear pair and how often each acts.
+
+    Attributes
+    ----------
+    name : str
+        What it was given as.
+    blocks : tuple
+        Pairs of a torque over the largest long-acting one and its share of all cycles.
+    torque : float
+        The largest long-acting torque over the torque that the cyclogram is relative to.
+    peak : float
+        The largest torque at all over the largest long-acting one; 1 without overloads.
+    peak_cycles : float
+        For how many cycles overloads act.
+    published : mapping
+        Published factors of equivalence by exponent, which go before the sum over the blocks.
+    """
+
+    name: str
+    blocks: tuple[tuple[float, float], ...]
+    torque: float = 1.0
+    peak: float = 1.0
+    peak_cycles: float = 0.0
+    published: Mapping[int, float] = field(default_factory=dict)
+
+    def equivalence(self, exponent: float) -> float:
+        """Return the cycles of the largest torque that fatigue as much, over all cycles.
+
+        mu = sum (T_i/T)^k N_i/N, strength.md (22).
+
+        Parameters
+        ----------
+        exponent : float
+            Of the torque: 3 for contact, where stress goes with its root and cycles with the
+            sixth power of stress; m for bending.
+
+        Returns
+        -------
+        float
+            mu, up to 1.
+
+        Examples
+        --------
+        >>> Spectrum("two steps", ((1.0, 0.5), (0.5, 0.5))).equivalence(3)
+        0.5625
+        """
+        for known, factor in self.published.items():
+            if known == exponent:
+                return factor
+        return math.fsum(share * torque**exponent for torque, share in self.blocks)
+
+
+def regime_spectrum(name: str) -> Spectrum:
+    """Return a typical regime of loading.
+
+    Its factors for contact and for m = 6 and 9 are those printed in table 2.2; for another
+    exponent they follow from the blocks of `wearsim.catalogue.catalogues`.
+
+    Parameters
+    ----------
+    name : str
+        ``0`` (constant), or ``I`` to ``V``.
+
+    Returns
+    -------
+    Spectrum
+        Without overloads.
+
+    Examples
+    --------
+    >>> regime_spectrum("II").equivalence(6)  # 1/7, as printed
+    0.143
+    """
+    published = {
+        int(row["exponent"]): float(row["factor"])
+        for row in rows("equivalence_factors")
+        if row["regime"] == name
+    }
+    title = "constant" if name == "0" else f"typical regime {name}"
+    return Spectrum(title, regimes()[name], published=published)
+
+
+def cyclogram_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Spectrum:
+    """Return the spectrum of a cyclogram, its overloads set apart.
+
+    Overloads are the largest torques as long as they act, together, for less than 5e4 cycles.
+
+    Parameters
+    ----------
+    steps : sequence of tuple of float
+        Torque, in any unit, and the cycles for which it acts over the life.
+    total : float
+        Load cycles over the life; those of overloads may come on top.
+
+    Returns
+    -------
+    Spectrum
+        Relative to the largest long-acting torque.
+
+    Raises
+    ------
+    GeometryError
+        Torques above 0 do not act for 5e4 cycles.
+
+    Examples
+    --------
+    >>> spectrum = cyclogram_spectrum([(1.0, 6e6), (0.5, 4e6), (1.6, 2e4)], 1e7)
+    >>> spectrum.peak, round(spectrum.equivalence(3), 6)
+    (1.6, 0.65)
+    """
+    ordered = sorted(steps, reverse=True)
+    acted = 0.0
+    for first, (torque, cycles) in enumerate(ordered):
+        if torque > 0.0 and acted + cycles >= OVERLOAD_CYCLES:
+            return Spectrum(
+                name="cyclogram",
+                blocks=tuple((each / torque, count / total) for each, count in ordered[first:]),
+                torque=torque,
+                peak=ordered[0][0] / torque,
+                peak_cycles=acted,
+            )
+        acted += cycles if torque > 0.0 else 0.0
+    raise GeometryError(
+        f"cyclogram: torques above 0 must act for at least {OVERLOAD_CYCLES:g} cycles, but act for "
+        f"{acted:.4g}: that is all overload, raise the life or leave out the cyclogram"
+    )

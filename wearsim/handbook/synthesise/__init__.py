@@ -1,0 +1,1 @@
+"""Profiles of a gear pair with a prescribed contact stress."""

@@ -1,0 +1,27 @@
+"""``wearsim synthesise``: profiles of a gear pair with a prescribed contact stress."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from wearsim.command.calculation_command import calculation
+
+if TYPE_CHECKING:
+    from wearsim.command.calculation_sheet import Sheet
+
+
+@calculation("synthesise", "Profiles of a gear pair with a prescribed contact stress.")
+def synthesise(case: Path, settings: tuple[str, ...]) -> "Sheet":
+    """Find lines of action and both profiles with the contact stress that CASE prescribes.
+
+    Phase by phase: through the pole, or from a point beside it, where two pairs of profiles
+    have the same stress. The involute of the same pair stands beside each; fields show where in
+    the plane of mesh there are such profiles, and of which kind.
+    """
+    from wearsim.handbook.synthesise.keys import SynthesisTables
+    from wearsim.handbook.synthesise.model import loaded_pair, phases
+    from wearsim.handbook.synthesise.sheet import synthesis_sheet
+    from wearsim.input.calculation_file import load_calculation
+
+    tables = load_calculation(case, SynthesisTables, settings)
+    pair = loaded_pair(tables)
+    return synthesis_sheet(tables, pair, phases(pair, tables))

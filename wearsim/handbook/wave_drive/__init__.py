@@ -1,0 +1,1 @@
+"""The diameter of the flexspline of a wave drive by eight methods."""

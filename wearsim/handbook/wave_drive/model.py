@@ -1,0 +1,287 @@
+"""Diameter of the flexspline of a wave drive by eight methods side by side."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from scipy.optimize import brentq
+
+from wearsim.errors import GeometryError
+from wearsim.handbook.wave_drive.formulas import (
+    Values,
+    crushing_diameter,
+    flank_pressure_diameter,
+    generator_bearing_diameter,
+    pressure_diameter,
+    rim_bending_diameter,
+    rim_endurance_diameter,
+    tooth_wear_diameter,
+    torsion_diameter,
+)
+from wearsim.handbook.wave_drive.keys import WaveDriveTables
+
+Ranges = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to the diameter.
+
+    Attributes
+    ----------
+    name : str
+        Table of the input that holds what it allows.
+    source : str
+        Number of the textbook in the source's list.
+    criterion : str
+        What it limits.
+    diameter : callable
+        From the numbers of the drive and of the method to the diameter [mm].
+    ranges : mapping
+        Least and greatest value that the source recommends, for each key of the method that it
+        gives one for.
+    allowable : str
+        The key that the diameter is usually set by.
+    drive_ranges : mapping
+        The same for keys of the drive.
+    """
+
+    name: str
+    source: str
+    criterion: str
+    diameter: Callable[[Values], float]
+    ranges: Ranges
+    allowable: str
+    drive_ranges: Ranges = field(default_factory=dict)
+
+
+_TOOTH_LENGTH: Ranges = {"tooth_length_ratio": (0.15, 0.25)}
+
+METHODS = (
+    Method(
+        "pressure", "[1]", "pressure between the teeth", pressure_diameter,
+        {"allowable_pressure_MPa": (60.0, 65.0), "engaged_share": (0.22, 0.25)},
+        "allowable_pressure_MPa", _TOOTH_LENGTH,
+    ),
+    Method(
+        "crushing", "[2]", "crushing of the flanks", crushing_diameter,
+        {"allowable_crushing_MPa": (10.0, 30.0)}, "allowable_crushing_MPa", _TOOTH_LENGTH,
+    ),
+    Method(
+        "torsion", "[3]", "torsion of the rim", torsion_diameter,
+        {"allowable_shear_MPa": (60.0, 90.0), "diameter_to_thickness": (80.0, 100.0)},
+        "allowable_shear_MPa", {"gear_ratio": (100.0, 400.0)},
+    ),
+    Method(
+        "tooth_wear", "[3]", "wear of the teeth", tooth_wear_diameter,
+        {"allowable_crushing_MPa": (10.0, 20.0), "dynamic_factor": (1.0, 1.75)},
+        "allowable_crushing_MPa",
+    ),
+    Method(
+        "flank_pressure", "[4]", "wear of the teeth", flank_pressure_diameter,
+        {"allowable_pressure_MPa": (20.0, 25.0)}, "allowable_pressure_MPa",
+    ),
+    Method(
+        "rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"
+    ),
+    Method(
+        "rim_endurance", "[6]", "endurance of the rim", rim_endurance_diameter,
+        {"safety_factor": (1.6, 1.7)}, "endurance_limit_MPa",
+    ),
+    Method(
+        "generator_bearing", "[6]", "bearing of the generator", generator_bearing_diameter, {},
+        "bearing_constant",
+    ),
+)  # fmt: skip
+"""In the order of the source."""
+
+
+@dataclass(frozen=True)
+class MethodDiameter:
+    """What a method comes to.
+
+    Attributes
+    ----------
+    method : Method
+        The method.
+    as_printed : bool
+        Whether a formula that is wrong as printed was asked for all the same.
+    diameter : float
+        With the values given [mm].
+    least, greatest : float
+        Over the ranges that the source recommends for the method's own keys, the others as
+        given [mm].
+    elasticity : mapping
+        Relative change of the diameter over that of each number of drive and method, where it
+        is not 0.
+    outside : mapping
+        The numbers that are outside of what the source recommends.
+    published : float
+        Diameter to hold it against [mm]; nan where none was given.
+    needed : float
+        Value of the allowable that would give that; nan where none does.
+    rank, least_rank, greatest_rank : int
+        From 1 for the largest diameter: with the values given, and where each method may take
+        any diameter of its range.
+    """
+
+    method: Method
+    as_printed: bool
+    diameter: float
+    least: float
+    greatest: float
+    elasticity: Mapping[str, float]
+    outside: Mapping[str, float]
+    published: float
+    needed: float
+    rank: int
+    least_rank: int
+    greatest_rank: int
+
+    @property
+    def reproduces(self) -> bool:
+        """Whether the diameter is the published one to half a millimetre."""
+        return abs(self.diameter - self.published) <= 0.5
+
+
+@dataclass(frozen=True)
+class MethodComparison:
+    """The methods side by side.
+
+    Attributes
+    ----------
+    diameters : tuple of MethodDiameter
+        In the order of the source.
+    left_out : mapping
+        Why a method that the file says nothing about has no diameter with its defaults.
+    """
+
+    diameters: tuple[MethodDiameter, ...]
+    left_out: Mapping[str, str]
+
+
+def wave_drive(tables: WaveDriveTables) -> MethodComparison:
+    """Return the diameter of the flexspline by every method that has its numbers.
+
+    Parameters
+    ----------
+    tables : WaveDriveTables
+        Drive and methods.
+
+    Returns
+    -------
+    MethodComparison
+        Methods, with reasons for those left out.
+
+    Raises
+    ------
+    GeometryError
+        A method of the file has no diameter.
+    """
+    used, left_out = _feasible(tables)
+    sizes = [method.diameter(v) for method, v in used]
+    ranges = [_range(method, v) for method, v in used]
+    results = []
+    for i, ((method, v), size) in enumerate(zip(used, sizes, strict=True)):
+        least, greatest = ranges[i]
+        others = ranges[:i] + ranges[i + 1 :]
+        given = getattr(tables, method.name).published_diameter_mm
+        published = math.nan if given is None else given
+        results.append(
+            MethodDiameter(
+                method, _as_printed(tables, method), size, least, greatest,
+                _elasticity(method, v), _outside(method, v), published,
+                _needed(method, v, published),
+                rank=1 + sum(other > size for other in sizes),
+                least_rank=1 + sum(low > greatest for low, _ in others),
+                greatest_rank=1 + sum(high > least for _, high in others),
+            )
+        )  # fmt: skip
+    return MethodComparison(tuple(results), left_out)
+
+
+def _feasible(tables: WaveDriveTables) -> tuple[list[tuple[Method, Values]], dict[str, str]]:
+    """Return the methods that have a diameter, with their numbers, and why others have none."""
+    used: list[tuple[Method, Values]] = []
+    left_out = {}
+    for method in METHODS:
+        if getattr(tables, method.name) is None:
+            continue
+        v = _values(tables, method)
+        try:
+            method.diameter(v)
+        except GeometryError as error:
+            if method.name in tables.model_fields_set:
+                raise
+            left_out[method.name] = str(error)
+        else:
+            used.append((method, v))
+    return used, left_out
+
+
+_PRINTED = {"torsion": ("root", 3.0, 2.0), "rim_bending": ("prefix", 10.0, 28.4)}
+"""What differs in a formula as it is printed: the name of it, corrected, printed."""
+
+
+def _values(tables: WaveDriveTables, method: Method) -> dict[str, float]:
+    """Return all numbers that a method takes; what it can find itself only where given."""
+    own = getattr(tables, method.name).model_dump(exclude={"published_diameter_mm", "formula"})
+    v = {key: value for key, value in own.items() if value is not None}
+    if method.name in _PRINTED:
+        name, corrected, as_printed = _PRINTED[method.name]
+        v[name] = as_printed if _as_printed(tables, method) else corrected
+    return {**tables.wave_drive.model_dump(), **v}
+
+
+def _as_printed(tables: WaveDriveTables, method: Method) -> bool:
+    return getattr(getattr(tables, method.name), "formula", "") == "printed"
+
+
+def _range(method: Method, v: Values) -> tuple[float, float]:
+    """Return the least and the greatest diameter over the corners of the recommended ranges."""
+    corners: list[Values] = [v]
+    for key, ends in method.ranges.items():
+        corners = [{**corner, key: end} for corner in corners for end in ends]
+    sizes = [method.diameter(corner) for corner in corners]
+    return min(sizes), max(sizes)
+
+
+def _outside(method: Method, v: Values) -> dict[str, float]:
+    """Return the numbers outside of what is recommended; a coefficient that is given needs none."""
+    ranges = {**method.ranges, **method.drive_ranges}
+    if "torsion_coefficient" in v:
+        ranges.pop("gear_ratio", None)
+    return {key: v[key] for key, (low, high) in ranges.items() if not low <= v[key] <= high}
+
+
+_STEP = 1e-5
+
+
+def _elasticity(method: Method, v: Values) -> dict[str, float]:
+    """Return d(ln d)/d(ln value) of all numbers by central differences."""
+    slopes = {}
+    for key, value in v.items():
+        if key in ("root", "prefix"):
+            continue
+        up, down = (method.diameter({**v, key: value * (1.0 + s)}) for s in (_STEP, -_STEP))
+        slope = math.log(up / down) / math.log((1.0 + _STEP) / (1.0 - _STEP))
+        if abs(slope) > 1e-6:
+            slopes[key] = slope
+    return slopes
+
+
+def _needed(method: Method, v: Values, target: float) -> float:
+    """Return the allowable that gives a diameter, within a factor of 100; nan where none does."""
+
+    def missing(factor: float) -> float:
+        """Of 1/d, which goes to 0 where the method has no diameter any more."""
+        try:
+            size = method.diameter({**v, method.allowable: v[method.allowable] * factor})
+        except GeometryError:
+            return -1.0 / target
+        return 1.0 / size - 1.0 / target
+
+    low, high = 0.01, 100.0
+    if not missing(low) * missing(high) <= 0.0:
+        return math.nan
+    return v[method.allowable] * float(brentq(missing, low, high, xtol=1e-13))

@@ -1,0 +1,1 @@
+"""The input file: documents, units, faults and the keys that all share."""

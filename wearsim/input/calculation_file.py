@@ -1,0 +1,92 @@
+"""Reading the input of a calculation that is no drive: its own tables, checked in one pass."""
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from wearsim.input.document import Document, Source, read_document
+from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.table import Table
+
+Tables = TypeVar("Tables", bound=CalculationTables)
+
+
+def load_calculation(source: Source, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
+    """Return the tables of a calculation.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A TOML file, or its tables as dictionaries.
+    model : type
+        The tables that it must hold.
+    overrides : sequence of str
+        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    CalculationTables
+        Of the model; its title is the name of the file where none is given.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input, with file and line.
+    """
+    document = read_document(source, overrides)
+    document.data.setdefault("title", document.name)
+    return checked(document, model)
+
+
+def checked(document: Document, model: type[Tables]) -> Tables:
+    """Return the tables of a document.
+
+    Parameters
+    ----------
+    document : Document
+        What stands in a file.
+    model : type
+        The tables that it must hold.
+
+    Returns
+    -------
+    CalculationTables
+        Of the model.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with them, with file and line.
+    """
+    try:
+        return model.model_validate(document.data)
+    except ValidationError as error:
+        document.faults.add_validation(error, model)
+        document.faults.check()
+        raise
+
+
+def defaults_taken(tables: Table, prefix: str = "") -> tuple[str, ...]:
+    """Return what a file left to its defaults, as an answer lists it under its assumptions.
+
+    Parameters
+    ----------
+    tables : Table
+        The input, or a table of it.
+    prefix : str
+        Dotted name of the table and a dot.
+
+    Returns
+    -------
+    tuple of str
+        Such as ``"run.method = advance (default)"``; without what is absent by default.
+    """
+    taken: list[str] = []
+    for key, value in tables:
+        if isinstance(value, Table):
+            taken += defaults_taken(value, f"{prefix}{key}.")
+        elif prefix and key not in tables.model_fields_set and value is not None:
+            shown = f"{value:g}" if isinstance(value, float) else value
+            taken.append(f"{prefix}{key} = {shown} (default)")
+    return tuple(taken)

@@ -1,0 +1,104 @@
+"""A case while it is being completed: the record of what was given, taken and doubted."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from wearsim.input.messages import Faults
+from wearsim.input.schema import CaseTables, Table
+
+
+class Record:
+    """What is given, found, taken and doubted while a case is being completed.
+
+    Parameters
+    ----------
+    tables : Table
+        The validated input.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+    """
+
+    def __init__(self, tables: Table, folder: Path, faults: Faults) -> None:
+        self.folder = folder
+        self.faults = faults
+        self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
+        self.files: list[Path] = []
+        self.assumptions: list[str] = []
+        self.warnings: list[str] = []
+
+    def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
+        """Record a default that the case takes.
+
+        Parameters
+        ----------
+        key : str
+            Dotted key.
+        value : float, int, str or list of int
+            Its value.
+        why : str
+            Where it comes from.
+        """
+        place = self.inputs
+        *tables, last = key.split(".")
+        for table in tables:
+            place = place.setdefault(table, {})
+        place[last] = value
+        shown = f"{value:.6g}" if isinstance(value, float) else value
+        self.assumptions.append(f"{key} = {shown} ({why})")
+
+    def path(self, key: str, name: str) -> Path:
+        """Return the place of a file that the case names.
+
+        Parameters
+        ----------
+        key : str
+            Key that names it.
+        name : str
+            Path, relative to the case file.
+
+        Returns
+        -------
+        pathlib.Path
+            The file.
+        """
+        path = self.folder / name
+        self.files.append(path)
+        return path
+
+    def texts(self) -> dict[str, str]:
+        """Return the text of the files by their names; the cases of a study share it.
+
+        Returns
+        -------
+        dict
+            Bytes that are no UTF-8 as lone surrogates.
+        """
+        found = {}
+        for path in self.files:
+            text = path.read_text(encoding="utf-8-sig", errors="surrogateescape")
+            found[path.name] = sys.intern(text)
+        return found
+
+
+class Resolution(Record):
+    """The record of a drive with a chain.
+
+    Parameters
+    ----------
+    tables : CaseTables
+        The validated input.
+    folder : pathlib.Path
+        Place that paths are relative to.
+    faults : Faults
+        Takes what is wrong.
+    """
+
+    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
+        super().__init__(tables, folder, faults)
+        self.tables = tables
+        if tables.sprocket is not None and "back_flank" not in tables.sprocket.model_fields_set:
+            # Taken where the tooth form has one.
+            del self.inputs["sprocket"]["back_flank"]

@@ -1,0 +1,292 @@
+"""The CSV files that a case names, checked to the row."""
+
+import csv
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from wearsim.catalogue.catalogues import nearest
+from wearsim.geometry.profile import Vector, chord_lengths
+from wearsim.input.duty_log import Log
+from wearsim.input.messages import Faults
+from wearsim.input.units import LEAST, MOST
+
+_MOST_ROWS = 200_000
+
+_GAP = 10.0
+"""Step of a log over the usual one above which rows must be missing."""
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedTable:
+    """Load and sliding along a flank.
+
+    Attributes
+    ----------
+    arc_length, load_per_width, flank_curvature : numpy.ndarray
+        Columns of the file [mm, N/mm, 1/mm].
+    slip_ratio : numpy.ndarray or None
+        |v_s|/v_t, where the file gives it.
+    sliding_distance : numpy.ndarray or None
+        Path [mm], where the file gives it.
+    sliding_speed : numpy.ndarray or None
+        Sliding speed [mm/s], where the file gives it.
+    """
+
+    arc_length: Vector
+    load_per_width: Vector
+    flank_curvature: Vector
+    slip_ratio: Vector | None
+    sliding_distance: Vector | None
+    sliding_speed: Vector | None
+
+
+def read_columns(
+    path: Path, required: tuple[str, ...], optional: tuple[str, ...], key: str, faults: Faults
+) -> dict[str, Vector]:
+    """Read a CSV file of numbers and report every bad cell.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file.
+    required, optional : tuple of str
+        Names of columns; any other is a fault.
+    key : str
+        Key of the case that names the file, for the faults.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    dict
+        Column by name; empty where there was a fault.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            lines = list(csv.reader(file))
+    except (OSError, ValueError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
+        return {}
+    names = [name.strip() for name in lines[0]] if lines else []
+    before = faults.count
+    for text in header_faults(names, required, optional):
+        faults.add(key, f"{path.name}:1: {text}")
+    values = _cells(path, names, lines[1:], key, faults)
+    if faults.count > before:
+        return {}
+    table = np.array(values, dtype=float).reshape(-1, len(names))
+    return {name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)}
+
+
+def header_faults(
+    names: Sequence[str], required: Sequence[str], optional: Sequence[str]
+) -> list[str]:
+    """Return what is wrong with the names of columns.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Those of a file.
+    required, optional : sequence of str
+        Those that it must and may have.
+
+    Returns
+    -------
+    list of str
+        In words.
+
+    Examples
+    --------
+    >>> header_faults(["x_mm"], ["x_mm", "load_N"], [])
+    ["column 'load_N' is missing"]
+    """
+    known = [*required, *optional]
+    found = [
+        f"column {name!r} is missing{nearest(name, list(names))}"
+        for name in required
+        if name not in names
+    ]
+    found += [
+        f"unknown column {name!r}{nearest(name, known)}" for name in names if name not in known
+    ]
+    if len(set(names)) != len(names):
+        found.append("every column may stand there once only")
+    return found
+
+
+def _cells(
+    path: Path, names: list[str], lines: list[list[str]], key: str, faults: Faults
+) -> list[list[float]]:
+    values: list[list[float]] = []
+    if len(lines) > _MOST_ROWS:
+        faults.add(key, f"{path.name}: at most {_MOST_ROWS} rows, has {len(lines)}")
+        return values
+    for number, line in enumerate(lines, start=2):
+        if not line:
+            continue
+        if len(line) != len(names):
+            faults.add(key, f"{path.name}:{number}: needs {len(names)} values, has {len(line)}")
+            continue
+        row = []
+        for name, cell in zip(names, line, strict=True):
+            try:
+                row.append(float(cell))
+            except ValueError:
+                row.append(math.nan)
+            if not math.isfinite(row[-1]):
+                faults.add(
+                    key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})"
+                )
+            elif abs(row[-1]) > MOST:
+                text = f"{name} must be at most {MOST:g} in size (got {cell!r})"
+                faults.add(key, f"{path.name}:{number}: {text}")
+            elif abs(row[-1]) < LEAST:
+                # What is left of a formula that should come to 0.
+                row[-1] = 0.0
+        values.append(row)
+    return values
+
+
+def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
+    """Read the points of a flank, from root to tip.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file with the columns x_mm, y_mm.
+    key : str
+        Key of the case that names the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    tuple of numpy.ndarray or None
+        x and y [mm]; None where there was a fault.
+    """
+    columns = read_columns(path, ("x_mm", "y_mm"), (), key, faults)
+    if not columns:
+        return None
+    x, y = columns["x_mm"], columns["y_mm"]
+    if x.size < 11:
+        faults.add(key, f"{path.name}: a flank needs at least 11 points, has {x.size}")
+        return None
+    # Along the flank, where steps too small for its length are lost.
+    same = np.flatnonzero(np.diff(chord_lengths(x, y)) == 0.0)
+    for index in same:
+        faults.add(key, f"{path.name}:{index + 3}: the point repeats the one before: remove it")
+    radius = np.hypot(x, y)
+    if radius[0] > radius[-1]:
+        faults.add(
+            key,
+            f"{path.name}: points must run from root to tip, but the radius falls: reverse them",
+        )
+        return None
+    return None if same.size else (x, y)
+
+
+def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | None:
+    """Read load and sliding along a flank.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file; columns in the documentation of the key ``mechanism.table_file``.
+    key : str
+        Key of the case that names the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    PrescribedTable or None
+        None where there was a fault.
+    """
+    required = ("arc_length_mm", "load_per_width_N_per_mm", "flank_curvature_per_mm")
+    optional = ("slip_ratio", "sliding_distance_mm", "sliding_speed_mm_per_s")
+    columns = read_columns(path, required, optional, key, faults)
+    if not columns:
+        return None
+    before = faults.count
+    arc = columns["arc_length_mm"]
+    if arc.size < 5:
+        faults.add(key, f"{path.name}: needs at least 5 rows, has {arc.size}")
+    for index in np.flatnonzero(np.diff(arc) <= 0.0):
+        faults.add(key, f"{path.name}:{index + 3}: arc_length_mm must increase from row to row")
+    for name in ("load_per_width_N_per_mm", *optional):
+        if name in columns:
+            for index in np.flatnonzero(columns[name] < 0.0):
+                faults.add(key, f"{path.name}:{index + 2}: {name} must not be negative")
+    given = [name for name in optional[:2] if name in columns]
+    if len(given) != 1:
+        faults.add(
+            key,
+            f"{path.name}:1: exactly one of the columns slip_ratio and sliding_distance_mm must be "
+            f"there, found {len(given)}",
+        )
+    if faults.count > before:
+        return None
+    return PrescribedTable(
+        arc,
+        columns["load_per_width_N_per_mm"],
+        columns["flank_curvature_per_mm"],
+        columns.get("slip_ratio"),
+        columns.get("sliding_distance_mm"),
+        columns.get("sliding_speed_mm_per_s"),
+    )
+
+
+def read_log(path: Path, key: str, faults: Faults) -> Log | None:
+    """Read a log of tension and speed.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        CSV file with the columns time_s, tension_N, speed_rpm.
+    key : str
+        Key of the case that names the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Log or None
+        None where there was a fault.
+    """
+    columns = read_columns(path, ("time_s", "tension_N", "speed_rpm"), (), key, faults)
+    if not columns:
+        return None
+    before = faults.count
+    time, tension, speed = (columns[name] for name in ("time_s", "tension_N", "speed_rpm"))
+    if time.size < 2:
+        faults.add(key, f"{path.name}: needs at least 2 rows, has {time.size}")
+        return None
+    step = np.diff(time)
+    for index in np.flatnonzero(step <= 0.0):
+        faults.add(key, f"{path.name}:{index + 3}: time_s must increase from row to row")
+    usual = float(np.median(step))
+    for index in np.flatnonzero(step > _GAP * usual):
+        faults.add(
+            key,
+            f"{path.name}:{index + 3}: time_s jumps by {step[index]:g}, the usual step is {usual:g}: "
+            "fill the gap or cut the log there",
+        )
+    for index in np.flatnonzero(tension < 0.0):
+        faults.add(
+            key,
+            f"{path.name}:{index + 2}: tension_N must not be negative (got {tension[index]:g})",
+        )
+    for index in np.flatnonzero(speed <= 0.0):
+        faults.add(
+            key,
+            f"{path.name}:{index + 2}: speed_rpm must be above 0 (got {speed[index]:g}): take standstill "
+            "out of the log, hours count running time",
+        )
+    if faults.count == before and not tension[:-1].max() > 0.0:
+        faults.add(key, f"{path.name}: tension_N must be above 0 in some row")
+    return Log(step, tension[:-1], speed[:-1]) if faults.count == before else None

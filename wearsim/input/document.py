@@ -1,0 +1,239 @@
+"""An input file or a mapping with overrides, before anything is checked."""
+
+import copy
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wearsim.errors import CaseError, Fault
+from wearsim.input.messages import Faults
+
+
+@dataclass(frozen=True)
+class CaseText:
+    """What an input file is to hold, before it is written.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Place of the file, there or not: it names the case, and paths in it are relative to its
+        folder.
+    text : str
+        All of it.
+    """
+
+    path: Path
+    text: str
+
+
+_DEEPEST = 20
+"""Tables and lists within one another that any input needs, and some more."""
+
+Source = str | Path | CaseText | Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Document:
+    """What stands in an input file.
+
+    Attributes
+    ----------
+    name : str
+        Stem of the file.
+    folder : pathlib.Path
+        Folder that paths in it are relative to.
+    data : dict
+        Its tables with the overrides.
+    faults : Faults
+        Takes what is wrong with it.
+    """
+
+    name: str
+    folder: Path
+    data: dict[str, Any]
+    faults: Faults
+
+
+def read_document(source: Source, overrides: Sequence[str]) -> Document:
+    """Read a TOML file, or take its text or a mapping with the same tables.
+
+    Parameters
+    ----------
+    source : path, CaseText or mapping
+        A TOML file, its text, or its tables as dictionaries (paths in it are then relative to
+        the working directory).
+    overrides : sequence of str
+        ``table.key=VALUE``; VALUE is TOML, else a string.
+
+    Returns
+    -------
+    Document
+        Not yet checked.
+
+    Raises
+    ------
+    CaseError
+        It cannot be read, or an override cannot be applied.
+    """
+    if isinstance(source, Mapping):
+        file, name, text, folder = "case", "case", "", Path()
+        _check_depth(dict(source), file)
+        data = copy.deepcopy(dict(source))
+    else:
+        path = source.path if isinstance(source, CaseText) else Path(source)
+        file, name, folder = str(path), path.stem, path.parent
+        text = source.text if isinstance(source, CaseText) else _read(path)
+        data = _parsed(path, text)
+    faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
+    written = copy.deepcopy(data)
+    for item in overrides:
+        _override(data, item)
+    return Document(name, folder, retitled(data, written), faults)
+
+
+def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables whose title tells what is no longer as it was written under that title.
+
+    Parameters
+    ----------
+    tables : mapping
+        The tables as they are used.
+    written : mapping
+        As they were written.
+
+    Returns
+    -------
+    dict
+        The tables; without a title, or with one that is new itself, as they are.
+
+    Examples
+    --------
+    >>> written = {"title": "Hoist", "sprocket": {"teeth": 20, "profile": "evolute"}}
+    >>> retitled({"title": "Hoist", "sprocket": {"teeth": 25, "profile": "evolute"}}, written)["title"]
+    'Hoist, with sprocket.teeth = 25'
+    """
+    title, now, before = tables.get("title"), dict(leaves(tables)), dict(leaves(written))
+    if not isinstance(title, str) or not title or title != written.get("title"):
+        return dict(tables)
+    changes = {
+        "with": [f"{key} = {_shown(now[key])}" for key in now if now[key] != before.get(key)],
+        "without": [key for key in before if key not in now],
+    }
+    told = [f", {word} {', '.join(keys)}" for word, keys in changes.items() if keys]
+    return {**tables, "title": "".join([title, *told])}
+
+
+def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Give every key of some tables.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables of an input file.
+    prefix : str
+        Dotted name of the table that they stand in and a dot.
+
+    Yields
+    ------
+    str
+        Dotted key, tables of a list by their numbers from 1.
+    object
+        Its value.
+
+    Examples
+    --------
+    >>> dict(leaves({"duty": [{"speed_rpm": 1}], "title": "A"}))
+    {'duty.1.speed_rpm': 1, 'title': 'A'}
+    """
+    for name, value in tables.items():
+        if isinstance(value, Mapping):
+            yield from leaves(value, f"{prefix}{name}.")
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            for number, entry in enumerate(value, start=1):
+                yield from leaves(entry, f"{prefix}{name}.{number}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+def _shown(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise CaseError(
+            [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
+        ) from None
+    except UnicodeDecodeError:
+        raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
+
+
+def _parsed(path: Path, text: str) -> dict[str, Any]:
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"\(at line (\d+), column \d+\)", str(error))
+        line = int(place.group(1)) if place else text.count("\n") + 1
+        raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
+    except (ValueError, RecursionError) as error:
+        raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
+    _check_depth(data, str(path), text)
+    return data
+
+
+def _check_depth(data: dict[str, Any], file: str, text: str = "") -> None:
+    """Raise where tables or lists lie deeper within one another than any input needs."""
+    depth, level = 0, list[Any]([data])
+    while level:
+        depth += 1
+        level = [
+            entry
+            for place in level
+            for entry in (place.values() if isinstance(place, Mapping) else place)
+            if isinstance(entry, Mapping | list)
+        ]
+    if depth <= _DEEPEST:
+        return
+    lines = [line.partition("#")[0] for line in text.splitlines()]
+    deep = (number for number, line in enumerate(lines, 1) if _opened(line) >= _DEEPEST)
+    message = (
+        f"at most {_DEEPEST} tables or lists may lie within one another, not {depth}: remove some"
+    )
+    raise CaseError([Fault(message, "", file, next(deep, 0))])
+
+
+def _opened(line: str) -> int:
+    """Tables and lists that a line opens."""
+    return sum(line.count(sign) for sign in ".[{")
+
+
+def _bare(raw: str) -> float | str:
+    """Return what is not TOML: a number such as .5, else the text itself."""
+    try:
+        return float(raw)
+    except ValueError:
+        return raw
+
+
+def _override(data: dict[str, Any], item: str) -> None:
+    key, equals, raw = item.partition("=")
+    key, raw = key.strip(), raw.strip()
+    if not equals or not all(key.split(".")):
+        raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
+    try:
+        value = tomllib.loads(f"value = {raw}")["value"]
+    except (ValueError, RecursionError):
+        value = _bare(raw)
+    *tables, last = key.split(".")
+    place: Any = data
+    for table in tables:
+        place = place.setdefault(table, {})
+        if not isinstance(place, dict):
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
+    place[last] = value
+    _check_depth(data, f"--set {tables[0] if tables else last}")

@@ -1,0 +1,135 @@
+"""The keys that an input file may hold, by their dotted names."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from wearsim.input.schema import CaseTables
+from wearsim.input.schema.table import Table
+
+
+def schema_of(tables: Mapping[str, Any]) -> type[Table]:
+    """Return the schema that a case is read by.
+
+    Parameters
+    ----------
+    tables : mapping
+        What stands in it.
+
+    Returns
+    -------
+    type
+        That of gear pairs or that of chain drives.
+
+    Examples
+    --------
+    >>> schema_of({"chain": {}}).__name__, schema_of({"gear": {}}).__name__
+    ('CaseTables', 'GearTables')
+    """
+    if "gear" not in tables:
+        return CaseTables
+    # Models of tables take time to build, and most cases are not of gears.
+    from wearsim.input.schema.gear import GearTables
+
+    return GearTables
+
+
+def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
+    """Give every key of a schema but those of tables by the dotted names of other keys.
+
+    Parameters
+    ----------
+    model : type
+        Tables of an input file.
+    prefix : str
+        Dotted name of the table and a dot.
+
+    Yields
+    ------
+    str
+        Dotted key; a list of tables has ``[]`` after its name.
+    pydantic.fields.FieldInfo
+        What it may hold.
+
+    Examples
+    --------
+    >>> from wearsim.input.schema import CaseTables
+    >>> keys = dict(schema_fields(CaseTables))
+    >>> "run.horizon_hours" in keys, "duty[].speed_rpm" in keys
+    (True, True)
+    """
+    for name, field in model.model_fields.items():
+        if any(get_origin(part) is dict for part in parts(field.annotation)):
+            continue
+        tables = list(tables_in(field.annotation))
+        many = "[]" if any(get_origin(part) is list for part in parts(field.annotation)) else ""
+        for table in tables:
+            yield from schema_fields(table, f"{prefix}{name}{many}.")
+        if not tables:
+            yield f"{prefix}{name}", field
+
+
+def words(field: FieldInfo) -> tuple[str, ...]:
+    """Return the words that a key may hold.
+
+    Parameters
+    ----------
+    field : pydantic.fields.FieldInfo
+        What it may hold.
+
+    Returns
+    -------
+    tuple of str
+        Empty where any text or only numbers are allowed.
+
+    Examples
+    --------
+    >>> from wearsim.input.schema import CaseTables
+    >>> words(dict(schema_fields(CaseTables))["mechanism.kind"])
+    ('strand', 'prescribed', 'wrap')
+    """
+    found: list[str] = []
+    for part in parts(field.annotation):
+        if get_origin(part) is Literal:
+            found += [word for word in get_args(part) if isinstance(word, str)]
+        if part is bool:
+            found += ["true", "false"]
+    return tuple(found)
+
+
+def parts(annotation: Any) -> Iterator[Any]:
+    """Give a type and all types that it is made of.
+
+    Parameters
+    ----------
+    annotation : object
+        Of a key; of a choice of words the words are no types.
+
+    Yields
+    ------
+    object
+        The type, then its parts.
+    """
+    yield annotation
+    if get_origin(annotation) is not Literal:
+        for inner in get_args(annotation):
+            yield from parts(inner)
+
+
+def tables_in(annotation: Any) -> Iterator[type[Table]]:
+    """Give the tables that a type is made of.
+
+    Parameters
+    ----------
+    annotation : object
+        Of a key.
+
+    Yields
+    ------
+    type
+        Itself, or those in a list or a choice.
+    """
+    for part in parts(annotation):
+        if isinstance(part, type) and issubclass(part, Table):
+            yield part

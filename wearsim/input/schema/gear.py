@@ -1,0 +1,170 @@
+"""The input of a life of a gear pair."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
+from wearsim.input.schema.material import MaterialTable
+from wearsim.input.schema.optimise import OptimiseTable
+from wearsim.input.schema.run import Depth, RunTable
+from wearsim.input.schema.stress_along_line import stress_conflicts
+from wearsim.input.schema.table import Table
+from wearsim.input.schema.uncertainty import Uncertainty
+from wearsim.input.schema.wear import WearTable
+from wearsim.input.units import Number, Positive, PositiveNumber, Series, Signed, Speed
+
+Teeth = Annotated[int, Field(ge=5, le=1000)]
+
+
+_KEYS = {
+    "involute": (
+        "pressure_angle_deg", "pinion_shift", "wheel_shift", "pinion_tip_radius_mm",
+        "wheel_tip_radius_mm",
+    ),
+    "convex_concave": (
+        "pole_angle_deg", "head_arc_radius_mm", "foot_arc_radius_mm", "addendum_ratio",
+    ),
+    "prescribed_stress": (
+        "contact_stress_MPa", "stress_pole_distance_mm", "design_torque_N_m",
+        "first_pole_distance_mm", "last_pole_distance_mm",
+    ),
+}  # fmt: skip
+_NEEDED = (
+    "head_arc_radius_mm", "contact_stress_MPa", "first_pole_distance_mm", "last_pole_distance_mm",
+)  # fmt: skip
+
+
+class GearTable(Table):
+    """The pair: spur gears without backlash, of a profile with its own keys."""
+
+    profile: Literal["involute", "convex_concave", "prescribed_stress"] = "involute"
+    pinion_teeth: Teeth
+    wheel_teeth: Teeth
+    module_mm: Positive
+    face_width_mm: Positive
+    nodes: Annotated[int, Field(ge=21, le=2001)] | None = None
+    pressure_angle_deg: Annotated[PositiveNumber, Field(ge=10.0, le=35.0)] | None = None
+    pinion_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] | None = None
+    wheel_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] | None = None
+    pinion_tip_radius_mm: Positive | None = None
+    wheel_tip_radius_mm: Positive | None = None
+    pole_angle_deg: Annotated[Positive, Field(lt=45.0)] | None = None
+    head_arc_radius_mm: Positive | None = None
+    foot_arc_radius_mm: Positive | None = None
+    addendum_ratio: PositiveNumber | None = None
+    contact_stress_MPa: Series | None = None
+    stress_pole_distance_mm: Series | None = None
+    design_torque_N_m: Positive | None = None
+    first_pole_distance_mm: Annotated[Signed, Field(lt=0.0)] | None = None
+    last_pole_distance_mm: Annotated[Signed, Field(gt=0.0)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = [
+            (key, f"belongs to profile = {owner!r}: remove it")
+            for owner, keys in _KEYS.items()
+            if owner != self.profile
+            for key in keys
+            if getattr(self, key) is not None
+        ]
+        found += [
+            (key, f"profile = {self.profile!r} needs this key")
+            for key in _KEYS[self.profile]
+            if key in _NEEDED and getattr(self, key) is None
+        ]
+        if self.contact_stress_MPa is not None:
+            stress, distance = self.contact_stress_MPa, self.stress_pole_distance_mm
+            names = ("contact_stress_MPa", "stress_pole_distance_mm")
+            found += stress_conflicts(stress, distance, names)
+        if not found and self.stress_pole_distance_mm is not None:
+            given, ends = self.stress_pole_distance_mm, self.reach
+            if not given[0] <= ends[0] < ends[1] <= given[-1]:
+                message = f"must reach from {ends[0]:g} to {ends[1]:g} as contact does"
+                found.append(
+                    ("stress_pole_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})")
+                )
+        return found
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Distances from the pole at which contact starts and ends [mm]."""
+        return self.first_pole_distance_mm or 0.0, self.last_pole_distance_mm or 0.0
+
+
+class GearMaterialsTable(Table):
+    """The materials in contact."""
+
+    pinion: MaterialTable = MaterialTable()
+    wheel: MaterialTable = MaterialTable()
+
+
+class GearMechanismTable(Table):
+    """How pairs of teeth share the load."""
+
+    kind: Literal["gear_pair"] = "gear_pair"
+    load_sharing: Literal["elastic", "rigid"] = "elastic"
+    pair_stiffness_N_per_mm_um: Annotated[Positive, Field(le=1000.0)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.load_sharing == "elastic" or self.pair_stiffness_N_per_mm_um is None:
+            return []
+        return [
+            ("pair_stiffness_N_per_mm_um", "does not belong to load_sharing = 'rigid': remove it")
+        ]
+
+
+class GearLoadTable(Table):
+    """Torque and speed of the pinion."""
+
+    torque_N_m: Positive
+    speed_rpm: Speed
+
+
+class GearWearTable(WearTable):
+    """The wear law of the pinion, and the wheel's coefficient over its."""
+
+    wheel_wear_ratio: Annotated[PositiveNumber, Field(ge=1e-4, le=1e4)] = 1.0
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        chains = {
+            "condition": "wear conditions are those of sprockets: give specific_wear_rate_mm2_per_N",
+            "roller_wear_ratio": "belongs to chains: remove it",
+            "case_depth_mm": "a hardened layer is not told apart on gears: remove it",
+            "core_factor": "a hardened layer is not told apart on gears: remove it",
+        }
+        found = [(key, text) for key, text in chains.items() if getattr(self, key) is not None]
+        return found + [entry for entry in super().conflicts() if entry[0] not in chains]
+
+
+class GearStopTable(Table):
+    """Limits of the worn flanks; the first one met ends the life."""
+
+    critical_depth_mm: Depth
+    wheel_critical_depth_mm: Depth | None = None
+
+
+class GearFatigueTable(FatigueTable):
+    """Contact fatigue of both gears."""
+
+    pinion: FlankMaterialTable
+    wheel: FlankMaterialTable
+
+
+class GearTables(CalculationTables):
+    """The whole file."""
+
+    title: str = ""
+    gear: GearTable
+    material: GearMaterialsTable = GearMaterialsTable()
+    mechanism: GearMechanismTable = GearMechanismTable()
+    load: GearLoadTable
+    wear: GearWearTable
+    fatigue: GearFatigueTable | None = None
+    stop: GearStopTable
+    run: RunTable = RunTable()
+    uncertainty: Uncertainty | None = None
+    optimise: OptimiseTable | None = None

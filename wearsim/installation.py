@@ -1,0 +1,203 @@
+"""Is this installation in order? Each thing looked at says what was found and what to do."""
+
+import importlib
+import os
+import platform
+import re
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+import wearsim
+from wearsim._version import __version__
+from wearsim.extras import Library, libraries
+
+LOWEST_PYTHON, NEWEST_PYTHON = (3, 11), (3, 13)
+"""Python that all quick tests have passed on."""
+
+KNOWN_CYCLES = 26_102_090.0
+"""Life of the case of the self-test by an independent program, to six digits."""
+
+_BROWSERS = (
+    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at.
+
+    Attributes
+    ----------
+    name : str
+        What it is.
+    state : str
+        ``ok``; ``note`` for what works but should be known; ``failed`` for what must be mended.
+    found : str
+        What was found.
+    advice : str
+        What to do, empty where there is nothing to do.
+    """
+
+    name: str
+    state: str
+    found: str
+    advice: str = ""
+
+
+def findings(case: Path | None) -> list[Finding]:
+    """Look at everything that wearsim needs or can use.
+
+    Parameters
+    ----------
+    case : pathlib.Path or None
+        The shipped case with the known life; None where it is missing.
+
+    Returns
+    -------
+    list of Finding
+        In the order to read them in.
+    """
+    return [
+        Finding("wearsim", "ok", f"{__version__} in {Path(__file__).parent}"),
+        _python(),
+        Finding("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
+        *(_version(known) for known in libraries() if not known.extra),
+        _guarded("cache of kernels", _cache),
+        _guarded("self-test", lambda: _self_test(case)),
+        _guarded("threads", _threads),
+        _temporary_folder(),
+        _working_folder(),
+        *_extras(),
+        _browser(),
+    ]
+
+
+def _guarded(name: str, look: Callable[[], Finding]) -> Finding:
+    """Make a finding of whatever goes wrong while looking: a broken library raises anything."""
+    try:
+        return look()
+    except Exception as error:
+        text = f"{type(error).__name__}: {error}".splitlines()[0]
+        return Finding(name, "failed", text, "install wearsim anew in a fresh virtual environment")
+
+
+def _python() -> Finding:
+    version, found = sys.version_info[:2], f"{platform.python_version()} in {sys.executable}"
+    if version < LOWEST_PYTHON:
+        return Finding("Python", "failed", found, "install Python 3.11 or newer")
+    if version > NEWEST_PYTHON:
+        return Finding("Python", "note", found, "newer than tested (3.11 to 3.13)")
+    return Finding("Python", "ok", found)
+
+
+def _version(known: Library) -> Finding:
+    wanted = f"{known.lowest} to {known.newest} are tested"
+    try:
+        version = metadata.version(known.name)
+    except metadata.PackageNotFoundError:
+        advice = f"pip install '{known.name}>={known.lowest}'"
+        return Finding(known.name, "failed", "not installed", advice)
+    if _numbers(version) < _numbers(known.lowest):
+        advice = f"{wanted}: pip install '{known.name}>={known.lowest}'"
+        return Finding(known.name, "failed", version, advice)
+    if _numbers(version)[:2] > _numbers(known.newest)[:2]:
+        return Finding(known.name, "note", version, f"newer than tested: {wanted}")
+    return Finding(known.name, "ok", version)
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    """Return the numbers of a release, such as (2, 4, 6)."""
+    head = re.match(r"\d+(?:\.\d+)*", version)
+    return tuple(int(part) for part in head.group().split(".")) if head else (0,)
+
+
+def _cache() -> Finding:
+    from wearsim.kernels.compiled import cache_folder
+
+    name, folder = "cache of kernels", cache_folder()
+    if folder is None:
+        advice = "every start compiles anew: set NUMBA_CACHE_DIR to a folder that can be written"
+        return Finding(name, "failed", "no folder can be written", advice)
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    size = sum(path.stat().st_size for path in files) / 1e6
+    found = f"{folder}: {len(files)} files, {size:.1f} MB"
+    if folder.is_relative_to(tempfile.gettempdir()) and not os.environ.get("NUMBA_CACHE_DIR"):
+        advice = "lost with the temporary folder: make the cache folder of your home writable"
+        return Finding(name, "note", found, advice)
+    return Finding(name, "ok", found)
+
+
+def _self_test(case: Path | None) -> Finding:
+    """Run the shipped benchmark and compare its life."""
+    name = "self-test"
+    if case is None:
+        text = "the shipped case hertz-arc-prescribed.toml is missing"
+        return Finding(name, "failed", text, "install wearsim anew: files are missing")
+    start = time.perf_counter()
+    cycles = wearsim.simulate(wearsim.load_case(case)).cycles
+    seconds = time.perf_counter() - start
+    error = abs(cycles / KNOWN_CYCLES - 1.0)
+    found = f"a life of {cycles:.0f} cycles in {seconds:.2g} s, {KNOWN_CYCLES:.0f} is right"
+    if error > 1e-4:
+        advice = "trust no result of this machine: empty the cache of kernels, install wearsim anew"
+        return Finding(name, "failed", found, advice)
+    return Finding(name, "ok", found)
+
+
+def _threads() -> Finding:
+    numba = importlib.import_module("numba")
+    return Finding("threads", "ok", f"{numba.config.NUMBA_NUM_THREADS} of {os.cpu_count()} cores")
+
+
+def _temporary_folder() -> Finding:
+    advice = "set TMPDIR to a folder that can be written"
+    try:
+        return _writable("temporary folder", Path(tempfile.gettempdir()), advice)
+    except OSError as error:
+        return Finding("temporary folder", "failed", str(error), advice)
+
+
+def _working_folder() -> Finding:
+    advice = "go to a folder that can be written, or name one by --out"
+    try:
+        return _writable("working folder", Path.cwd(), advice)
+    except OSError as error:
+        return Finding("working folder", "failed", str(error), advice)
+
+
+def _writable(name: str, folder: Path, advice: str) -> Finding:
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(4096))
+            file.flush()
+    except OSError as error:
+        return Finding(name, "failed", f"{folder}: {error.strerror or error}", advice)
+    return Finding(name, "ok", str(folder))
+
+
+def _extras() -> Iterator[Finding]:
+    """Give each extra; what is not installed is only noted."""
+    extras: dict[str, list[Finding]] = {}
+    for known in libraries():
+        if known.extra:
+            extras.setdefault(known.extra, []).append(_version(known))
+    for extra, found in extras.items():
+        text = ", ".join(f"{one.name} {one.found}" for one in found)
+        fine = all(one.state == "ok" for one in found)
+        missing = any(one.state == "failed" for one in found)
+        advice = f"pip install 'wearsim[{extra}]'" if missing else "newer than tested"
+        yield Finding(f"extra {extra}", "ok" if fine else "note", text, "" if fine else advice)
+
+
+def _browser() -> Finding:
+    found = next((path for name in _BROWSERS if (path := shutil.which(name))), None)
+    if found is None:
+        advice = "install Chromium or Chrome to test pages of reports"
+        return Finding("browser", "note", "none found", advice)
+    return Finding("browser", "ok", found)

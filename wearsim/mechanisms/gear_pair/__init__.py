@@ -1,0 +1,1 @@
+"""A pair of gears whose flanks wear each other."""

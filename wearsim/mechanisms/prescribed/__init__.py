@@ -1,0 +1,1 @@
+"""A flank whose load and sliding are given."""

@@ -1,0 +1,1 @@
+"""Rollers of a straight strand on a flank."""

@@ -1,0 +1,1 @@
+"""A roller chain around a sprocket."""

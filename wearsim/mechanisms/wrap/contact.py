@@ -1,0 +1,389 @@
+"""What every gap of a wrapped sprocket meets in one revolution."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.errors import ConvergenceError, JumpError
+from wearsim.geometry.profile import Profile
+from wearsim.geometry.roller_path import WornPath, roller_path
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
+from wearsim.kernels.wrap_cycle import (
+    ARTICULATION_SLIP,
+    CYCLE_NUMBERS,
+    FACE_WIDTH,
+    LOWEST,
+    PATH_SLIP,
+    PHASE_TIME,
+    SHIFT,
+    START,
+    WRAP_ANGLE,
+    wrap_events,
+)
+from wearsim.kernels.wrap_equilibrium import JUMPED, SEATED, WORK_ROWS
+from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+
+Rows = NDArray[np.float64]
+
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """How far rollers slide on the teeth.
+
+    Attributes
+    ----------
+    fraction : float
+        xi: of the articulation of a roller that does not turn.
+    path_fraction : float
+        Of the way along the flank: xi where the roller rolls up it, 1 where it slides.
+    """
+
+    fraction: float
+    path_fraction: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapBlock:
+    """A part of the duty of a wrap, in which tensions and speed are constant.
+
+    Attributes
+    ----------
+    share : float
+        Of the cycles; those of all blocks sum to 1.
+    mechanism : WrapMechanism
+        Rollers and chain under the tensions of this block.
+    pitch_time : float
+        Time in which the chain advances by one pitch [s].
+    wear_factor : float
+        On the wear coefficient.
+    """
+
+    share: float
+    mechanism: WrapMechanism
+    pitch_time: float
+    wear_factor: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapContact(Dwelling):
+    """Contact events of a wrap over one revolution, for the wear engine.
+
+    Attributes
+    ----------
+    blocks : tuple of WrapBlock
+        The duty; they differ in their tensions and speeds only.
+    face_width : float
+        b [mm].
+    phases : int
+        Phases of one pitch.
+    sliding : Sliding
+        How far rollers slide.
+    modulus : float
+        Contact modulus E* [MPa].
+    same_link_kind : bool
+        Whether a tooth meets only inner or only outer links for life.
+    elongation_per_cycle : float
+        Growth of the chain in a revolution of the sprocket, the mean over the blocks.
+    elongation_limit : float
+        Relative elongation at which a new chain is put on.
+    roller_area_ratio : float
+        Area of its section that a roller loses over that a gap would lose to it; 0 where
+        rollers do not wear.
+    slack_limit : float
+        Least slack tension at which the life ends once it is needed [N]; 0 for no such limit.
+    thin : bool
+        Whether each step of the wear takes other phases.
+    """
+
+    blocks: tuple[WrapBlock, ...]
+    face_width: float
+    phases: int
+    sliding: Sliding
+    modulus: float
+    same_link_kind: bool
+    elongation_per_cycle: float
+    elongation_limit: float
+    roller_area_ratio: float = 0.0
+    slack_limit: float = 0.0
+    thin: bool = False
+
+    @property
+    def mechanism(self) -> WrapMechanism:
+        """Rollers and chain in the first block."""
+        return self.blocks[0].mechanism
+
+    @property
+    def gripping(self) -> WrapMechanism:
+        """Rollers and chain in the block of the largest tension, in which the chain jumps first."""
+        return max((block.mechanism for block in self.blocks), key=lambda of: of.pull.tight)
+
+    @property
+    def slack_tension(self) -> float:  # type: ignore[override]
+        """Tension of the slack strand without the centrifugal part [N]."""
+        return self.mechanism.pull.slack
+
+    @property
+    def profile(self) -> Profile:
+        """Outline of a new gap."""
+        return self.mechanism.outline
+
+    @property
+    def bodies(self) -> int:
+        """Gaps told apart: two where every gap meets only one kind of link."""
+        return 2 if self.mechanism.chain.alternating and self.same_link_kind else 1
+
+    @property
+    def roller_radius(self) -> float:
+        """Radius of the roller [mm]."""
+        return self.mechanism.chain.roller_radius
+
+    @property
+    def thinnest_roller(self) -> float:  # type: ignore[override]
+        """Radius of the bush that the rollers turn on [mm]."""
+        return self.mechanism.chain.bush_radius
+
+    @property
+    def most(self) -> int:
+        """Most rollers in the wrap at once."""
+        return self.mechanism.rollers(0.0)
+
+    @property
+    def sliding_per_cycle(self) -> float:
+        """Way that the rollers slide in a new gap in a cycle of a new chain [mm], the mean of the duty."""
+        x, y = (np.tile(row, (self.bodies, 1)) for row in (self.profile.x, self.profile.y))
+        blocks = tuple(replace(block, wear_factor=1.0) for block in self.blocks)
+        table = replace(self, blocks=blocks).events(x, y, NEW_CHAIN, self.memory())
+        return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
+
+    def coarsened(self) -> "WrapContact":
+        """Return the same contact on every second point of the outline and three quarters of the phases.
+
+        Returns
+        -------
+        WrapContact
+            Both ends are kept.
+        """
+        outline = self.profile
+        points = outline.x.size
+        keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
+        coarse = Profile(outline.x[keep], outline.y[keep])
+        return replace(self.on_outline(coarse), phases=max(1, 3 * self.phases // 4))
+
+    def on_outline(self, outline: Profile) -> "WrapContact":
+        """Return the same contact on another outline.
+
+        Parameters
+        ----------
+        outline : Profile
+            Gap from its right tip through the seat to its left tip.
+
+        Returns
+        -------
+        WrapContact
+            With the roller path of that outline in every block.
+        """
+        path = roller_path(outline, self.roller_radius, (outline.x.size + 1) // 2)
+        blocks = tuple(
+            replace(block, mechanism=replace(block.mechanism, outline=outline, path=path))
+            for block in self.blocks
+        )
+        return replace(self, blocks=blocks)
+
+    def thinned(self) -> "WrapContact":
+        """Return the same contact with a quarter of the phases, others for each step of the wear.
+
+        Returns
+        -------
+        WrapContact
+            With two phases at least if it has as many.
+        """
+        return replace(self, phases=max(min(self.phases, 2), self.phases // 4), thin=True)
+
+    def at(self, step: int) -> float:
+        """Return which phases a step of the wear takes.
+
+        Parameters
+        ----------
+        step : int
+            Number of the step from 0.
+
+        Returns
+        -------
+        float
+            Place in every phase's part of the pitch, 0 to 1: its middle, but of a thinned
+            contact one step on by the golden section from the next, which spreads evenly.
+        """
+        return (0.5 + step * _GOLDEN) % 1.0 if self.thin else 0.5
+
+    def memory(self) -> Rows:
+        """Return the places where no roller has been found yet.
+
+        Returns
+        -------
+        numpy.ndarray
+            Below zero, shape (blocks, kinds of link, phases, most rollers).
+        """
+        configurations = 2 if self.mechanism.chain.alternating else 1
+        return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
+
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
+        """Return what worn gaps meet in one revolution.
+
+        Equation physics.md (W9), of the slip where the chain articulates.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+        memory : numpy.ndarray
+            Where the rollers were last; replaced by where they are.
+        at : float, optional
+            From 0 to 1: place of every phase in its part of the pitch; the middle otherwise.
+
+        Returns
+        -------
+        numpy.ndarray
+            Table of events, a column for every block, kind of link, phase and roller. How
+            often each comes in a cycle holds its block's share and factor on wear. All
+            zero where the chain is not pulled.
+
+        Raises
+        ------
+        JumpError
+            The chain jumps.
+        ConvergenceError
+            No equilibrium is found.
+        """
+        worn = self.worn_paths(x, y, wear)
+        tables = [
+            self._block_events(block, worn, wear, places, at)
+            for block, places in zip(self.blocks, memory, strict=True)
+        ]
+        return np.concatenate(tables, axis=1)
+
+    def worn_paths(self, x: Rows, y: Rows, wear: ChainWear) -> tuple[WornPath, ...]:
+        """Return where the centres of a chain's rollers can be in worn gaps.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+
+        Returns
+        -------
+        tuple of WornPath
+            One for each body.
+        """
+        path = replace(self.mechanism.path, roller_radius=self.roller_radius - wear.roller)
+        return tuple(path.worn(x[body], y[body]) for body in range(self.bodies))
+
+    def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+        """Tell whether worn gaps hold the chain with the least slack tension allowed.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+
+        Returns
+        -------
+        bool
+            True where there is no such limit.
+        """
+        if not self.slack_limit:
+            return True
+        mechanism = self.gripping.with_slack(self.slack_limit)
+        return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
+
+    def _block_events(
+        self,
+        block: WrapBlock,
+        worn: tuple[WornPath, ...],
+        wear: ChainWear,
+        memory: Rows,
+        at: float,
+    ) -> Rows:
+        """Return what worn gaps meet in one revolution of a block, times its share."""
+        mechanism = block.mechanism
+        table = np.zeros((EVENT_ROWS, memory.size))
+        if not mechanism.pull.tight > 0.0:
+            return table
+        configurations, _, most = memory.shape
+        positions = np.where(
+            memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn])
+        )
+        loci = np.array([path.locus for path in worn])
+        numbers = np.zeros(CYCLE_NUMBERS)
+        numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
+        numbers[ARTICULATION_SLIP] = (
+            self.sliding.fraction * (self.roller_radius - wear.roller) * mechanism.pitch_angle
+        )
+        numbers[PATH_SLIP] = self.sliding.path_fraction
+        numbers[PHASE_TIME] = block.pitch_time / self.phases
+        numbers[SHIFT] = at
+        numbers[START] = mechanism.start(wear.elongation, loci[0])
+        numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
+        status = wrap_events(
+            loci, np.array([path.touched for path in worn]), configurations, self.phases, most,
+            block.share * block.wear_factor * self.bodies / configurations,
+            mechanism.constants(wear.elongation), numbers, positions,
+            np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
+            np.zeros(most), table,
+        )  # fmt: skip
+        if status == JUMPED:
+            raise JumpError(
+                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the rollers must "
+                "hold the chain, but it jumps on the worn teeth: raise the slack tension or replace the "
+                "chain earlier"
+            )
+        if status != SEATED:
+            raise ConvergenceError(
+                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the solver must find where the "
+                "rollers rest in the worn gaps, but does not: use other nodes or phases"
+            )
+        memory[:] = self._by_body(positions, [path.node_place for path in worn])
+        return table
+
+    def _by_body(self, values: Rows, functions: "list[Callable[[Rows], Rows]]") -> Rows:
+        """Apply to the rollers of every body the function of that body."""
+        if len(functions) == 1:
+            return functions[0](values)
+        configuration, _, roller = np.indices(values.shape)
+        found = np.empty_like(values)
+        for body, function in enumerate(functions):
+            where = (configuration + roller) % len(functions) == body
+            found[where] = function(values[where])
+        return found
+
+    def assumptions(self) -> list[str]:
+        """Return what this picture takes for granted.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+        sliding = self.sliding
+        return [
+            *self.mechanism.assumptions(),
+            f"a roller slides {sliding.fraction:g} of the articulation of "
+            f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the "
+            f"last tooth, and {sliding.path_fraction:g} of its way along the flank",
+            "pressure from the half-space contact of the roller in the worn gap; "
+            + ("rollers wear all round" if self.roller_area_ratio else "rollers do not wear"),
+            "every tooth alike"
+            if self.bodies == 1
+            else "teeth of two kinds: those that meet inner and those that meet outer links",
+        ]

@@ -1,0 +1,480 @@
+"""A roller chain around a sprocket: tension from tooth to tooth, and where each roller sits."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.errors import ContactError
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.roller_path import RollerPath, WornPath
+from wearsim.kernels.wrap_cycle import LOOSEST
+from wearsim.kernels.wrap_equilibrium import (
+    CENTRE_X,
+    CENTRE_Y,
+    CONSTANTS,
+    FRICTION,
+    JUMPED,
+    NORMAL_X,
+    NORMAL_Y,
+    PITCH_ANGLE,
+    PITCH_EVEN,
+    PITCH_ODD,
+    SEATED,
+    SLACK_TENSION,
+    STALLED,
+    STIFFNESS,
+    TIGHT_TENSION,
+    WORK_ROWS,
+    residual,
+    solve_wrap,
+)
+
+_PHASES = 9
+"""Phases of a pitch, ends included, in which a chain is tried for jumping."""
+
+_TOLERANCE = 1e-9
+"""Force along a locus left unbalanced, as a fraction of the tight tension."""
+
+
+@dataclass(frozen=True)
+class WrapChain:
+    """What the wrap needs to know of the chain.
+
+    Attributes
+    ----------
+    pitch : float
+        p of the new chain [mm].
+    roller_radius : float
+        d1/2 [mm].
+    bush_radius : float
+        Outer radius of the bush that the roller turns on [mm].
+    link_stiffness : float
+        Force over lengthening of one link [N/mm].
+    alternating : bool
+        Joint wear lengthens every other link by twice as much, as it does; else every link alike.
+    """
+
+    pitch: float
+    roller_radius: float
+    bush_radius: float
+    link_stiffness: float
+    alternating: bool
+
+    def pitches(self, elongation: float) -> tuple[float, float]:
+        """Return the pitches of an inner and of an outer link.
+
+        Equation physics.md (W7).
+
+        Parameters
+        ----------
+        elongation : float
+            Mean relative elongation of the chain.
+
+        Returns
+        -------
+        tuple of float
+            p and p (1 + 2 eps), or p (1 + eps) twice [mm].
+        """
+        if self.alternating:
+            return self.pitch, self.pitch * (1.0 + 2.0 * elongation)
+        longer = self.pitch * (1.0 + elongation)
+        return longer, longer
+
+
+@dataclass(frozen=True)
+class Pull:
+    """Tensions of the two strands and the friction of the rollers.
+
+    Attributes
+    ----------
+    tight, slack : float
+        Tension without the centrifugal part [N].
+    driver : bool
+        Whether the sprocket drives the chain.
+    friction_roller_tooth, friction_roller_bush : float
+        Coefficients of friction.
+    """
+
+    tight: float
+    slack: float
+    driver: bool
+    friction_roller_tooth: float
+    friction_roller_bush: float
+
+
+@dataclass(frozen=True, eq=False)
+class WrapLoads:
+    """Equilibrium of the rollers of a wrap in one phase, tooth 1 at the tight end.
+
+    Equation physics.md (W2), of the pressure angle.
+
+    Attributes
+    ----------
+    tension : numpy.ndarray
+        Of the link on the tight side of each roller, without the centrifugal part [N].
+    force : numpy.ndarray
+        Normal force on each tooth [N].
+    pressure_angle : numpy.ndarray
+        90 degrees - theta - 180/z with the contact's angle theta from the inward radius [rad].
+    seat_radius : numpy.ndarray
+        Distance of the roller's centre from the sprocket's [mm].
+    radius_shift : numpy.ndarray
+        The same less the pitch radius [mm].
+    contact_arc_length : numpy.ndarray
+        Where the outline is touched, from its right tip [mm].
+    centre : numpy.ndarray
+        Roller centres in the frame of the first gap [mm], shape (rollers, 2).
+    normal : numpy.ndarray
+        Unit normals out of the teeth there, shape (rollers, 2).
+    tight_direction, slack_direction : numpy.ndarray
+        Unit vectors along the strands, away from the sprocket.
+    """
+
+    tension: Vector
+    force: Vector
+    pressure_angle: Vector
+    seat_radius: Vector
+    radius_shift: Vector
+    contact_arc_length: Vector
+    centre: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    tight_direction: Vector
+    slack_direction: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class WrapMechanism:
+    """Rollers in the gaps of a sprocket under the tensions of two strands.
+
+    Elastic links between rollers that sit on the roller path of their gap; of all places
+    the rollers take those of least potential energy, physics.md (W3). Teeth are rigid.
+
+    Attributes
+    ----------
+    outline : Profile
+        Unworn gap from its right tip through the seat to its left tip (the tight side).
+    path : RollerPath
+        Its line of roller centres.
+    pitch_angle : float
+        Angle between successive rollers, 2 pi/z [rad].
+    wrap_angle : float
+        Between the points where the straight strands touch the pitch circle [rad].
+    chain : WrapChain
+        The chain.
+    pull : Pull
+        Tensions and friction.
+    """
+
+    outline: Profile
+    path: RollerPath
+    pitch_angle: float
+    wrap_angle: float
+    chain: WrapChain
+    pull: Pull
+
+    @property
+    def pitch_radius(self) -> float:
+        """Radius of the circle through the roller centres of a new chain [mm].
+
+        Equation physics.md (W1).
+        """
+        return 0.5 * self.chain.pitch / math.sin(0.5 * self.pitch_angle)
+
+    @property
+    def friction_angle_tangent(self) -> float:
+        """Friction along the flank over normal force, the least of slipping there and on the bush.
+
+        A roller that would slip on its bush first rolls on the flank (Naji & Marshek 1983,
+        with the two radii).
+
+        Equation physics.md (W8).
+        """
+        pull, chain = self.pull, self.chain
+        on_bush = pull.friction_roller_bush * chain.bush_radius / chain.roller_radius
+        return min(pull.friction_roller_tooth, on_bush)
+
+    @cached_property
+    def unworn(self) -> WornPath:
+        """Roller path of the unworn gap."""
+        return self.path.worn(np.array(self.outline.x), np.array(self.outline.y))
+
+    def rollers(self, phase: float) -> int:
+        """Return the number of rollers between the straight strands.
+
+        Parameters
+        ----------
+        phase : float
+            0 where the first roller has just come straight off the strand, 1 where the
+            next one is about to.
+
+        Returns
+        -------
+        int
+            About wrap angle over pitch angle.
+        """
+        return max(1, math.ceil(self.wrap_angle / self.pitch_angle + 1.0 - phase - 1e-9))
+
+    def angles(self, phase: float) -> tuple[float, float]:
+        """Return how far both strands point below the tangents at the first and last roller.
+
+        Parameters
+        ----------
+        phase : float
+            From 0 to 1.
+
+        Returns
+        -------
+        tuple of float
+            Tight and slack [rad], each within half a pitch angle of 0.
+        """
+        step = self.pitch_angle
+        tight = step * (phase - 0.5)
+        return tight, self.wrap_angle - tight - (self.rollers(phase) - 1) * step
+
+    def constants(self, elongation: float) -> Vector:
+        """Return the numbers that a solve takes.
+
+        Parameters
+        ----------
+        elongation : float
+            Relative elongation of the chain.
+
+        Returns
+        -------
+        numpy.ndarray
+            As ``kernels.wrap`` orders them.
+        """
+        numbers = np.empty(CONSTANTS)
+        numbers[PITCH_ANGLE] = self.pitch_angle
+        numbers[STIFFNESS] = self.chain.link_stiffness
+        numbers[PITCH_EVEN], numbers[PITCH_ODD] = self.chain.pitches(elongation)
+        numbers[TIGHT_TENSION], numbers[SLACK_TENSION] = self.pull.tight, self.pull.slack
+        numbers[FRICTION] = self.friction_angle_tangent * (1.0 if self.pull.driver else -1.0)
+        return numbers
+
+    def start(self, elongation: float, locus: NDArray[np.float64]) -> float:
+        """Return a node of the roller path to start a solve from: on the flank where a chain climbs to.
+
+        Parameters
+        ----------
+        elongation : float
+            Relative elongation of the chain.
+        locus : numpy.ndarray
+            Roller path, shape (4, nodes).
+
+        Returns
+        -------
+        float
+            Number of the node.
+        """
+        radius = np.hypot(locus[0], locus[1])
+        lowest = int(radius.argmin())
+        climbed = max(self.pitch_radius * (1.0 + elongation), radius[lowest])
+        above = np.flatnonzero(radius[lowest:] > climbed + 1e-3 * self.chain.roller_radius)
+        return float(lowest + above[0]) if above.size else float(locus.shape[1] - 2)
+
+    def loads(
+        self,
+        phase: float,
+        elongation: float = 0.0,
+        first: int = 0,
+        worn: tuple[WornPath, ...] = (),
+    ) -> WrapLoads:
+        """Return the equilibrium of one phase.
+
+        Parameters
+        ----------
+        phase : float
+            From 0 (first roller just seated) to 1 (the next one about to seat).
+        elongation : float
+            Relative elongation of the chain.
+        first : int
+            0 where the link after the first roller is an inner one, 1 for an outer one.
+        worn : tuple of WornPath
+            Roller paths of the gaps told apart, none for the unworn gap.
+
+        Returns
+        -------
+        WrapLoads
+            Row i is tooth i + 1 from the tight end.
+
+        Raises
+        ------
+        ContactError
+            The chain jumps: there is no equilibrium below the tips.
+        """
+        paths = worn or (self.unworn,)
+        status, position, work, tension, force = self._solve(
+            phase, elongation, first, paths[0].locus, paths[-1].locus
+        )
+        if status != SEATED:
+            raise ContactError(self._jump(phase, elongation, status))
+        count = force.size
+        turn = self.pitch_angle * np.arange(count)
+        centre = np.column_stack([work[CENTRE_X], work[CENTRE_Y]])
+        normal = np.column_stack([work[NORMAL_X], work[NORMAL_Y]])
+        across = normal[:, 0] * np.cos(turn) - normal[:, 1] * np.sin(turn)
+        up = normal[:, 0] * np.sin(turn) + normal[:, 1] * np.cos(turn)
+        places = [paths[(i + first) % len(paths)].touched for i in range(count)]
+        touched = np.array(
+            [np.interp(position[i], np.arange(places[i].size), places[i]) for i in range(count)]
+        )
+        arc = self.outline.arc_length
+        tight, slack = self.angles(phase)
+        last = turn[-1] + slack
+        radius = np.hypot(*centre.T)
+        return WrapLoads(
+            tension=tension[:-1],
+            force=force,
+            pressure_angle=0.5 * math.pi - np.arctan2(across, up) - 0.5 * self.pitch_angle,
+            seat_radius=radius,
+            radius_shift=radius - self.pitch_radius,
+            contact_arc_length=np.interp(touched, np.arange(arc.size), arc),
+            centre=centre,
+            normal=normal,
+            tight_direction=np.array([-math.cos(tight), -math.sin(tight)]),
+            slack_direction=np.array([math.cos(last), -math.sin(last)]),
+        )
+
+    def _solve(
+        self,
+        phase: float,
+        elongation: float,
+        first: int,
+        even: NDArray[np.float64],
+        odd: NDArray[np.float64],
+    ) -> tuple[int, Vector, NDArray[np.float64], Vector, Vector]:
+        count = self.rollers(phase)
+        constants = self.constants(elongation)
+        work, tension, force = np.zeros((WORK_ROWS, count)), np.zeros(count + 1), np.zeros(count)
+        # Near the tips a step from the flank can pass over them: the seat is the second try.
+        for start in (self.start(elongation, even), float(np.hypot(*even[:2]).argmin())):
+            position = np.full(count, start)
+            status = solve_wrap(
+                even, odd, first, count, constants, *self.angles(phase),
+                _TOLERANCE * self.pull.tight, position, work, tension, force,
+            )  # fmt: skip
+            if status == SEATED:
+                break
+        return int(status), position, work, tension, force
+
+    def _jump(self, phase: float, elongation: float, status: int) -> str:
+        what = "a roller climbs over its tooth" if status == JUMPED else "it finds no equilibrium"
+        least = self.smallest_slack_tension(elongation)
+        remedy = (
+            f"slack tension of at least {1.005 * least:.3g} N"  # rounded up
+            if least < math.inf
+            else "shorter elongation"
+        )
+        return (
+            f"wrap at an elongation of {100 * elongation:.3g} %, phase {phase:.3g}: the rollers must "
+            f"hold the chain with a slack tension of {self.pull.slack:.4g} N, but {what}: the chain "
+            f"jumps; give a {remedy}"
+        )
+
+    def holds(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> bool:
+        """Tell whether the rollers find an equilibrium in every phase.
+
+        Parameters
+        ----------
+        elongation : float
+            Relative elongation of the chain.
+        worn : tuple of WornPath
+            Roller paths of the gaps told apart, none for the unworn gap.
+
+        Returns
+        -------
+        bool
+            False where the chain jumps.
+        """
+        paths = worn or (self.unworn,)
+        firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
+        return all(
+            self._seated(phase, elongation, first, paths[0].locus, paths[-1].locus)
+            for first in firsts
+            for phase in np.linspace(0.0, 1.0, _PHASES)
+        )
+
+    def _seated(
+        self,
+        phase: float,
+        elongation: float,
+        first: int,
+        even: NDArray[np.float64],
+        odd: NDArray[np.float64],
+    ) -> bool:
+        """Tell whether the rollers rest, on a worn path as nearly as wear takes them to."""
+        status, _, work, _, force = self._solve(phase, elongation, first, even, odd)
+        if status == STALLED:
+            return bool(residual(force.size, work) <= LOOSEST * self.pull.tight)
+        return status == SEATED
+
+    def with_slack(self, slack: float) -> "WrapMechanism":
+        """Return the same wrap with another slack tension at the same difference of tensions.
+
+        Parameters
+        ----------
+        slack : float
+            Tension of the slack strand [N].
+
+        Returns
+        -------
+        WrapMechanism
+            The tight strand pulls as much more or less.
+        """
+        tight = self.pull.tight - self.pull.slack + slack
+        return replace(self, pull=replace(self.pull, tight=tight, slack=slack))
+
+    def smallest_slack_tension(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> float:
+        """Return the slack tension below which the chain jumps, at the same difference of tensions.
+
+        Parameters
+        ----------
+        elongation : float
+            Relative elongation of the chain.
+        worn : tuple of WornPath
+            Roller paths of the gaps told apart, none for the unworn gap.
+
+        Returns
+        -------
+        float
+            Tension [N] within 1 %, from above; infinite where no tension up to the pull holds.
+        """
+
+        def _holding(slack: float) -> bool:
+            return self.with_slack(slack).holds(elongation, worn)
+
+        low = 1e-9 * self.pull.tight
+        high = max(self.pull.tight - self.pull.slack, self.pull.slack)
+        if not _holding(high):
+            return math.inf
+        if _holding(low):
+            return low
+        while high > 1.01 * low:
+            middle = math.sqrt(low * high)
+            low, high = (low, middle) if _holding(middle) else (middle, high)
+        return high
+
+    def assumptions(self) -> list[str]:
+        """Return what this picture takes for granted.
+
+        Returns
+        -------
+        list of str
+            Sentences for the result.
+        """
+        pull = self.pull
+        friction = (
+            f"friction acts {'up' if pull.driver else 'down'} the working flank, "
+            f"{self.friction_angle_tangent:.3g} of the force"
+            if self.friction_angle_tangent
+            else "no friction between rollers and teeth"
+        )
+        return [
+            "rollers sit where the potential energy of the elastic chain is least; teeth are rigid, all "
+            "gaps alike, strands straight and at rest (no vibration, no impact)",
+            friction,
+        ]

@@ -1,0 +1,204 @@
+"""The answer: faults, life, margins, pictures, and what all of it rests on."""
+
+from collections.abc import Sequence
+
+from nicegui import ui
+
+from wearsim.errors import Fault
+from wearsim.page.answers import Pictures
+from wearsim.page.chart_colours import Palette
+from wearsim.page.chart_view import ChartView, SketchView
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
+from wearsim.report.html.charts import Chart
+from wearsim.report.html.margins import Margin
+from wearsim.report.lines import told_apart
+from wearsim.result import Life, WearResult
+
+
+class AnswerPanel:
+    """The answer in the place where it is made.
+
+    Parameters
+    ----------
+    palette : mapping
+        Colours of its charts.
+    """
+
+    def __init__(self, palette: Palette) -> None:
+        self._palette = palette
+        self._pictures: Pictures | None = None
+        self._loads: Chart | None = None
+        self._views: dict[str, ChartView] = {}
+        with ui.element("section").classes("ws-faults").props("role=alert") as self._faults:
+            pass
+        self._life = ui.element("section").classes("ws-life-card ws-card")
+        self._tooth = ui.element("div").classes("ws-pair")
+        with self._tooth:
+            self._teeth = ui.element("div").classes("ws-stack")
+            self._sketch = SketchView()
+        self._load = ui.element("div")
+        self._margins = ui.element("section").classes("ws-card")
+        self._charts = ui.element("div").classes("ws-pair")
+        self._text = ui.element("section").classes("ws-card")
+        for place in (self._faults, self._life, self._tooth, self._margins, self._text):
+            place.set_visibility(False)
+
+    def show_faults(self, faults: Sequence[Fault]) -> None:
+        """Show what is wrong with the input, or nothing.
+
+        Parameters
+        ----------
+        faults : sequence of Fault
+            Everything wrong with it.
+        """
+        self._faults.set_visibility(bool(faults))
+        self._faults.clear()
+        with self._faults:
+            for fault in faults:
+                ui.label(str(fault)).classes("ws-fault")
+
+    def mark_old(self) -> None:
+        """Mark everything as the answer to an earlier input."""
+        for place in (self._life, self._tooth, self._load, self._margins, self._charts, self._text):
+            place.classes("ws-old")
+
+    def show_life(self, result: WearResult) -> None:
+        """Show the life and everything in words.
+
+        Parameters
+        ----------
+        result : WearResult
+            Of the present input.
+        """
+        self._fill_life(result)
+        self._fill_text(result)
+        for place in (self._life, self._text):
+            place.set_visibility(True)
+            place.classes(remove="ws-old")
+
+    def show_loads(self, chart: Chart | None) -> None:
+        """Show what the teeth carry, or nothing.
+
+        Parameters
+        ----------
+        chart : Chart or None
+            Of the present input.
+        """
+        self._loads = chart
+        self._load.set_visibility(chart is not None)
+        self._show_charts(self._load, [] if chart is None else [chart])
+        self._load.classes(remove="ws-old")
+
+    def show_pictures(self, pictures: Pictures) -> None:
+        """Show charts, sketch and margins.
+
+        Parameters
+        ----------
+        pictures : Pictures
+            Of the present input.
+        """
+        self._pictures = pictures
+        self._show_charts(self._teeth, pictures.tooth)
+        self._show_charts(self._charts, pictures.charts)
+        self._sketch.show(pictures.sketch)
+        self._fill_margins(pictures.margins)
+        for place in (self._tooth, self._margins, self._charts):
+            place.set_visibility(True)
+            place.classes(remove="ws-old")
+
+    def paint(self, palette: Palette) -> None:
+        """Draw the charts in other colours.
+
+        Parameters
+        ----------
+        palette : mapping
+            The colours.
+        """
+        self._palette = palette
+        if self._loads is not None:
+            self._show_charts(self._load, [self._loads])
+        if self._pictures is not None:
+            self._show_charts(self._teeth, self._pictures.tooth)
+            self._show_charts(self._charts, self._pictures.charts)
+
+    def _show_charts(self, place: ui.element, charts: Sequence[Chart]) -> None:
+        # A chart of other panels is another element.
+        wanted = [f"{place.id}:{chart.name}:{chart.tall}" for chart in charts]
+        shown = [name for name in self._views if name.startswith(f"{place.id}:")]
+        if wanted == shown:
+            for name, chart in zip(wanted, charts, strict=True):
+                self._views[name].show(chart, self._palette)
+            return
+        for name in shown:
+            del self._views[name]
+        place.clear()
+        with place:
+            for name, chart in zip(wanted, charts, strict=True):
+                self._views[name] = ChartView(chart, self._palette)
+
+    def _fill_life(self, result: WearResult) -> None:
+        reached = isinstance(result.life, Life)
+        self._life.clear()
+        with self._life:
+            ui.label(result.title).classes("ws-title").props("role=heading aria-level=2")
+            ui.label(hours(result.life)).classes("ws-hours")
+            ui.label(ending(result) + ("" if reached else " (limit not reached)"))
+            if result.overloaded:
+                ui.label(f"{OVERLOADED} {overload_text(result)}").classes("ws-overloaded")
+            with ui.element("dl").classes("ws-band"):
+                for what, life in (
+                    ("at the high end of the wear coefficient", result.life_low),
+                    ("as given", result.life),
+                    ("at the low end", result.life_high),
+                ):
+                    with ui.element("div"):
+                        _text("dt", what)
+                        _text("dd", hours(life))
+            ui.label(f"Band: {result.band}.").classes("ws-muted")
+            if result.warnings:
+                with ui.element("ul").classes("ws-warnings").props('aria-label="Warnings"'):
+                    for warning in result.warnings:
+                        _text("li", warning)
+
+    def _fill_text(self, result: WearResult) -> None:
+        taken, defaults = told_apart(result.assumptions)
+        self._text.clear()
+        with self._text:
+            _head("Findings")
+            with ui.element("dl").classes("ws-findings"):
+                for label, text in findings(result):
+                    if label not in (BAND, LIMITS, OVERLOADED):
+                        _text("dt", label)
+                        _text("dd", text)
+            _head("Assumptions")
+            with ui.element("ol"):
+                for text in taken:
+                    _text("li", text)
+            if defaults:
+                _text("p", f"Defaults taken: {'; '.join(defaults)}").classes("ws-muted")
+
+    def _fill_margins(self, found: Sequence[Margin]) -> None:
+        self._margins.clear()
+        with self._margins:
+            _head("Margins of the limits")
+            with ui.element("dl").classes("ws-margins"):
+                for one in found:
+                    _text("dt", f"{one.name}{' (ended the life)' if one.ended else ''}")
+                    with ui.element("dd"):
+                        meter = ui.element("meter").props("min=0 max=1 low=0.7 high=0.95 optimum=0")
+                        meter.props["value"] = round(one.used, 4)
+                        meter.props["aria-label"] = f"used part of {one.name}"
+                        ui.label(
+                            f"{one.value} of {one.limit} {one.unit} ({100.0 * one.used:.0f} %)"
+                        )
+
+
+def _text(tag: str, text: str) -> ui.element:
+    """Add an element that holds a text, never markup."""
+    with ui.element(tag) as element:
+        ui.label(text)
+    return element
+
+
+def _head(text: str) -> None:
+    ui.label(text).classes("ws-caption").props("role=heading aria-level=2")

@@ -1,0 +1,209 @@
+"""The answer to an input, in steps: is it sound, about how long, how long, what it looks like."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import CaseError, Fault, WearsimError
+from wearsim.input.document import CaseText, retitled
+from wearsim.page.file import CaseFile
+from wearsim.page.source import tables_of
+from wearsim.report.html.charts import Chart
+from wearsim.report.html.drive_view import drive_sketch
+from wearsim.report.html.margins import Margin, margins
+from wearsim.report.html.run_charts import along_chart, history_chart
+from wearsim.report.html.sketch import Sketch
+from wearsim.report.html.tooth_chart import tooth_charts
+from wearsim.result import WearResult
+from wearsim.simulation import simulate
+
+_ROUGH = {"mechanism.phases": 4, "sprocket.nodes": 101}
+"""Most of what a first estimate takes of a wrap."""
+
+_ROUGH_TOLERANCE = 0.1
+
+
+class StaleError(Exception):
+    """Nobody waits for the answer any more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """What an answer looks like.
+
+    Attributes
+    ----------
+    tooth : list of Chart
+        The flank before and after.
+    charts : list of Chart
+        Depth, pressure and sliding along the flank, and wear over time.
+    sketch : Sketch or None
+        The drive to scale, where it is known.
+    margins : list of Margin
+        How near every limit is.
+    """
+
+    tooth: list[Chart]
+    charts: list[Chart]
+    sketch: Sketch | None
+    margins: list[Margin]
+
+
+def faults_of(error: WearsimError) -> tuple[Fault, ...]:
+    """Return what is wrong, each as the command line prints it.
+
+    Parameters
+    ----------
+    error : WearsimError
+        What was raised.
+
+    Returns
+    -------
+    tuple of Fault
+        At least one.
+    """
+    return error.faults if isinstance(error, CaseError) else (Fault(str(error)),)
+
+
+def edited_case(source: CaseText, file: CaseFile) -> Case:
+    """Return the case of an input whose title tells what is not yet in its file.
+
+    Parameters
+    ----------
+    source : CaseText
+        The input.
+    file : CaseFile
+        What it held when it was last read or written.
+
+    Returns
+    -------
+    Case
+        As `load_case` gives it but for the title.
+
+    Raises
+    ------
+    CaseError
+        Everything that is wrong with the input.
+    """
+    case = load_case(source)
+    tables, written = tables_of(source.text) or {}, tables_of(file.text) or {}
+    return replace(case, title=retitled(tables, written).get("title") or case.title)
+
+
+def is_slow(case: Case) -> bool:
+    """Whether the life of a case takes so long that an estimate helps.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    bool
+        True on a wrap.
+    """
+    return isinstance(case.drive, WrapDrive)
+
+
+def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:
+    """Return a first estimate of a life that takes seconds, on few points and with long steps.
+
+    Parameters
+    ----------
+    source : CaseText
+        The input.
+    case : Case
+        Its case.
+    is_stale : callable
+        Whether nobody waits for it any more.
+
+    Returns
+    -------
+    WearResult or None
+        None where there is no quick way.
+
+    Raises
+    ------
+    StaleError
+        Nobody waits for it any more.
+    """
+    rough = []
+    for key, most in _ROUGH.items():
+        table, _, name = key.partition(".")
+        rough.append(f"{key}={min(most, case.inputs[table][name])}")
+    tolerance = max(_ROUGH_TOLERANCE, case.run.life_tolerance)
+    try:
+        return simulate(
+            load_case(source, [*rough, f"run.life_tolerance={tolerance}", "run.method=advance"]),
+            _watch(is_stale, lambda part: None),
+        )
+    except WearsimError:
+        return None
+
+
+def life(case: Case, is_stale: Callable[[], bool], progress: Callable[[float], None]) -> WearResult:
+    """Wear a case, as ``wearsim life`` does.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    is_stale : callable
+        Whether nobody waits for it any more.
+    progress : callable
+        Told how much is done, from 0 to 1.
+
+    Returns
+    -------
+    WearResult
+        Its result.
+
+    Raises
+    ------
+    WearsimError
+        The calculation failed.
+    StaleError
+        Nobody waits for it any more.
+    """
+    if is_stale():
+        raise StaleError
+    return simulate(case, _watch(is_stale, progress))
+
+
+def pictures(case: Case, result: WearResult) -> Pictures:
+    """Return what a result looks like.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    result : WearResult
+        Its result.
+
+    Returns
+    -------
+    Pictures
+        Charts, a sketch and margins.
+    """
+    label: Sequence[str] = [result.case]
+    return Pictures(
+        tooth_charts(result),
+        [along_chart([result], label), history_chart([result], label)],
+        drive_sketch(case),
+        margins(result, case),
+    )
+
+
+def _watch(
+    is_stale: Callable[[], bool], progress: Callable[[float], None]
+) -> Callable[[float], None]:
+    """Tell of progress, or end a run that nobody waits for."""
+
+    def told(part: float) -> None:
+        if is_stale():
+            raise StaleError
+        progress(part)
+
+    return told

@@ -1,0 +1,134 @@
+"""A chart on the page, with the slider that enlarges a depth."""
+
+from functools import cache
+from importlib import resources
+from typing import Any
+
+from jinja2 import Environment, PackageLoader
+from nicegui import ui
+
+from wearsim.page.chart_colours import Palette, figure
+from wearsim.report.html.charts import Chart
+from wearsim.report.html.sketch import Sketch
+
+
+class ChartView:
+    """A chart in the place where it is made.
+
+    Parameters
+    ----------
+    chart : Chart
+        What it shows first.
+    palette : mapping
+        Its colours.
+    """
+
+    def __init__(self, chart: Chart, palette: Palette) -> None:
+        self._chart, self._palette = chart, palette
+        self._chosen: float | None = None
+        with ui.element("figure").classes("ws-card ws-chart"):
+            self._title = ui.label().classes("ws-caption").props("role=heading aria-level=3")
+            self._plot = ui.plotly(figure(chart, palette, self._factor()))
+            self._plot.classes(f"ws-plot ws-tall-{chart.tall}").props("role=group")
+            if chart.slider:
+                self._add_slider()
+        self.show(chart, palette)
+
+    def show(self, chart: Chart, palette: Palette) -> None:
+        """Show a chart of the same kind, with the depth enlarged as the user chose.
+
+        Parameters
+        ----------
+        chart : Chart
+            The chart.
+        palette : mapping
+            Its colours.
+        """
+        self._chart, self._palette = chart, palette
+        self._title.text = chart.title[0].upper() + chart.title[1:]
+        self._plot.props["aria-label"] = chart.alt
+        if chart.slider:
+            self._slider.props["max"] = chart.slider["most"]
+            if self._slider.value != self._factor():
+                self._slider.value = self._factor()
+            self._depth.text = f"greatest depth {chart.slider['depth']}"
+        self._draw()
+
+    def _add_slider(self) -> None:
+        slider = self._chart.slider
+        with ui.element("div").classes("ws-slider"):
+            ui.label("Depth enlarged")
+            self._slider = ui.slider(min=1, max=slider["most"], value=slider["factor"])
+            self._slider.props('aria-label="Depth enlarged"')
+            self._slider.on(
+                "update:model-value", lambda event: self._choose(event.args), throttle=0.05
+            )
+            self._times = ui.label().classes("ws-times")
+            self._depth = ui.label().classes("ws-muted")
+
+    def _factor(self) -> float:
+        slider = self._chart.slider
+        if not slider:
+            return 1.0
+        return float(min(self._chosen or slider["factor"], slider["most"]))
+
+    def _choose(self, factor: float) -> None:
+        if factor == self._factor():
+            return
+        self._chosen = factor
+        self._draw()
+
+    def _draw(self) -> None:
+        if self._chart.slider:
+            self._times.text = f"× {self._factor():g}"
+        self._plot.update_figure(figure(self._chart, self._palette, self._factor()))
+
+
+class SketchView:
+    """A drawing to scale in the place where it is made."""
+
+    def __init__(self) -> None:
+        with ui.element("figure").classes("ws-card") as self._place:
+            ui.label("Drive, to scale").classes("ws-caption").props("role=heading aria-level=3")
+            self._drawing = ui.html("", sanitize=False)
+
+    def show(self, sketch: Sketch | None) -> None:
+        """Show a drive, or nothing.
+
+        Parameters
+        ----------
+        sketch : Sketch or None
+            What is drawn; None where nothing is known of it.
+        """
+        self._place.set_visibility(sketch is not None)
+        if sketch is not None:
+            # The template escapes every text.
+            parts: Any = _parts().get_template("parts.html.j2").module
+            self._drawing.content = str(parts.sketch(sketch))
+
+
+def style(palettes: tuple[Palette, Palette]) -> str:
+    """Return the rules of the page.
+
+    Parameters
+    ----------
+    palettes : tuple of mapping
+        Colours on a light and on a dark page.
+
+    Returns
+    -------
+    str
+        CSS; sketches look as in reports.
+    """
+    named = [
+        "".join(f"--{name}: {colour};" for name, colour in palette.items()) for palette in palettes
+    ]
+    reports = resources.files("wearsim.report.html").joinpath("style.css").read_text("utf-8")
+    sketches = [line for line in reports.splitlines() if line.startswith((".sketch", ".notes"))]
+    own = resources.files("wearsim.page").joinpath("style.css").read_text("utf-8")
+    return "\n".join([f":root {{{named[0]}}} .body--dark {{{named[1]}}}", *sketches, own])
+
+
+@cache
+def _parts() -> Environment:
+    return Environment(loader=PackageLoader("wearsim.report.html"), autoescape=True)

@@ -1,0 +1,240 @@
+"""The form: a field for every key that the schema allows."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from nicegui import ui
+
+from wearsim.errors import Fault
+from wearsim.input.keys import schema_of
+from wearsim.page.fields import Field, form_fields, table_meaning
+
+_MOST_CHOICES = 20
+"""Words of a catalogue that a list still shows at once."""
+
+_LOOK = "outlined dense stack-label hide-bottom-space"
+
+
+class FormPanel:
+    """Fields by their tables, in the place where it is made.
+
+    Parameters
+    ----------
+    on_edit : callable
+        Told a field and what was typed into it.
+    on_add : callable
+        Told the name of a list of tables that is to have one more.
+    on_remove : callable
+        Told the name of a list of tables and the number of the one to be removed.
+    """
+
+    def __init__(
+        self,
+        on_edit: Callable[[Field, str], None],
+        on_add: Callable[[str], None],
+        on_remove: Callable[[str, int], None],
+    ) -> None:
+        self._on_edit, self._on_add, self._on_remove = on_edit, on_add, on_remove
+        self._values: Mapping[str, str] = {}
+        self._fields: dict[str, Field] = {}
+        self._inputs: dict[str, Any] = {}
+        self._groups: dict[str, list[Any]] = {}
+        self._taken_inputs: Mapping[str, Any] = {}
+        self._shape: object = None
+        self._body = ui.column().classes("ws-form")
+        self._broken = ui.label("The source is no TOML yet: the form waits until it is.")
+        self._broken.classes("ws-broken").set_visibility(False)
+
+    def show(self, data: Mapping[str, Any] | None, values: Mapping[str, str], typing: str) -> None:
+        """Show what an input file holds.
+
+        Parameters
+        ----------
+        data : mapping or None
+            Its tables; None where it is not TOML.
+        values : mapping
+            What stands at each key.
+        typing : str
+            Key of the field that is being typed into, which is left alone.
+        """
+        self._broken.set_visibility(data is None)
+        self._body.set_visibility(data is not None)
+        if data is None:
+            return
+        added = values.keys() - self._values.keys()
+        self._values = values
+        tables = form_fields(data)
+        shape = (schema_of(data), tuple(tables))
+        if shape != self._shape:
+            self._shape = shape
+            self._build(data, tables)
+            return
+        for key in added & self._groups.keys():
+            self._open(key)
+        for key, element in self._inputs.items():
+            if key != typing and (element.value or "") != values.get(key, ""):
+                self._fill(element, self._fields[key], values.get(key, ""))
+
+    def show_taken(self, inputs: Mapping[str, Any]) -> None:
+        """Show in empty fields what a case takes there.
+
+        Parameters
+        ----------
+        inputs : mapping
+            All tables of the case with every default taken.
+        """
+        self._taken_inputs = inputs
+        for key, element in self._inputs.items():
+            taken = _taken(inputs, key) or self._fields[key].default
+            if element.props.get("placeholder", "") != taken:
+                element.props.set_optional("placeholder", taken or None)
+
+    def show_faults(self, faults: Sequence[Fault]) -> None:
+        """Show each fault beside its field.
+
+        Parameters
+        ----------
+        faults : sequence of Fault
+            Everything wrong with the input.
+        """
+        texts: dict[str, str] = {}
+        for fault in faults:
+            key = fault.key
+            while key and key not in self._fields:
+                key = key.rpartition(".")[0]
+            if key:
+                texts.setdefault(key, str(fault))
+        for key in texts:
+            self._open(key)
+        for key, element in self._inputs.items():
+            if element.error != texts.get(key):
+                element.error = texts.get(key)
+
+    def _open(self, key: str) -> None:
+        """Open what a field is in: its table first, then the group of keys that are not in use."""
+        groups = [group for group in self._groups.get(key, ()) if not group.value]
+        for group in groups:
+            group.open()
+        if groups and key not in self._inputs:
+            self._open(key)
+
+    def _build(self, data: Mapping[str, Any], tables: Mapping[str, Sequence[Field]]) -> None:
+        self._inputs, self._groups = {}, {}
+        self._fields = {field.key: field for fields in tables.values() for field in fields}
+        self._body.clear()
+        with self._body:
+            for name, fields in tables.items():
+                if not name:
+                    self._add_fields(fields)
+                    continue
+                one_of_list = name.rpartition(".")[2].isdigit()
+                given = one_of_list or any(field.key in self._values for field in fields)
+                shown = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
+                table = ui.expansion(shown, caption=table_meaning(data, name), value=given)
+                self._fill_when_open(
+                    table.classes("ws-table"), fields, partial(self._add_table, name)
+                )
+
+    def _fill_when_open(
+        self, group: Any, fields: Sequence[Field], fill: Callable[[Sequence[Field]], None]
+    ) -> None:
+        """Make the fields of a group when they are first seen: most never are, and all cost time."""
+        for field in fields:
+            self._groups.setdefault(field.key, []).append(group)
+        filled: list[bool] = []
+
+        def _fill() -> None:
+            if group.value and not filled:
+                filled.append(True)
+                with group:
+                    fill(fields)
+
+        group.on_value_change(_fill)
+        _fill()
+
+    def _add_table(self, name: str, fields: Sequence[Field]) -> None:
+        """Show what a table holds or must hold; the rest on demand, where there is both."""
+        first = [field for field in fields if field.required or field.key in self._values]
+        more = [field for field in fields if field not in first]
+        if not first or not more:
+            self._add_fields(fields)
+        else:
+            self._add_fields(first)
+            names = ", ".join(field.name for field in more)
+            rest = ui.expansion(f"{len(more)} more", caption=names).classes("ws-more")
+            self._fill_when_open(rest, more, self._add_fields)
+        self._add_buttons(name)
+
+    def _add_fields(self, fields: Sequence[Field]) -> None:
+        with ui.element("div").classes("ws-fields"):
+            for field in fields:
+                self._inputs[field.key] = self._input(field)
+
+    def _add_buttons(self, name: str) -> None:
+        if name.endswith("[]"):
+            text = f"Add a table [[{name[:-2]}]]"
+            ui.button(text, icon="add", on_click=lambda: self._on_add(name[:-2])).props("flat")
+        head, _, number = name.partition(".")
+        if number.isdigit():
+            ui.button(
+                "Remove this table",
+                icon="delete",
+                on_click=lambda: self._on_remove(head, int(number)),
+            ).props("flat")
+
+    def _input(self, field: Field) -> Any:
+        value = self._values.get(field.key, "")
+        label = f"{field.name} *" if field.required else field.name
+        choices = _choices(field)
+        element: Any
+        if choices:
+            element = ui.select(
+                _with(choices, value), label=label, value=value or None, clearable=True
+            )
+        else:
+            element = ui.input(label, value=value, autocomplete=list(field.proposals))
+            element.props("autocomplete=off spellcheck=false")
+            element.props.set_optional("suffix", field.unit or None)
+        element.classes("ws-field").props(_LOOK)
+        element.props["hint"] = field.meaning
+        element.props["data-key"] = field.key
+        element.props["aria-label"] = " ".join(filter(None, (field.key, field.unit)))
+        taken = _taken(self._taken_inputs, field.key) or field.default
+        element.props.set_optional("placeholder", taken or None)
+        element.on_value_change(lambda event: self._edited(field, event.value))
+        return element
+
+    def _edited(self, field: Field, value: str | None) -> None:
+        if (value or "") != self._values.get(field.key, ""):
+            self._on_edit(field, value or "")
+
+    def _fill(self, element: Any, field: Field, value: str) -> None:
+        choices = _choices(field)
+        if choices:
+            element.set_options(_with(choices, value), value=value or None)
+        else:
+            element.value = value
+
+
+def _choices(field: Field) -> tuple[str, ...]:
+    return field.choices or (field.proposals if len(field.proposals) <= _MOST_CHOICES else ())
+
+
+def _with(choices: Sequence[str], value: str) -> list[str]:
+    """Give the choices, and a value that is none of them but stands in the source."""
+    return [*choices, *([value] if value and value not in choices else [])]
+
+
+def _taken(inputs: Mapping[str, Any], key: str) -> str:
+    place: Any = inputs
+    for part in key.split("."):
+        if isinstance(place, list | tuple) and part.isdigit() and int(part) <= len(place):
+            place = place[int(part) - 1]
+        else:
+            place = place.get(part) if isinstance(place, Mapping) else None
+    if place is None or place == "":
+        return ""
+    if isinstance(place, bool):
+        return str(place).lower()
+    return f"{place:.6g}" if isinstance(place, float) else str(place)

@@ -1,0 +1,73 @@
+"""The server of the page: on the loopback address, for its own page only."""
+
+import socket
+import threading
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI
+from nicegui import app, ui
+
+from wearsim.case.load_case import load_case
+from wearsim.errors import WearsimError
+from wearsim.input.document import CaseText
+from wearsim.page.editor import CasePage
+from wearsim.page.file import CaseFile
+from wearsim.page.guard import Guard
+from wearsim.simulation import simulate
+
+_RECONNECT = 3600.0
+"""Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""
+
+
+def serve(
+    opened: Callable[[], tuple[CaseFile, str]], listener: socket.socket, warm: tuple[str, ...]
+) -> None:
+    """Serve pages until the program is interrupted.
+
+    Parameters
+    ----------
+    opened : callable
+        Gives the file of a new page and the text that it begins with.
+    listener : socket.socket
+        Bound and listening.
+    warm : tuple of str
+        Cases to be worn beforehand, so that the first answer does not wait for compilers.
+    """
+    stopping = threading.Event()
+    ui.page("/", title="wearsim", dark=None)(partial(_page, opened, stopping))
+    app.on_shutdown(stopping.set)
+    host = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
+    ui.run_with(host, dark=None, reconnect_timeout=_RECONNECT, show_welcome_message=False)
+    threading.Thread(target=_warm_up, args=(warm, stopping), daemon=True).start()
+    settings = uvicorn.Config(
+        Guard(host, listener.getsockname()[1]),
+        log_config=None,
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        timeout_graceful_shutdown=1,
+    )
+    uvicorn.Server(settings).run(sockets=[listener])
+
+
+def _page(opened: Callable[[], tuple[CaseFile, str]], stopping: threading.Event) -> None:
+    try:
+        file, text = opened()
+    except WearsimError as error:
+        ui.label(str(error))
+        return
+    CasePage(file, text, stopping)
+
+
+def _warm_up(texts: tuple[str, ...], stopping: threading.Event) -> None:
+    """Load what a first answer needs; a case that fails has done so too."""
+    for text in texts:
+        if stopping.is_set():
+            return
+        try:
+            simulate(load_case(CaseText(Path("warm.toml"), text), ["run.life_tolerance=0.1"]))
+        except WearsimError:
+            continue

@@ -1,0 +1,242 @@
+"""What stands on the pages: all of it as data, for the templates to lay out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from wearsim._version import __version__
+from wearsim.case.model import Case
+from wearsim.citation import apa
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
+from wearsim.report.comparison import comparison_cells, differing_limits
+from wearsim.report.figures import comparison_figures
+from wearsim.report.flank_view import case_of
+from wearsim.report.html.charts import Chart
+from wearsim.report.html.drive_view import drive_sketch, tooth_load_chart
+from wearsim.report.html.inputs import Input, catalogue_sources, input_table
+from wearsim.report.html.lives_chart import lives_chart
+from wearsim.report.html.margins import Margin, margins
+from wearsim.report.html.picture import picture
+from wearsim.report.html.run_charts import along_chart, history_chart
+from wearsim.report.html.sketch import Sketch
+from wearsim.report.html.tooth_chart import tooth_charts
+from wearsim.report.lines import grouped, told_apart
+from wearsim.report.rating import RATING_HEAD, rating_cells
+from wearsim.result import Life, WearResult
+
+
+@dataclass(frozen=True, eq=False)
+class DrivePage:
+    """The page of one drive.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the file, and of the drive.
+    brief : bool
+        Whether the page is the short one.
+    life, ending : str
+        The answer, and what ended it.
+    overloaded : str
+        By how much the drive is outside the ratings of its load; empty where it is not.
+    reached : bool
+        Whether it is a life and not a bound.
+    low, high, band : str
+        The lives at the ends of the band, and where that comes from.
+    percentiles : list of tuple of str
+        Names and hours of P10, P50 and P90, where they are known.
+    findings : list of tuple of str
+        The rest of the answer.
+    margins : list of Margin
+        Of every stop criterion.
+    rating_head, ratings : list of str and list of list of str
+        The table of what the handbooks allow; without rows where they say nothing.
+    tooth : list of Chart
+        The flank before and after.
+    charts : list of Chart
+        All others.
+    sketch : Sketch or None
+        The drive; None where nothing is known of it.
+    pictures : mapping of str to str
+        Still pictures as data URIs, by the stems that charts name.
+    inputs : list of Input
+        Every key.
+    sources : list of tuple of str
+        Of the catalogue's numbers.
+    assumptions, defaults : list of str
+        What is taken for granted, and the defaults taken.
+    warnings : tuple of str
+        Of the result.
+    versions : list of tuple of str
+        Of what calculated it and of what wrote the page.
+    citation : str
+        How to cite.
+    """
+
+    name: str
+    title: str
+    brief: bool
+    life: str
+    ending: str
+    overloaded: str
+    reached: bool
+    low: str
+    high: str
+    band: str
+    percentiles: list[tuple[str, str]]
+    findings: list[tuple[str, str]]
+    margins: list[Margin]
+    rating_head: list[str]
+    ratings: list[list[str]]
+    tooth: list[Chart]
+    charts: list[Chart]
+    sketch: Sketch | None
+    pictures: dict[str, str]
+    inputs: list[Input]
+    sources: list[tuple[str, str]]
+    assumptions: list[str]
+    defaults: list[str]
+    warnings: tuple[str, ...]
+    versions: list[tuple[str, str]]
+    citation: str
+
+
+@dataclass(frozen=True, eq=False)
+class ComparisonPage:
+    """The page that compares several drives.
+
+    Attributes
+    ----------
+    names, titles : list of str
+        Of the pages and of the drives.
+    head, rows : list of str and list of list of str
+        The table.
+    limits : str
+        A warning where limits differ.
+    warnings : list of tuple of str
+        Cases with their warnings.
+    charts : list of Chart
+        Of all drives together.
+    pictures : mapping of str to str
+        Still pictures as data URIs, by the stems that charts name.
+    citation : str
+        How to cite.
+    """
+
+    names: list[str]
+    titles: list[str]
+    head: list[str]
+    rows: list[list[str]]
+    limits: str
+    warnings: list[tuple[str, str]]
+    charts: list[Chart]
+    pictures: dict[str, str]
+    citation: str
+
+
+def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
+    """Return the page of one drive.
+
+    Parameters
+    ----------
+    result : WearResult
+        Its result.
+    name : str
+        Stem of the file.
+    brief : bool
+        Leave out everything but answer, tooth, margins, ratings, assumptions and warnings.
+
+    Returns
+    -------
+    DrivePage
+        The page.
+    """
+    case = case_of(result)
+    tooth = tooth_charts(result)
+    charts = [] if brief else _charts(result, case)
+    figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
+    taken, defaults = told_apart(result.assumptions)
+    return DrivePage(
+        name=name,
+        title=result.title,
+        brief=brief,
+        life=hours(result.life),
+        ending=ending(result),
+        overloaded=overload_text(result),
+        reached=isinstance(result.life, Life),
+        low=hours(result.life_low),
+        high=hours(result.life_high),
+        band=result.band,
+        percentiles=_percentiles(result, case),
+        findings=[
+            found for found in findings(result) if found[0] not in (BAND, LIMITS, OVERLOADED)
+        ],
+        margins=margins(result, case),
+        rating_head=RATING_HEAD,
+        ratings=rating_cells(result.ratings),
+        tooth=tooth,
+        charts=charts,
+        sketch=None if brief else drive_sketch(case),
+        pictures={stem: picture(figure) for stem, figure in figures.items()},
+        inputs=[] if brief else input_table(result),
+        sources=[] if brief else catalogue_sources(result),
+        assumptions=taken,
+        defaults=defaults,
+        warnings=result.warnings,
+        versions=[
+            ("page written by", f"wearsim {__version__}"),
+            *result.environment.items(),
+        ],
+        citation=apa(result.environment["wearsim"]),
+    )
+
+
+def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:
+    if not result.inputs.get("uncertainty"):
+        return []
+    from wearsim.runner.scaled_percentiles import scaled_percentiles  # takes 0.4 s, for scipy.stats
+
+    found = scaled_percentiles(result, case, (0.1, 0.5, 0.9))
+    names = ("P10: 9 of 10 live longer", "P50: half live longer", "P90: 1 of 10 lives longer")
+    return [(name, f"{grouped(value)} h") for name, value in zip(names, found, strict=False)]
+
+
+def _charts(result: WearResult, case: Case) -> list[Chart]:
+    label, loads = [result.case], tooth_load_chart(case)
+    along = [along_chart([result], label), history_chart([result], label)]
+    return along if loads is None else [loads, *along]
+
+
+def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> ComparisonPage:
+    """Return the page that compares several drives.
+
+    Parameters
+    ----------
+    results : sequence of WearResult
+        At least one.
+    names : sequence of str
+        Stems of their pages, all different: they are the labels of the charts.
+
+    Returns
+    -------
+    ComparisonPage
+        The page.
+    """
+    several = list(results)
+    head, rows = comparison_cells(several)
+    charts = [
+        lives_chart(several, names),
+        along_chart(several, names),
+        history_chart(several, names),
+    ]
+    figures = comparison_figures(several, {chart.still for chart in charts})
+    return ComparisonPage(
+        names=list(names),
+        titles=[result.title for result in several],
+        head=head,
+        rows=rows,
+        limits=differing_limits(several),
+        warnings=[(result.title, text) for result in several for text in result.warnings],
+        charts=charts,
+        pictures={stem: picture(figure) for stem, figure in figures.items()},
+        citation=apa(),
+    )

@@ -1,0 +1,305 @@
+"""The cases of a study: one input file, and values for some of its keys."""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import PurePath
+from typing import Any
+
+from wearsim._version import __version__
+from wearsim.catalogue.catalogues import nearest
+from wearsim.errors import CaseError, Fault
+from wearsim.input.document import Document
+from wearsim.input.keys import schema_fields, schema_of
+from wearsim.input.kind import WRAP_PROFILES
+from wearsim.input.schema.dotted import is_number, without_numbers
+from wearsim.kernels.compiled import source_hash
+from wearsim.result.folder import FILE_KEYS
+
+FEW, SOME, MANY = 2, 25, 250
+"""Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
+and of all others."""
+
+
+NAMES_FILE = tuple(f"{table}.{key}" for table, key in FILE_KEYS)
+"""Dotted keys whose values name a file."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """What the numbers depend on beside the input.
+
+    Attributes
+    ----------
+    version : str
+        Of wearsim.
+    kernels : str
+        Hash of the compiled functions' sources, of numba and of Python.
+    """
+
+    version: str
+    kernels: str
+
+
+@cache
+def engine() -> Engine:
+    """Return the engine of this process.
+
+    Returns
+    -------
+    Engine
+        Equal engines give the same numbers bit for bit on the same kind of processor.
+    """
+    return Engine(__version__, source_hash())
+
+
+@dataclass(frozen=True)
+class Design:
+    """The cases of a study.
+
+    Attributes
+    ----------
+    name : str
+        Of the case that they come from.
+    tables : mapping
+        Its tables as they were given.
+    files : mapping of str to str
+        Texts of the files that the tables and values name.
+    keys : tuple of str
+        Dotted keys that differ; entries of a list of tables by their numbers from 1.
+    rows : tuple of tuple
+        Values of the keys, a row for each case.
+    """
+
+    name: str
+    tables: Mapping[str, Any]
+    files: Mapping[str, str]
+    keys: tuple[str, ...]
+    rows: tuple[tuple[Any, ...], ...]
+
+    def tables_of(self, index: int) -> dict[str, Any]:
+        """Return the tables of one case.
+
+        Parameters
+        ----------
+        index : int
+            Its number from 0.
+
+        Returns
+        -------
+        dict
+            As an input file would give them.
+        """
+        tables = dict(self.tables)
+        for key, value in zip(self.keys, self.rows[index], strict=True):
+            tables = replaced(tables, key.split("."), value)
+        return tables
+
+    def part(self, first: int, count: int) -> "Design":
+        """Return some of the cases.
+
+        Parameters
+        ----------
+        first, count : int
+            Index of the first and their number.
+
+        Returns
+        -------
+        Design
+            Of the same tables and files.
+        """
+        return replace(self, rows=self.rows[first : first + count])
+
+    def address(self) -> str:
+        """Return the hash of all that the lives depend on.
+
+        Returns
+        -------
+        str
+            Hexadecimal digits of SHA-256 over the tables, files, keys, rows and the engine.
+        """
+        content = {
+            "tables": self.tables, "files": self.files, "keys": self.keys, "rows": self.rows,
+            "engine": vars(engine()),
+        }  # fmt: skip
+        return content_hash(content)
+
+    @property
+    def cases_per_shard(self) -> int:
+        """Cases that are run and stored together."""
+        differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
+        indices = range(len(self.rows) if differs else 1)
+        if any(_wraps(self.tables_of(index)) for index in indices):
+            return FEW
+        tables = {*self.tables, *(key.partition(".")[0] for key in self.keys)}
+        return SOME if "fatigue" in tables else MANY
+
+
+def _wraps(tables: Mapping[str, Any]) -> bool:
+    kind = tables.get("mechanism", {}).get("kind")
+    return kind == "wrap" or tables.get("sprocket", {}).get("profile") in WRAP_PROFILES
+
+
+def content_hash(content: Mapping[str, Any]) -> str:
+    """Return the hash of plain values that does not depend on the order of keys.
+
+    Parameters
+    ----------
+    content : mapping
+        Tables of an input file and the like.
+
+    Returns
+    -------
+    str
+        Hexadecimal digits of SHA-256.
+
+    Examples
+    --------
+    >>> content_hash({"a": 1, "b": 2.0}) == content_hash({"b": 2.0, "a": 1})
+    True
+    """
+    # Dates of TOML are the only values that JSON does not know.
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"), default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def replaced(tables: Mapping[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
+    """Return tables with one value set, what it does not touch shared.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables.
+    path : sequence of str
+        Parts of the dotted key.
+    value : object
+        The value.
+
+    Returns
+    -------
+    dict
+        The other tables.
+
+    Raises
+    ------
+    CaseError
+        The key leads through a value or beyond a list.
+
+    Examples
+    --------
+    >>> replaced({"duty": [{"speed_rpm": 1}]}, ["duty", "1", "speed_rpm"], 2)
+    {'duty': [{'speed_rpm': 2}]}
+    """
+    head, *rest = path
+    if not rest:
+        return {**tables, head: value}
+    below = tables.get(head, {})
+    if isinstance(below, Mapping):
+        return {**tables, head: replaced(below, rest, value)}
+    number, *rest = rest
+    if not isinstance(below, list) or not is_number(number) or not 0 < int(number) <= len(below):
+        counted = f"holds {len(below)} tables" if isinstance(below, list) else "is a key, no table"
+        raise CaseError([Fault(f"must be a key of the case, but {head} {counted}", ".".join(path))])
+    entry = replaced(below[int(number) - 1], rest, value) if rest else value
+    return {**tables, head: [*below[: int(number) - 1], entry, *below[int(number) :]]}
+
+
+def value_at(tables: Mapping[str, Any], key: str) -> Any:
+    """Return the value of a key.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables.
+    key : str
+        Dotted name; entries of a list of tables by their numbers from 1.
+
+    Returns
+    -------
+    object
+        None where there is none.
+
+    Examples
+    --------
+    >>> value_at({"duty": [{"speed_rpm": 1}]}, "duty.1.speed_rpm")
+    1
+    """
+    found: Any = tables
+    for part in key.split("."):
+        if isinstance(found, list):
+            is_there = is_number(part) and 0 < int(part) <= len(found)
+            found = found[int(part) - 1] if is_there else None
+        else:
+            found = found.get(part) if isinstance(found, Mapping) else None
+    return found
+
+
+def design(
+    document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str
+) -> Design:
+    """Return the cases of a study with the texts of all their files.
+
+    Parameters
+    ----------
+    document : Document
+        The case that they come from.
+    keys : sequence of str
+        Dotted keys that differ.
+    rows : sequence of sequence
+        Values of the keys, a row for each case.
+    place : str
+        Where the keys stand, for messages.
+
+    Returns
+    -------
+    Design
+        To be run anywhere.
+
+    Raises
+    ------
+    CaseError
+        A key is none of a case, or two files share a name.
+    """
+    _check_keys(document, keys, place)
+    files: dict[str, str] = {}
+    tables: Mapping[str, Any] = document.data
+    for table, key in FILE_KEYS:
+        given = document.data.get(table)
+        if isinstance(given, Mapping) and isinstance(given.get(key), str):
+            tables = replaced(tables, (table, key), _taken(document, files, given[key]))
+    moved = tuple(
+        tuple(
+            _taken(document, files, value)
+            if key in NAMES_FILE and isinstance(value, str)
+            else value
+            for key, value in zip(keys, row, strict=True)
+        )
+        for row in rows
+    )
+    return Design(document.name, tables, files, tuple(keys), moved)
+
+
+def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
+    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
+    faults = []
+    for key in keys:
+        plain = without_numbers(key)
+        if plain not in known:
+            text = f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
+            faults.append(Fault(text, f'"{key}"', place))
+    if faults:
+        raise CaseError(faults)
+
+
+def _taken(document: Document, files: dict[str, str], path: str) -> str:
+    """Read a file that a case names, if it is there, and return its name without folder."""
+    name = PurePath(path).name
+    try:
+        text = (document.folder / path).read_text(encoding="utf-8", errors="surrogateescape")
+    except OSError:
+        return name
+    if files.setdefault(name, text) != text:
+        raise CaseError([Fault(f"two files of a study must not share the name {name}: rename one")])
+    return name

@@ -1,0 +1,119 @@
+"""Running a study: what is not finished goes to the workers, and is kept as it comes back."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from itertools import islice
+
+import pandas as pd
+
+from wearsim.errors import StudyError
+from wearsim.runner.design import Design
+from wearsim.runner.shard import COLUMNS, Rows, Shard, run_shard, shards
+from wearsim.runner.store import Store
+from wearsim.runner.workers import Workers
+
+_AHEAD = 3
+"""Shards that wait with every worker."""
+
+_MOST_LOSSES = 3
+"""Times in a row that workers may die before anything is finished."""
+
+Told = Callable[[int, int], None]
+
+
+def run_study(
+    design: Design,
+    workers: Workers,
+    store: Store | None = None,
+    told: Told = lambda done, count: None,
+) -> pd.DataFrame:
+    """Run the cases of a study that are not finished yet.
+
+    Parameters
+    ----------
+    design : Design
+        All cases.
+    workers : Workers
+        Where they run. It makes no difference to the numbers.
+    store : Store, optional
+        What is finished; takes what comes.
+    told : callable, optional
+        Told how many cases of all are done.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each case in order: its keys, then what came of it.
+
+    Raises
+    ------
+    StudyError
+        No worker can run it, or all die.
+    OutputError
+        A shard cannot be written.
+    """
+    done: dict[int, Rows] = {}
+    waiting: list[Shard] = []
+    for shard in shards(design):
+        rows = store.finished(shard) if store is not None else None
+        if rows is None:
+            waiting.append(shard)
+        else:
+            done[shard.first] = rows
+    count = sum(len(rows["case_index"]) for rows in done.values())
+    told(count, len(design.rows))
+    losses = 0
+    while waiting:
+        before = len(done)
+        for shard, rows in _run(waiting, workers):
+            if store is not None:
+                store.keep(shard, rows)
+            done[shard.first] = rows
+            count += shard.count
+            told(count, len(design.rows))
+        waiting = [shard for shard in waiting if shard.first not in done]
+        losses = losses + 1 if len(done) == before else 0
+        if losses == _MOST_LOSSES:
+            raise StudyError(
+                f"workers died {losses} times before they had finished anything: take fewer of them "
+                "or give them more memory; what is finished is kept"
+            )
+    return _table(design, [done[first] for first in sorted(done)])
+
+
+def _run(waiting: list[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]:
+    """Give shards as they are finished, until all are or a worker has died."""
+    remaining = iter(waiting)
+    with workers.open() as (executor, count):
+        futures = dict(_submitted(executor, islice(remaining, (1 + _AHEAD) * count)))
+        try:
+            while futures:
+                finished, _ = wait(futures, return_when=FIRST_COMPLETED)
+                lost = False
+                for future in finished:
+                    shard = futures.pop(future)
+                    try:
+                        rows = future.result()
+                    except workers.losses:
+                        lost = True
+                    else:
+                        yield shard, rows
+                if lost:
+                    remaining = iter(())
+                futures |= _submitted(executor, islice(remaining, len(finished)))
+        finally:
+            for future in futures:
+                future.cancel()
+
+
+def _submitted(executor: Executor, shards: Iterator[Shard]) -> dict["Future[Rows]", Shard]:
+    return {executor.submit(run_shard, shard): shard for shard in shards}
+
+
+def _table(design: Design, parts: list[Rows]) -> pd.DataFrame:
+    columns = {name: [value for rows in parts for value in rows[name]] for name in COLUMNS}
+    given = pd.DataFrame(list(design.rows), columns=list(design.keys))
+    table = pd.DataFrame(columns)
+    floats = ("life_hours", "hours_run", "cycles_run", "numerical_error")
+    table = table.astype(dict.fromkeys(floats, float))
+    return pd.concat([table[["case_index"]], given, table.drop(columns="case_index")], axis=1)

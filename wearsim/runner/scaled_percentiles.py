@@ -1,0 +1,42 @@
+"""Percentiles of a life that follow from one run: life times wear coefficient is constant."""
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.input.schema.uncertainty import Distribution
+from wearsim.result import Life, WearResult
+from wearsim.runner.distributions import quantile
+from wearsim.runner.scatter import coefficient_key
+
+
+def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]) -> list[float]:
+    """Return the hours that parts of all lives do not exceed, where they follow without samples.
+
+    That is so where by [uncertainty] only the wear coefficient scatters, every limit is one of the
+    teeth (no wrap, whose chain wears by another coefficient), contact fatigue is not asked for,
+    and the coefficient does not change as the drive runs in: the percentile p of the life is
+    L k / k_(1-p).
+
+    Parameters
+    ----------
+    result : WearResult
+        A run of the case.
+    case : Case
+        The case.
+    shares : tuple of float
+        The parts, between 0 and 1.
+
+    Returns
+    -------
+    list of float
+        Hours [h]; empty where they do not follow or nothing scatters.
+    """
+    table = result.inputs.get("uncertainty") or {}
+    steady = not isinstance(case.drive, WrapDrive) and case.wear.running_in_factor == 1.0
+    alone = list(table) == [coefficient_key(case)] and not result.fatigue
+    if not alone or not steady or not isinstance(result.life, Life):
+        return []
+    (entry,) = table.values()
+    value = case.wear.coefficient
+    coefficients = quantile(Distribution.model_validate(entry), value)(1.0 - np.array(shares))
+    return [result.life.hours * value / float(coefficient) for coefficient in coefficients]

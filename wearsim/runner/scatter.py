@@ -1,0 +1,249 @@
+"""What of a case scatters, and its cases at samples of that."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import CaseError, Fault
+from wearsim.geometry.profile import Vector
+from wearsim.input.document import Document, read_document
+from wearsim.input.schema.uncertainty import Distribution
+from wearsim.result.folder import FILE_KEYS
+from wearsim.runner.design import Design, design, replaced, value_at
+from wearsim.runner.distributions import described, quantile
+
+PUBLISHED_SIGMA = 0.5
+"""Scatter of published wear coefficients about those of one system: standard deviation of ln k,
+as +-40 to 60 % (Podra and Andersson 1999)."""
+
+
+_JOINT = "joint.specific_wear_rate_mm2_per_N"
+
+WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """A key that scatters.
+
+    Attributes
+    ----------
+    key : str
+        Its dotted name.
+    distribution : Distribution
+        How it scatters.
+    value : float
+        What it is in the case.
+    text : str
+        The distribution in words.
+    """
+
+    key: str
+    distribution: Distribution
+    value: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Scattered:
+    """A case and what of it scatters.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Its file.
+    case : Case
+        With the values of the file.
+    document : Document
+        The file without [uncertainty], the wear coefficient by its own key.
+    scatters : tuple of Scatter
+        What scatters, independently of one another.
+    assumptions : tuple of str
+        What is taken for granted about that.
+    """
+
+    path: Path
+    case: Case
+    document: Document
+    scatters: tuple[Scatter, ...]
+    assumptions: tuple[str, ...]
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Keys that scatter."""
+        return tuple(scatter.key for scatter in self.scatters)
+
+    def values(self, shares: Vector) -> Vector:
+        """Return values of the keys by their probabilities.
+
+        Parameters
+        ----------
+        shares : numpy.ndarray
+            Probabilities inside (0, 1), shape (n, keys).
+
+        Returns
+        -------
+        numpy.ndarray
+            Of the same shape, in the units of the keys.
+
+        Raises
+        ------
+        CaseError
+            A distribution leaves nothing.
+        """
+        columns, faults = [], []
+        for scatter, column in zip(self.scatters, shares.T, strict=True):
+            try:
+                columns.append(quantile(scatter.distribution, scatter.value)(column))
+            except ValueError as error:
+                faults.append(Fault(str(error), f'uncertainty."{scatter.key}"', self.case.name))
+        if faults:
+            raise CaseError(faults)
+        return np.column_stack(columns)
+
+    def design(self, shares: Vector) -> Design:
+        """Return the cases at some probabilities of the keys.
+
+        Parameters
+        ----------
+        shares : numpy.ndarray
+            Probabilities inside (0, 1), shape (n, keys).
+
+        Returns
+        -------
+        Design
+            A case for each row.
+
+        Raises
+        ------
+        CaseError
+            A distribution leaves nothing.
+        """
+        rows = self.values(shares).tolist()
+        return design(self.document, self.keys, rows, str(self.path))
+
+
+def load_scattered(
+    path: Path, overrides: Sequence[str], least_horizon: float | None = None
+) -> Scattered:
+    """Return a case and what of it scatters by its table [uncertainty].
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The case.
+    overrides : sequence of str
+        ``table.key=VALUE``.
+    least_horizon : float, optional
+        What run.horizon_hours is raised to where it is less [h].
+
+    Returns
+    -------
+    Scattered
+        Wear coefficients that the table does not name, of the teeth and on a wrap of the joints,
+        scatter log-normally, by the published scatter.
+
+    Raises
+    ------
+    CaseError
+        The case is wrong, or a key of the table holds no number that could scatter.
+    """
+    document = read_document(path, overrides)
+    case = load_case(path, overrides).with_horizon(least_horizon or 0.0)
+    given = _given(case)
+    assumptions = []
+    for coefficient in _coefficients(case):
+        if coefficient not in given:
+            given[coefficient] = Distribution(distribution="lognormal", sigma_ln=PUBLISHED_SIGMA)
+            assumptions.append(
+                f"{coefficient} is log-normal with sigma_ln = {PUBLISHED_SIGMA:g}, the scatter of "
+                "published coefficients (default; [uncertainty] gives another)"
+            )
+    if case.fatigue is not None:
+        assumptions.append(WITH_FATIGUE)
+    if len(given) > 1:
+        assumptions.append("keys scatter independently of one another")
+    scatters = tuple(_scatter(case, key, law) for key, law in given.items())
+    return Scattered(path, case, plain_document(document, case), scatters, tuple(assumptions))
+
+
+def coefficient_key(case: Case) -> str:
+    """Return the key of a case's wear coefficient.
+
+    Parameters
+    ----------
+    case : Case
+        A case.
+
+    Returns
+    -------
+    str
+        Its life is inversely proportional to this key's value.
+    """
+    name = "specific_wear_rate_mm2_per_N" if case.wear.law == "archard" else "coefficient"
+    return f"wear.{name}"
+
+
+def _coefficients(case: Case) -> list[str]:
+    """Wear coefficients of the teeth and, on a wrap, of the joints."""
+    joints = [_JOINT] if isinstance(case.drive, WrapDrive) else []
+    return [coefficient_key(case), *joints]
+
+
+def _given(case: Case) -> dict[str, Distribution]:
+    table: Mapping[str, Any] = case.inputs.get("uncertainty") or {}
+    return {key: Distribution.model_validate(entry) for key, entry in table.items()}
+
+
+def _scatter(case: Case, key: str, distribution: Distribution) -> Scatter:
+    if key.startswith("run."):
+        text = "keys of [run] tell how a life is calculated and cannot scatter: remove it"
+        raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
+    value = case.wear.coefficient if key == coefficient_key(case) else _value(case, key)
+    return Scatter(key, distribution, value, described(distribution, value))
+
+
+def _value(case: Case, key: str) -> float:
+    found = value_at(case.inputs, key)
+    if isinstance(found, bool | int) or not isinstance(found, float):
+        what = "is not in the case" if found is None else f"is {found!r}"
+        text = f"only a key that holds a number with a fraction can scatter, but it {what}"
+        raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
+    return found
+
+
+def plain_document(document: Document, case: Case) -> Document:
+    """Return a case in which every value stands that a study changes.
+
+    Parameters
+    ----------
+    document : Document
+        What stands in the file.
+    case : Case
+        The same with all defaults.
+
+    Returns
+    -------
+    Document
+        Without [uncertainty], the wear coefficients by their own keys, files by their whole
+        paths, the horizon that of the case.
+    """
+    data = {name: table for name, table in document.data.items() if name != "uncertainty"}
+    if "condition" in data["wear"]:
+        wear = {name: value for name, value in data["wear"].items() if name != "condition"}
+        data = replaced(
+            {**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient
+        )
+        if isinstance(case.drive, WrapDrive):
+            data = replaced(data, _JOINT.split("."), case.drive.joint.coefficient)
+    for table, key in FILE_KEYS:
+        if key in data.get(table, {}):
+            path = (document.folder / data[table][key]).resolve()
+            data = replaced(data, (table, key), str(path))
+    data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
+    return replace(document, data=data)

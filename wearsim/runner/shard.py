@@ -1,0 +1,150 @@
+"""A part of a study that is run and stored as a whole; all that a worker needs to run it."""
+
+import re
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case
+from wearsim.errors import StudyError, WearsimError
+from wearsim.result import Life
+from wearsim.result.folder import with_files
+from wearsim.runner.design import Design, Engine, content_hash, engine
+from wearsim.simulation.simulate_many import CaseLife, simulate_many
+
+COLUMNS = (
+    "case_index", "life_hours", "hours_run", "cycles_run", "stop", "numerical_error", "warnings",
+    "error", "case_sha256",
+)  # fmt: skip
+"""What is known of a case that has run, or of why it has not."""
+
+Rows = dict[str, list[Any]]
+
+
+@dataclass(frozen=True)
+class Shard:
+    """Some cases of a study.
+
+    Attributes
+    ----------
+    first : int
+        Index of the first of them in the study.
+    design : Design
+        The cases.
+    engine : Engine
+        That which the study is run with.
+    """
+
+    first: int
+    design: Design
+    engine: Engine
+
+    @property
+    def count(self) -> int:
+        """Number of its cases."""
+        return len(self.design.rows)
+
+    @cached_property
+    def address(self) -> str:
+        """Hash of all that its rows depend on."""
+        return content_hash({"first": self.first, "design": self.design.address()})
+
+
+def shards(design: Design) -> Iterator[Shard]:
+    """Give the shards of a study in order.
+
+    Parameters
+    ----------
+    design : Design
+        All cases.
+
+    Yields
+    ------
+    Shard
+        The next ones.
+    """
+    size = design.cases_per_shard
+    for first in range(0, len(design.rows), size):
+        yield Shard(first, design.part(first, size), engine())
+
+
+def run_shard(shard: Shard) -> Rows:
+    """Run the cases of a shard, one after another in one thread.
+
+    Parameters
+    ----------
+    shard : Shard
+        The cases.
+
+    Returns
+    -------
+    dict of list
+        `COLUMNS`; a case that failed has an error and no life, one that ran to its horizon no
+        life either.
+
+    Raises
+    ------
+    StudyError
+        This process has another engine than that of the study.
+    """
+    if engine() != shard.engine:
+        raise StudyError(
+            f"a worker has wearsim {engine().version} (kernels {engine().kernels}), the study "
+            f"{shard.engine.version} ({shard.engine.kernels}): install the same on all"
+        )
+    loaded = loaded_cases(shard.design)
+    lives = simulate_many((case for case in loaded if isinstance(case, Case)), threads=1)
+    rows: Rows = {name: [] for name in COLUMNS}
+    for index, case in enumerate(loaded):
+        found = next(lives) if isinstance(case, Case) else case
+        digest = _digest(case, shard) if isinstance(case, Case) else None
+        for name, value in zip(COLUMNS, (shard.first + index, *_row(found), digest), strict=True):
+            rows[name].append(value)
+    return rows
+
+
+def loaded_cases(design: Design) -> list[Case | WearsimError]:
+    """Return the cases of a study, or of a part of it.
+
+    Parameters
+    ----------
+    design : Design
+        The cases.
+
+    Returns
+    -------
+    list of Case or WearsimError
+        What is wrong with a case in its place.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in design.files.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+        return [_loaded(design, index, folder) for index in range(len(design.rows))]
+
+
+def _loaded(design: Design, index: int, folder: str) -> Case | WearsimError:
+    try:
+        return load_case(with_files(design.tables_of(index), folder))
+    except WearsimError as error:
+        return error
+
+
+def _row(found: CaseLife | WearsimError) -> tuple[Any, ...]:
+    if isinstance(found, WearsimError):
+        return (None,) * 5 + ("", re.sub("^case: ", "", str(found), flags=re.MULTILINE))
+    life = found.life
+    hours = life.hours if isinstance(life, Life) else None
+    warnings = "\n".join(found.warnings)
+    return hours, life.hours_run, life.cycles_run, found.stop, found.numerical_error, warnings, ""
+
+
+def _digest(case: Case, shard: Shard) -> str:
+    """Hash of the validated case with every default taken, of its files and of the engine."""
+    names = {path.name for path in case.files}
+    files = {name: text for name, text in shard.design.files.items() if name in names}
+    inputs = with_files(case.inputs, "")
+    return content_hash({"inputs": inputs, "files": files, "engine": vars(shard.engine)})

@@ -1,0 +1,254 @@
+"""The folder of a study: finished shards as Parquet files, from which the same command goes on."""
+
+import contextlib
+import json
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wearsim.errors import OutputError
+from wearsim.extras import library
+from wearsim.files import write_file
+from wearsim.runner.design import Design, content_hash
+from wearsim.runner.shard import COLUMNS, Rows, Shard
+
+MANIFEST = "study.json"
+_SHARDS = "shards"
+_FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado", "front")
+_WRITTEN = (
+    "cases.csv", "summary.md", "convergence.csv", "sensitivity.csv", "candidates.csv", "front.csv",
+    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
+)  # fmt: skip
+"""Tables and pictures of studies."""
+
+DESIGNS, DESIGN_MARK = "designs", " of wearsim optimise "
+"""Folder of the best designs, and what stands in the first line of each."""
+
+_DESIGN_NAME = re.compile(r"[0-9]{2,}\.toml")
+_DESIGN_LINE = re.compile(rf"# design [0-9]+{DESIGN_MARK}")
+
+_HASH = b"rows_sha256"
+_TEXTS = ("stop", "warnings", "error", "case_sha256")
+
+
+@dataclass(frozen=True)
+class Store:
+    """The folder of a study.
+
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Its place.
+    """
+
+    folder: Path
+
+    def path(self, shard: Shard) -> Path:
+        """Return the place of a shard.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+
+        Returns
+        -------
+        pathlib.Path
+            Named by the hash of all that its rows depend on.
+        """
+        return self.folder / _SHARDS / f"{shard.address}.parquet"
+
+    def finished(self, shard: Shard) -> Rows | None:
+        """Return the rows of a shard that was run before.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+
+        Returns
+        -------
+        dict of list or None
+            None where it was not, or where the file is damaged, which is then removed.
+        """
+        parquet = library("pyarrow.parquet", "parquet", "--out")
+        path = self.path(shard)
+        if not path.exists():
+            return None
+        arrow = library("pyarrow", "parquet", "--out")
+        try:
+            table = parquet.read_table(path)
+            rows: Rows = table.to_pydict()
+            written = (table.schema.metadata or {}).get(_HASH)
+            sound = written == content_hash(rows).encode()
+        except (OSError, ValueError, TypeError, arrow.ArrowException):
+            rows, sound = {}, False
+        indices = list(range(shard.first, shard.first + shard.count))
+        if sound and tuple(rows) == COLUMNS and rows["case_index"] == indices:
+            return rows
+        with contextlib.suppress(OSError):
+            path.unlink()
+        return None
+
+    def keep(self, shard: Shard, rows: Rows) -> None:
+        """Write the rows of a shard beside its place, flush them to the disk, and rename.
+
+        Parameters
+        ----------
+        shard : Shard
+            Some cases.
+        rows : dict of list
+            What came of them.
+
+        Raises
+        ------
+        OutputError
+            The disk is full or the folder cannot be written; nothing half-written stays.
+        """
+        arrow = library("pyarrow", "parquet", "--out")
+        from pyarrow import parquet
+
+        kinds = {name: arrow.string() for name in _TEXTS} | {"case_index": arrow.int64()}
+        columns = {
+            name: arrow.array(values, kinds.get(name, arrow.float64()))
+            for name, values in rows.items()
+        }
+        table = arrow.table(columns).replace_schema_metadata({_HASH: content_hash(rows)})
+        path = self.path(shard)
+        beside = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with beside.open("wb") as file:
+                parquet.write_table(table, file, compression="zstd")
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(beside, path)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                beside.unlink()
+            reason = error.strerror or error
+            raise OutputError(
+                f"{path.parent}: must be writable: {reason}; what is finished is kept, run the same "
+                "command again to go on"
+            ) from None
+
+
+def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> Store:
+    """Make the folder of a study, or open it to go on.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        New, empty, or that of the same study.
+    design : Design
+        Its cases.
+    told : mapping
+        What else the manifest tells of the study.
+    force : bool
+        Take the folder of another study.
+
+    Returns
+    -------
+    Store
+        With what is finished.
+
+    Raises
+    ------
+    OutputError
+        The folder holds another study or anything else.
+    """
+    text = _manifest(design, told)
+    old = _found(folder, text, force)
+    if old == text:
+        return Store(folder)
+    if old is not None:
+        _clear(folder)
+    write_file(folder / MANIFEST, text, force=True)
+    return Store(folder)
+
+
+def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> None:
+    """Raise where a study cannot go into a folder, as `open_store` does.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        New, empty, or that of the same study.
+    design : Design
+        Its cases.
+    told : mapping
+        What else the manifest tells of the study.
+    force : bool
+        Take the folder of another study.
+
+    Raises
+    ------
+    OutputError
+        The folder holds another study or anything else.
+    """
+    _found(folder, _manifest(design, told), force)
+
+
+def own_designs(folder: Path) -> list[Path]:
+    """Return the designs in a folder that wearsim wrote.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Of the best designs, there or not.
+
+    Returns
+    -------
+    list of pathlib.Path
+        Files named by a number that begin as such a design does.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    return [path for path in folder.glob("*.toml") if _is_own_design(path)]
+
+
+def _is_own_design(path: Path) -> bool:
+    if not _DESIGN_NAME.fullmatch(path.name) or not path.is_file():
+        return False
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return _DESIGN_LINE.match(file.readline(200)) is not None
+
+
+def _found(folder: Path, text: str, force: bool) -> str | None:
+    """Manifest of the study that is there, which must be the same one unless it may be replaced."""
+    place = folder / MANIFEST
+    try:
+        old = place.read_bytes().decode("utf-8", "replace") if place.exists() else None
+        taken = folder.exists() and (not folder.is_dir() or any(folder.iterdir()))
+    except OSError as error:
+        raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
+    if old is None and taken:
+        raise OutputError(f"{folder}: must be new or hold a study, but does not: choose another")
+    if old not in (None, text) and not force:
+        raise OutputError(
+            f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
+            "number or version): choose another place or --force"
+        )
+    return old
+
+
+def _manifest(design: Design, told: Mapping[str, Any]) -> str:
+    content = {"schema_version": 1, **told, "cases": len(design.rows), "sha256": design.address()}
+    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _clear(folder: Path) -> None:
+    """Remove what another study wrote about all of its cases, before this one has run."""
+    try:
+        for name in _WRITTEN:
+            (folder / name).unlink(missing_ok=True)
+        for path in own_designs(folder / DESIGNS):
+            path.unlink()
+    except OSError as error:
+        raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None

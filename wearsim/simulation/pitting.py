@@ -1,0 +1,101 @@
+"""Contact fatigue beside the wear of a case: hours until pitting, and a warning where it is first."""
+
+from collections.abc import Sequence
+
+from wearsim.case.flank_endurance import FatigueInput
+from wearsim.case.model import Case, GearDrive, StrandDrive
+from wearsim.fatigue.contact_fatigue import doubtful_hardness, fatigue_life
+from wearsim.fatigue.endurance import EnduredHours
+from wearsim.fatigue.gear_fatigue import gear_fatigue_lives
+from wearsim.result import Life, LowerBound, life_of
+
+Stresses = Sequence[tuple[float, float]]
+"""Highest pressures on a new flank under the loads of a duty, with the load factor [MPa], each with
+its share of the cycles."""
+
+
+def pointwise_stresses(case: Case, fatigue: FatigueInput, peak_pressure: float) -> Stresses:
+    """Return the highest pressure on a new flank in every block of the duty.
+
+    Parameters
+    ----------
+    case : Case
+        On a strand or under a table of loads.
+    fatigue : FatigueInput
+        Its load factor.
+    peak_pressure : float
+        On its new flank, under the heaviest block [MPa].
+
+    Returns
+    -------
+    sequence of tuple of float
+        Pairs of a pressure with the load factor [MPa], as it goes with the root of the load, and
+        the block's share of the cycles.
+    """
+    drive, highest = case.drive, fatigue.load_factor**0.5 * peak_pressure
+    if not isinstance(drive, StrandDrive):
+        return [(highest, 1.0)]
+    return [(highest * (block.tension / drive.pull) ** 0.5, block.share) for block in drive.blocks]
+
+
+def fatigue_parts(
+    case: Case,
+    fatigue: FatigueInput,
+    stresses: Stresses,
+    life: Life | LowerBound,
+    sprocket: Life | LowerBound,
+) -> tuple[dict[str, Life | LowerBound], list[str]]:
+    """Return the lives of a case until pitting.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    fatigue : FatigueInput
+        Its materials.
+    stresses : sequence of tuple of float
+        Pairs of a pressure on the new flank with the load factor [MPa] and its share of the
+        cycles.
+    life, sprocket : Life or LowerBound
+        By wear: of the case, and of its sprocket (or gears) where the chain is replaced.
+
+    Returns
+    -------
+    dict of str to Life or LowerBound
+        ``sprocket_fatigue``, or ``pinion_fatigue`` and ``wheel_fatigue`` in cycles of the pinion;
+        0 h where the stress is allowed at no time, a bound where it always is.
+    list of str
+        Warnings.
+    """
+    drive, rate = case.drive, case.cycles_per_hour
+    if isinstance(drive, GearDrive):
+        endured = gear_fatigue_lives(case, drive, fatigue, stresses[0][0])
+    else:
+        material = fatigue.materials["sprocket"]
+        endured = {"sprocket": fatigue_life(material, stresses, rate, case.run.horizon_hours)}
+    warnings = doubtful_hardness(fatigue.materials)
+    for name, found in endured.items():
+        warnings += _early(name, found, life, sprocket)
+    lives = {
+        f"{name}_fatigue": life_of(found.hours * rate, rate, not found.bound)
+        for name, found in endured.items()
+    }
+    return lives, warnings
+
+
+def _early(
+    name: str,
+    found: EnduredHours,
+    life: Life | LowerBound,
+    sprocket: Life | LowerBound,
+) -> list[str]:
+    if found.hours == 0.0:
+        return [
+            f"contact fatigue: the stress on the new flank is more than the {name} endures for any time"
+        ]
+    if found.bound or found.hours >= sprocket.hours_run:
+        return []
+    after = f"after {found.hours:.3g} h"
+    if found.hours < life.hours_run:
+        return [f"contact fatigue of the {name} comes before the wear, {after}: it governs"]
+    return [f"contact fatigue of the {name} comes before its own wear, {after}"]

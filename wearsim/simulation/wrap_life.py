@@ -1,0 +1,429 @@
+"""Lives of a sprocket that a chain wraps, and of the chain."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from wearsim.case.model import Block, Case, WrapDrive
+from wearsim.chain.drive_layout import Meetings
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.errors import ConvergenceError
+from wearsim.geometry.profile import Vector, area_between
+from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
+from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+from wearsim.mechanisms.wrap.joint import elongation_per_loop
+from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
+from wearsim.result.folder import with_files
+from wearsim.simulation.chain_rating import rating, rating_warnings
+from wearsim.simulation.law_of_case import running_in, running_in_assumptions, wear_law
+from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
+from wearsim.simulation.wrap_mechanism import wrap_mechanism
+from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
+from wearsim.wear.bodies import Rows, Start, highest_load
+from wearsim.wear.criteria import Criterion
+from wearsim.wear.halving import advance_dwelling
+from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
+from wearsim.wear.law import Law
+from wearsim.wear.running_in import RunningIn
+from wearsim.wear.trajectory import Trajectory, difference
+
+_FLANKS = 40
+"""Worn outlines kept in flank.csv, about."""
+
+_MOST_UPDATES = 200_000
+"""Updates of a cycle-by-cycle run, each of some milliseconds."""
+
+
+def simulate_wrap(
+    case: Case, drive: WrapDrive, progress: Callable[[float], None] = lambda part: None
+) -> WearResult:
+    """Wear the gaps of a wrapped sprocket and its chain until the first limit.
+
+    The run goes on to the sprocket's own limit, with a new chain whenever one has grown
+    to its limit; chain and sprocket life are both reported and the shorter is the life.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    drive : WrapDrive
+        Its drive.
+    progress : callable, optional
+        Told how much of a run is done, from 0 to 1; from 0 again where another follows.
+
+    Returns
+    -------
+    WearResult
+        Complete: lives, band, history and worn outlines.
+
+    Raises
+    ------
+    ContactError
+        The chain jumps, or nothing slides under load.
+    ConvergenceError
+        A pressure cannot be found, or the run would take too many updates.
+    """
+    contact = wrap_contact(case, drive)
+    law, criteria, horizon = wrap_problem(case, contact)
+    warp = law.running_in
+    warnings = [*case.warnings, *rating_warnings(case)]
+    run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
+    warnings += _gave_up(run, horizon)
+    run = replace(run, cycles=warp.running_cycles(run.cycles))
+    chain = _chain_life(case, contact, horizon, warp)
+    sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
+    life, stop, stop_value = _first(case, drive, run, chain, sprocket)
+    history, flank = _tables(case, contact, drive, run, law)
+    parts = {"chain": chain, "sprocket": sprocket}
+    parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
+    deepest = int(run.depth[-1].argmax())
+    return WearResult(
+        case=case.name,
+        title=case.title,
+        life=life,
+        life_low=_scaled(life, case.wear.high, case, warp),
+        life_high=_scaled(life, case.wear.low, case, warp),
+        band=f"{case.wear.band}, of teeth and joints alike",
+        stop=stop,
+        stop_value=stop_value,
+        cycles_run=float(run.cycles[-1]),
+        hours_run=float(run.cycles[-1]) / case.cycles_per_hour,
+        max_depth=float(run.depth[-1, deepest]),
+        max_depth_arc_length=float(contact.arc_length[deepest]),
+        removed_area=math.fsum(
+            area_between(run.x[0], run.y[0], x, y)
+            for x, y in zip(*contact.profile.receded(run.all_depth[-1]), strict=True)
+        ),
+        worn_area=run.area,
+        initial_peak_pressure=float(history["peak_pressure_MPa"][0]),
+        final_peak_pressure=float(history["peak_pressure_MPa"][-1]),
+        speed_rpm=case.speed_rpm,
+        method=case.run.method,
+        updates=run.updates,
+        numerical_error=error,
+        life_tolerance=case.run.life_tolerance,
+        parts=parts,
+        limits=_limits(contact, drive, criteria, run, life),
+        ratings=rating(case),
+        assumptions=(
+            *contact.assumptions(),
+            *running_in_assumptions(warp),
+            *case.assumptions,
+        ),
+        warnings=tuple(warnings),
+        inputs=with_files(case.inputs, ""),
+        input_files=case.input_files,
+        history_columns=history,
+        flank_columns=flank,
+        environment=environment(),
+    )
+
+
+def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
+    """Return what a wrap asks of the wear engine.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    contact : WrapContact
+        Its contact.
+
+    Returns
+    -------
+    tuple
+        Law, limits and the horizon in cycles of constant coefficient.
+    """
+    warp = running_in(case.wear, contact.sliding_per_cycle)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
+    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
+    return law, criteria, warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+
+
+def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> GridStudy:
+    """Run the sprocket of a wrapped case on three grids.
+
+    Parameters
+    ----------
+    case : Case
+        A complete case.
+    drive : WrapDrive
+        Its drive.
+    life_tolerance : float
+        Relative tolerance of each life.
+
+    Returns
+    -------
+    GridStudy
+        Of the three runs.
+    """
+    contact = wrap_contact(case, drive)
+    run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
+    return grid_study(contact.thinned(), run_on)
+
+
+def _on_grid(
+    law: Law, criteria: tuple[Criterion, ...], horizon: float, life_tolerance: float, grid: Dwelling
+) -> Trajectory:
+    run, _ = advance_dwelling(grid, law, criteria, horizon, life_tolerance)
+    return replace(run, cycles=law.running_in.running_cycles(run.cycles))
+
+
+def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
+    """Return the contact events of a chain around a sprocket.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    WrapContact
+        For the wear engine.
+    """
+    mechanism = wrap_mechanism(case, drive)
+    pull, chain = mechanism.pull, mechanism.chain
+    rolls = (
+        pull.friction_roller_tooth * chain.roller_radius
+        > pull.friction_roller_bush * chain.bush_radius
+    )
+    blocks = tuple(_wrap_block(drive, mechanism, block) for block in drive.blocks)
+    layout, joint = drive.layout, drive.joint
+    engaged = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
+    own = 2.0 * math.pi / drive.pitch_angle
+    mate = layout.teeth_2 if drive.driver else layout.teeth_1
+    per_loop = math.fsum(
+        block.share
+        * elongation_per_loop(
+            block.joint_factor * joint.coefficient,
+            (
+                (block.tension + block.centrifugal) / joint.bearing_area,
+                (drive.slack + block.centrifugal) / joint.bearing_area,
+            ),
+            drive.chain.pin_diameter,
+            drive.chain.pitch,
+            (own, mate),
+        )
+        for block in drive.blocks
+    )
+    return WrapContact(
+        blocks=blocks,
+        face_width=drive.face_width,
+        phases=drive.phases,
+        sliding=Sliding(
+            fraction=drive.slip_fraction,
+            path_fraction=drive.slip_fraction if rolls else 1.0,
+        ),
+        modulus=case.modulus,
+        same_link_kind=Meetings(engaged, layout.links).same_link_kind,
+        elongation_per_cycle=per_loop * engaged / layout.links,
+        elongation_limit=joint.elongation_limit,
+        # Another sprocket wears the rollers too, by the same way over its own articulation.
+        roller_area_ratio=case.wear.roller_ratio * engaged / layout.links * (1.0 + own / mate),
+        slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
+    )
+
+
+def _wrap_block(drive: WrapDrive, mechanism: WrapMechanism, block: Block) -> WrapBlock:
+    teeth = 2.0 * math.pi / drive.pitch_angle
+    return WrapBlock(
+        share=block.share,
+        mechanism=replace(mechanism, pull=replace(mechanism.pull, tight=block.tension)),
+        pitch_time=60.0 / (block.speed_rpm * teeth),
+        wear_factor=block.wear_factor,
+    )
+
+
+def _run(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    warnings: list[str],
+    progress: Callable[[float], None],
+) -> tuple[DwellingTrajectory, float]:
+    """Run the case; the error is that of the steps and of the grid."""
+    amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
+    run, error = advance_dwelling(
+        contact.thinned(), law, criteria, horizon, tolerance / amplification, progress=progress
+    )
+    if case.run.method == "per_cycle":
+        check, end = run, float(run.cycles[-1])
+        until = horizon if check.met else end
+        run = _per_cycle(case, contact, law, criteria, until, end, progress)
+        error += difference(run, check)
+    error *= amplification
+    if error > tolerance:
+        warnings.append(
+            f"{exceeds(error, tolerance)}: use more nodes or phases, or a larger run.life_tolerance"
+        )
+    return run, error
+
+
+def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
+    """Warn of a run that ended neither at a limit nor at its horizon."""
+    if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
+        return []
+    return [
+        f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
+        "the sprocket outlives them, its own limit was not reached"
+    ]
+
+
+def _per_cycle(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    horizon: float,
+    expected: float,
+    progress: Callable[[float], None],
+) -> DwellingTrajectory:
+    """Run the case with steps of given cycles; about so many are expected in all."""
+    cycles = float(case.run.cycles_per_update)
+    if expected > _MOST_UPDATES * cycles:
+        least = math.ceil(expected / _MOST_UPDATES)
+        raise ConvergenceError(
+            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MOST_UPDATES} updates, takes "
+            f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
+        )
+    return run_dwelling(contact, law, criteria, horizon, 0, cycles, reporting(progress))
+
+
+def _chain_life(
+    case: Case, contact: WrapContact, horizon: float, warp: RunningIn
+) -> Life | LowerBound:
+    """Life of a chain: apart from running-in its joints wear at a constant rate."""
+    cycles = contact.cycles_per_chain
+    run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
+    return life_of(run, case.cycles_per_hour, cycles <= horizon)
+
+
+def _first(
+    case: Case,
+    drive: WrapDrive,
+    run: DwellingTrajectory,
+    chain: Life | LowerBound,
+    sprocket: Life | LowerBound,
+) -> tuple[Life | LowerBound, str, float]:
+    """Return the shorter of both lives with the limit that ended it."""
+    if isinstance(chain, Life) and not (
+        isinstance(sprocket, Life) and sprocket.cycles <= chain.cycles
+    ):
+        return chain, "elongation_percent", 100.0 * drive.joint.elongation_limit
+    if run.met is not None:
+        return sprocket, run.met.name, run.met.limit
+    return sprocket, "horizon_hours", case.run.horizon_hours
+
+
+def _scaled(
+    life: Life | LowerBound, factor: float, case: Case, warp: RunningIn
+) -> Life | LowerBound:
+    """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
+    constant = warp.constant_cycles(life.cycles_run)
+    scaled = warp.running_cycles(np.array([constant / factor]))
+    return life_of(float(scaled[0]), case.cycles_per_hour, isinstance(life, Life))
+
+
+def _fatigue(
+    case: Case,
+    contact: WrapContact,
+    law: Law,
+    wear: tuple[Life | LowerBound, Life | LowerBound],
+    warnings: list[str],
+) -> dict[str, Life | LowerBound]:
+    """Return the life of the sprocket until pitting; none where it is not asked for."""
+    if case.fatigue is None:
+        return {}
+    from wearsim.simulation.pitting import fatigue_parts
+
+    factor = case.fatigue.load_factor
+    stresses = [
+        (highest_load(replace(contact, blocks=(block,)), law, None, factor)[0], block.share)
+        for block in contact.blocks
+    ]
+    lives, found = fatigue_parts(case, case.fatigue, stresses, *wear)
+    warnings += found
+    return lives
+
+
+def _limits(
+    contact: WrapContact,
+    drive: WrapDrive,
+    criteria: tuple[Criterion, ...],
+    run: DwellingTrajectory,
+    life: Life | LowerBound,
+) -> tuple[LimitState, ...]:
+    """Return what every limit has come to when the life ends."""
+    at = int(np.searchsorted(run.cycles, life.cycles_run * (1.0 - 1e-9)))
+    at = min(at, run.cycles.size - 1)
+    worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
+    limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
+    wear = ChainWear(elongation, float(run.roller_wear[at]))
+    least = _smallest_slack_tension(contact, run.all_depth[at], wear)
+    wall = contact.roller_radius - contact.thinnest_roller
+    rollers = LimitState("roller_wear_mm", wall, wear.roller)
+    return (
+        *worn,
+        LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
+        *((rollers,) if contact.roller_area_ratio else ()),
+        LimitState(
+            "min_slack_tension_N",
+            contact.slack_limit or drive.slack,
+            min(least, drive.heaviest.tension),
+        ),
+    )
+
+
+def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: ChainWear) -> float:
+    """Slack tension below which the chain jumps on worn gaps [N]."""
+    worn = contact.worn_paths(*contact.profile.receded(depth), wear)
+    return contact.gripping.smallest_slack_tension(wear.elongation, worn)
+
+
+def _tables(
+    case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory, law: Law
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Return the columns of history.csv and flank.csv."""
+    profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
+    pressure, speed = highest_load(contact, law, Start(run.all_depth[0], NEW_CHAIN, 1))
+    history = {
+        "cycles": run.cycles,
+        "time_hours": run.cycles / case.cycles_per_hour,
+        "max_depth_mm": run.all_depth.max(axis=(1, 2)),
+        "elongation_percent": 100.0 * run.elongation,
+        "roller_wear_mm": run.roller_wear,
+        "chain": run.chains,
+        "peak_pressure_MPa": np.array([pressure, *run.peak_pressure[1:]]),
+        "max_sliding_speed_mm_per_s": np.array([speed, *run.sliding_speed[1:]]),
+        "removed_area_mm2": np.array(
+            [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+        "tip_land_mm": np.array(
+            [drive.worn_tip_land(x, y) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+        "over_pins_mm": np.array(
+            [over_pins(path, x, y, drive.gaps) for x, y in zip(run.x, run.y, strict=True)]
+        ),
+    }
+    shots = np.unique(np.linspace(0, run.cycles.size - 1, _FLANKS).round().astype(int))
+    bodies = contact.bodies
+    depth = run.all_depth[shots]
+    x, y = profile.receded(depth)
+    flank = {
+        "cycles": np.repeat(run.cycles[shots], bodies * points),
+        "gap_kind": np.tile(np.repeat(np.arange(1, bodies + 1), points), shots.size),
+        "node": np.tile(np.arange(1, points + 1), shots.size * bodies),
+        "arc_length_mm": np.tile(contact.arc_length, shots.size * bodies),
+        "x_mm": x.ravel(),
+        "y_mm": y.ravel(),
+        "depth_mm": depth.ravel(),
+    }
+    return history, flank

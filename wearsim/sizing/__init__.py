@@ -1,1 +1,0 @@
-"""Handbook calculations beside the wear run: is a drive inside its rating."""

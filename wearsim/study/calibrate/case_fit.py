@@ -1,0 +1,316 @@
+"""The fit of one case to its readings."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import CaseError, Fault, GeometryError
+from wearsim.geometry.profile import Vector
+from wearsim.runner.design import replaced
+from wearsim.runner.scatter import coefficient_key
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.calibrate.calibration import Calibration, Options, Part, Value
+from wearsim.study.calibrate.cautions import doubts, of_runs
+from wearsim.study.calibrate.checks import faults_of
+from wearsim.study.calibrate.interpolation import Courses
+from wearsim.study.calibrate.least_squares import Fitted, Problem, fit, profile_interval, stated_at
+from wearsim.study.calibrate.measured_profiles import Scan, observation
+from wearsim.study.calibrate.observe import Observation, State
+from wearsim.study.calibrate.parameters import JOINT, Parameters, shape_values
+from wearsim.study.calibrate.readings import ELONGATION, PROFILE, Reading
+
+_FOREVER = 1e15
+"""Horizon of the runs [h]: the limit must be reached, as all times are scaled."""
+
+_SAME_RATIO = 2e-3
+"""Relative change of the ratio of both coefficients that a run is not repeated for."""
+
+_SETTLED, _MOST_ROUNDS = 1e-4, 20
+
+_ENOUGH = 2.0
+"""Horizon of the calibrated case over its life, at least."""
+
+_AT_END = 0.1
+"""How near the logarithm of a life may come to an end of those that are searched."""
+
+_TRIED = 45
+"""Lives that the search starts from, about a factor of 2 apart."""
+
+
+class Fitting:
+    """The fit of one case.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    tables : mapping
+        Its tables, the wear coefficient by its own key.
+    readings : sequence of Reading
+        What was measured.
+    options : Options
+        How to fit.
+    file : str
+        That of the readings, for messages.
+
+    Raises
+    ------
+    CaseError
+        There are fewer readings than values, or one does not belong to the case.
+    """
+
+    def __init__(
+        self, case: Case, tables: Mapping[str, Any], readings: Sequence[Reading], options: Options,
+        file: str,
+    ) -> None:  # fmt: skip
+        self.tables = tables
+        self.case, self.readings, self.options, self.file = case, readings, options, file
+        chain = any(reading.quantity == ELONGATION for reading in readings)
+        joint, rate, self.chain_hours = _joints(case)
+        self.parameters = Parameters(
+            courses=Courses(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
+            coefficient=case.wear.coefficient,
+            joint=joint,
+            elongation_rate=rate,
+            teeth=any(reading.quantity != ELONGATION for reading in readings),
+            chain=chain,
+            shapes={key: shape_values(case)[key] for key in options.shapes},
+            last=self._last(teeth=True),
+            ratio=1.0,
+        )
+        self.settled = True
+        self.observations = self._observed(None)
+        self.freedom = sum(one.freedom for one in self.observations) - self.parameters.size
+        if self.freedom < 0:
+            text = (
+                f"must hold at least as many independent values as are fitted, {self.parameters.size}, "
+                f"but holds {self.freedom + self.parameters.size}: measure more, or fit less"
+            )
+            raise CaseError([Fault(text, "", file)])
+
+    def calibration(self) -> Calibration:
+        """Return the whole answer.
+
+        Returns
+        -------
+        Calibration
+            Values, hours left, and how well the readings are met.
+
+        Raises
+        ------
+        CaseError
+            A reading lies too far beyond the limit.
+        WearsimError
+            The case cannot be run.
+        """
+        found = self._fit()
+        self._check_reached(found)
+        values, correlation = self._values(found)
+        state = self.parameters.state(found.point)
+        shown = tuple(row for one in self.observations for row in one.shown(state))
+        parts = self._parts(found, values)
+        return Calibration(
+            case=self.case,
+            options=self.options,
+            values=values,
+            parts=parts,
+            chi_square=found.chi_square,
+            freedom=self.freedom,
+            scale=found.scale,
+            readings=len(self.readings),
+            moves=tuple(one.moved for one in self.observations if isinstance(one, Scan)),
+            shown=shown,
+            runs=self.parameters.courses.runs,
+            tables=self._fitted_tables(values, parts),
+            assumptions=self._assumptions(),
+            warnings=(
+                *doubts(self.case, values, correlation, found, self.observations, self.freedom),
+                *of_runs(self.settled, self.parameters.courses.numerical_error, parts),
+            ),
+        )
+
+    def _observed(self, state: State | None) -> list[Observation]:
+        """Return the readings, profiles registered by what is known of the wear."""
+        options, parameters = self.options, self.parameters
+        new = parameters.course(np.zeros(parameters.size)).new if parameters.teeth else None
+        found, faults = [], []
+        for reading in self.readings:
+            wrong = []
+            if new is not None and reading.quantity != ELONGATION:
+                wrong = faults_of(reading, new)
+            try:
+                if not wrong:
+                    found.append(observation(reading, new, options.freedom, options.cutoff, state))
+            except GeometryError as error:
+                wrong.append(str(error))
+            faults += [Fault(text, "", self.file, reading.row) for text in wrong]
+        if faults:
+            raise CaseError(faults)
+        return found
+
+    def _fit(self) -> Fitted:
+        """Fit again until registration and the ratio of both coefficients go with what comes out."""
+        found = fit(self._problem(), self._nearest(self.parameters.start))
+        for _ in range(_MOST_ROUNDS):
+            before = found.point
+            again = self._follow(before)
+            if not again:
+                break
+            found = fit(self._problem(), before)
+            if float(np.abs(found.point - before).max()) < _SETTLED:
+                break
+        else:
+            self.settled = False
+        return found
+
+    def _follow(self, point: Vector) -> bool:
+        """Take up what a fit says about the runs and the registration; whether it matters."""
+        parameters = self.parameters
+        ratio = self._ratio(point) if parameters.teeth and parameters.chain else 1.0
+        moved = abs(math.log(ratio / parameters.ratio)) > _SAME_RATIO
+        if moved:
+            self.parameters = replace(parameters, ratio=ratio)
+        scanned = any(reading.quantity == PROFILE for reading in self.readings)
+        if scanned:
+            self.observations = self._observed(self.parameters.state(point))
+        return moved or scanned
+
+    def _ratio(self, point: Vector) -> float:
+        coefficient, joints, *_ = self.parameters.swapped(point)
+        return math.exp(joints - coefficient)
+
+    def _nearest(self, point: Vector) -> Vector:
+        """Return a start whose life is nearest to the readings, which costs no runs."""
+        if not self.parameters.teeth:
+            return point
+        problem = self._problem()
+        low, high = problem.low, problem.high
+        tried = [np.array([life, *point[1:]]) for life in np.linspace(low[0], high[0], _TRIED)]
+        squares = [float(np.sum(problem.residuals(one) ** 2)) for one in tried]
+        return tried[int(np.argmin(squares))]
+
+    def _problem(self) -> Problem:
+        return self._restated(lambda point: point, self.parameters.bounds)
+
+    def _last(self, teeth: bool) -> float:
+        """Hours of the last reading of the teeth or of the chain [h]."""
+        return max(
+            (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth),
+            default=math.nan,
+        )
+
+    def _restated(
+        self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]
+    ) -> Problem:
+        parameters, observations = self.parameters, self.observations
+
+        def residuals(logs: Vector) -> Vector:
+            state = parameters.state(point_of(logs))
+            return np.concatenate([one.residuals(state) for one in observations])
+
+        return Problem(residuals, *bounds, self.freedom)
+
+    def _check_reached(self, found: Fitted) -> None:
+        """Raise where the best life is only an end of those that were searched."""
+        if not self.parameters.teeth:
+            return
+        low, high = self.parameters.bounds
+        if found.point[0] < low[0] + _AT_END:
+            text = (
+                f"must not lie more than a quarter of the life beyond the limit, but the readings until "
+                f"{self._last(teeth=True):g} h do: raise the limits of [stop]"
+            )
+            raise CaseError([Fault(text, "time_hours", self.file)])
+        if found.point[0] > high[0] - _AT_END:
+            least = profile_interval(self._problem(), found, 0, self.options.confidence)
+            text = (
+                f"must show wear, but go with none: the life is at least {math.exp(least.low):.4g} h "
+                f"({100 * self.options.confidence:g} %); measure later or better"
+            )
+            raise CaseError([Fault(text, "value", self.file)])
+
+    def _values(self, found: Fitted) -> tuple[tuple[Value, ...], Vector]:
+        """Return the values with their intervals, and their correlations."""
+        parameters = self.parameters
+        problem = self._restated(parameters.swapped, parameters.bounds_of_coefficients())
+        stated = stated_at(problem, parameters.swapped(found.point))
+        given = {}
+        if parameters.teeth:
+            given[coefficient_key(self.case)] = parameters.coefficient
+        if parameters.chain:
+            given[JOINT] = parameters.joint
+        given |= parameters.shapes
+        values = []
+        for index, (key, start) in enumerate(given.items()):
+            interval = profile_interval(problem, stated, index, self.options.confidence)
+            value = start * math.exp(stated.point[index])
+            values.append(Value(key, value, start, interval.scaled(start)))
+        return tuple(values), stated.correlation
+
+    def _fitted_tables(self, values: Sequence[Value], parts: Sequence[Part]) -> Mapping[str, Any]:
+        """Tables of the case with the values, the band of a known coefficient, and enough time."""
+        tables = self.tables
+        for one in values:
+            tables = replaced(tables, one.key.split("."), one.value)
+        if self.parameters.teeth and not self.parameters.shapes and values[0].interval.known:
+            ends = values[0].interval
+            band = max(ends.high / values[0].value, values[0].value / ends.low)
+            tables = replaced(tables, ("wear", "band_factor"), band)
+        longest = max(part.life for part in parts)
+        horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
+        return replaced(tables, ("run", "horizon_hours"), horizon)
+
+    def _parts(self, found: Fitted, values: Sequence[Value]) -> tuple[Part, ...]:
+        parts = []
+        if self.parameters.teeth:
+            interval = profile_interval(self._problem(), found, 0, self.options.confidence)
+            name = "pinion" if "gear" in self.case.inputs else "sprocket"
+            parts.append(
+                Part(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0))
+            )
+        if self.parameters.chain:
+            (joints,) = (value for value in values if value.key == JOINT)
+            whole = self.chain_hours * joints.given
+            hours = self._last(teeth=False)
+            parts.append(Part("chain", hours, whole / joints.value, joints.interval.inverse(whole)))
+        return tuple(parts)
+
+    def _assumptions(self) -> tuple[str, ...]:
+        found = [
+            "the coefficients are constant over the whole life, load and lubrication stay as they were",
+            "errors of the readings are normal, independent and as stated; intervals hold them only, not "
+            "errors of the model",
+        ]
+        moved = {
+            "none": "not moved",
+            "turn": "turned about the axis (a datum that is off it by some hundredths of a millimetre can "
+            "cost more than the intervals, see --register free)",
+            "free": "turned and shifted",
+        }
+        if any(reading.x.size for reading in self.readings):
+            found.append(
+                f"measured profiles are {moved[self.options.freedom]} to fit and smoothed by the Gaussian "
+                f"filter of ISO 16610-21, cut-off {self.options.cutoff:g} mm; the model is smoothed alike"
+            )
+        parameters = self.parameters
+        if isinstance(self.case.drive, WrapDrive) and parameters.teeth:
+            found.append(
+                "the runs take the joints' wear over that of the teeth as it came out, without its error"
+                if parameters.chain
+                else "joints wear as much more or less than their coefficient says as teeth do"
+            )
+        return (*found, *self.case.assumptions)
+
+
+def _joints(case: Case) -> tuple[float, float, float]:
+    """Coefficient of the joints, elongation a hour [%/h] and hours of a chain with it."""
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        return math.nan, math.nan, math.nan
+    contact = wrap_contact(case, drive)
+    hours = contact.cycles_per_chain / case.cycles_per_hour
+    return drive.joint.coefficient, 100.0 * contact.elongation_limit / hours, hours

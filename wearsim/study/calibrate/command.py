@@ -1,0 +1,84 @@
+"""``wearsim calibrate``: coefficients and hours left from what was measured in service."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.command.complete import CasePath
+from wearsim.command.options import finite, overrides, print_json, standard, warn, working
+
+if TYPE_CHECKING:
+    from wearsim.geometry.measured.registration import Freedom
+
+
+@click.command(short_help="Fit coefficients to measurements; hours left with their band.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.argument(
+    "measurements", type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    metavar="MEASUREMENTS",
+)  # fmt: skip
+@click.option(
+    "--fit", "shapes", multiple=True, metavar="KEY",
+    help="Fit this key too: wear.pressure_exponent, mechanism.roller_slip_fraction; may be repeated.",
+)  # fmt: skip
+@click.option(
+    "--register", type=click.Choice(("turn", "free", "none")), default="turn", show_default=True,
+    help="How a measured profile may be moved: turned about the axis, also shifted, not at all.",
+)  # fmt: skip
+@click.option(
+    "--cutoff-mm", type=click.FloatRange(min=0.01, max=100.0), default=0.8, show_default=True,
+    metavar="MM", callback=finite, help="Cut-off wavelength of the filter of profiles.",
+)  # fmt: skip
+@click.option(
+    "--confidence", type=click.FloatRange(min=0.5, max=0.999), default=0.9, show_default=True,
+    callback=finite, help="Of the intervals.",
+)  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
+@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@overrides
+@standard
+def calibrate(
+    case: Path, measurements: Path, shapes: tuple[str, ...], register: "Freedom",
+    cutoff_mm: float, confidence: float, out: Path | None, force: bool, as_json: bool,
+    settings: tuple[str, ...],
+) -> None:  # fmt: skip
+    """Fit the wear coefficients of CASE (.toml) to MEASUREMENTS (.csv), and tell the hours left.
+
+    A row of the table is a reading: time_hours, quantity (max_depth_mm, depth_mm at
+    arc_length_mm, over_pins_mm, elongation_percent, or profile with a points_file), value and
+    error, its standard deviation. The folder holds fit.csv, fitted_values.csv, summary.md,
+    pictures, and the case with what was fitted. Needs pandera (pip install 'wearsim[study]').
+    """
+    from wearsim.extras import check_installed
+
+    check_installed(("pandera",), "study", "calibrate")
+    if out is not None:
+        from wearsim.files import check_folder
+
+        check_folder(out, force)
+        _check_apart(out, (case, measurements))
+    from wearsim.study.calibrate.calibration import Options
+    from wearsim.study.calibrate.model import calibrate as calibrated
+    from wearsim.study.calibrate.sheet import calibration_json, calibration_text, save_calibration
+
+    options = Options(shapes, register, cutoff_mm, confidence)
+    with working(f"fitting {case.stem}"):
+        found = calibrated(case, measurements, settings, options)
+    if as_json:
+        print_json(calibration_json(found), case, found.warnings)
+    else:
+        click.echo(calibration_text(found))
+    if out is not None:
+        save_calibration(found, out, force)
+        warn(f"written to {out}")
+
+
+def _check_apart(out: Path, inputs: tuple[Path, ...]) -> None:
+    """Raise where the folder to be replaced holds what is read."""
+    for path in inputs:
+        if path.resolve().is_relative_to(out.resolve()):
+            raise click.UsageError(
+                f"--out {out} must not be the folder of {path}: choose another place"
+            )

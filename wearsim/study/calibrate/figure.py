@@ -1,0 +1,111 @@
+"""Pictures of a calibration: what was measured beside what is predicted, and what is left."""
+
+import math
+from collections.abc import Iterator
+from itertools import groupby
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy.stats import norm
+
+from wearsim.report.figure_text import literal
+from wearsim.study.calibrate.calibration import Calibration
+from wearsim.study.calibrate.observe import Shown
+from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE
+
+_AXES = {
+    DEEPEST: "depth at the deepest point, mm",
+    POINT: "depth at points, mm",
+    OVER_PINS: "less over pins, mm",
+    ELONGATION: "elongation of the chain, %",
+    PROFILE: "profile behind the new one, mm",
+}
+
+
+def calibration_figures(found: Calibration) -> dict[str, Figure]:
+    """Return the pictures by file stem.
+
+    Parameters
+    ----------
+    found : Calibration
+        The answer.
+
+    Returns
+    -------
+    dict
+        ``fit``: values with their errors beside the fit, a panel a quantity;
+        ``residuals`` over hours and against the normal distribution.
+    """
+    figures = {"fit": _readings(found), "residuals": _residuals(found)}
+    for figure in figures.values():
+        figure.suptitle(literal(found.case.title), fontsize=10)
+    return figures
+
+
+def _readings(found: Calibration) -> Figure:
+    names = [name for name in _AXES if any(one.quantity == name for one in found.shown)]
+    figure = Figure(figsize=(7.5, 3.6 * len(names)), layout="constrained")
+    for panel, name in zip(figure.subplots(len(names), squeeze=False)[:, 0], names, strict=True):
+        shown = [one for one in found.shown if one.quantity == name]
+        along = name == PROFILE
+        for index, (label, line) in enumerate(_lines(shown)):
+            x = [one.arc_length if along else one.hours for one in line]
+            _line(panel, x, line, f"C{index}", label)
+        panel.set_title("points: measured, lines: fitted", fontsize=8, loc="left")
+        panel.set_xlabel("along the new flank, mm" if along else "running time, h")
+        panel.set_ylabel(_AXES[name])
+        if not along:
+            panel.set_xlim(left=0.0)
+            panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))
+        panel.grid(alpha=0.3)
+        if panel.get_legend_handles_labels()[1]:
+            panel.legend(frameon=False, fontsize=8)
+    return figure
+
+
+def _lines(shown: list[Shown]) -> Iterator[tuple[str, list[Shown]]]:
+    """Give the values that belong on one line with what it is."""
+    if shown[0].quantity == PROFILE:
+        for _, line in groupby(shown, key=lambda one: one.row):
+            values = list(line)
+            yield f"{values[0].hours:g} h", values
+        return
+    ordered = sorted(shown, key=lambda one: (one.arc_length, one.hours))
+    for place, line in groupby(ordered, key=lambda one: str(one.arc_length)):
+        yield "" if place == "nan" else f"at {float(place):g} mm", list(line)
+
+
+def _line(panel: Axes, x: list[float], line: list[Shown], colour: str, label: str) -> None:
+    fitted = [one.predicted for one in line]
+    start = [] if line[0].quantity == PROFILE else [0.0]
+    panel.plot([*start, *x], [*start, *fitted], "-", color=colour, label=label)
+    panel.errorbar(
+        x, [one.value for one in line], yerr=[one.error for one in line], fmt="o", markersize=4,
+        color=colour, capsize=3, linewidth=0.0, elinewidth=1.0,
+    )  # fmt: skip
+
+
+def _residuals(found: Calibration) -> Figure:
+    figure = Figure(figsize=(7.5, 7.0), layout="constrained")
+    over, against = figure.subplots(2)
+    for index, name in enumerate(_AXES):
+        some = [one for one in found.shown if one.quantity == name]
+        if some:
+            x, y = [one.hours for one in some], [one.residual for one in some]
+            over.plot(x, y, "o", color=f"C{index}", markersize=4, label=_AXES[name].split(",")[0])
+    over.axhline(0.0, color="black", linewidth=0.8)
+    over.axhspan(-1.645, 1.645, color="0.5", alpha=0.15, linewidth=0, label="9 of 10 by chance")
+    over.set_xlabel("running time, h")
+    over.set_ylabel("(fit - measured) / error")
+    over.legend(frameon=False, fontsize=8)
+    ordered = np.sort([one.residual for one in found.shown])
+    chance = norm.ppf((np.arange(ordered.size) + 0.5) / ordered.size)
+    most = max(2.0, math.ceil(float(np.abs([*chance, *ordered]).max())))
+    against.plot(chance, ordered, "o", color="0.3", markersize=4)
+    against.plot([-most, most], [-most, most], color="black", linewidth=0.8)
+    against.set_xlabel("by chance (quantiles of the normal distribution)")
+    against.set_ylabel("(fit - measured) / error, in order")
+    for panel in (over, against):
+        panel.grid(alpha=0.3)
+    return figure

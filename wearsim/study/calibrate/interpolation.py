@@ -1,0 +1,159 @@
+"""Courses for any values of keys, from those that are run."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from wearsim.case.load_case import load_case
+from wearsim.errors import ConvergenceError
+from wearsim.geometry.profile import Vector
+from wearsim.runner.design import replaced
+from wearsim.simulation import simulate
+from wearsim.study.calibrate.predicted_history import Course
+
+Taken = TypeVar("Taken", float, Vector)
+
+_SPACING = 0.05
+"""Of the logarithms of values that are run."""
+
+
+@dataclass(frozen=True)
+class Blend:
+    """Courses of neighbouring values, taken together at equal parts of their lives.
+
+    Attributes
+    ----------
+    shares : tuple of (float, Course)
+        They sum to 1.
+    """
+
+    shares: tuple[tuple[float, Course], ...]
+
+    @property
+    def hours(self) -> float:
+        """Hours until the limit of the teeth [h]."""
+        return math.exp(self.mean(lambda one: math.log(one.hours)))
+
+    @property
+    def new(self) -> Course:
+        """One of them, for all that does not depend on the wear."""
+        return self.shares[0][1]
+
+    def mean(self, take: Callable[[Course], Taken]) -> Taken:
+        """Return what all of them say, by their shares.
+
+        Parameters
+        ----------
+        take : callable
+            What one course says, a number or an array.
+
+        Returns
+        -------
+        float or numpy.ndarray
+            As one of them.
+        """
+        return sum(share * take(one) for share, one in self.shares)  # type: ignore[return-value]
+
+
+@dataclass(frozen=True)
+class Log:
+    """The logarithm of a factor on a value, with the ends of it that are allowed.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The logarithm, from low to high.
+    """
+
+    value: float
+    low: float
+    high: float
+
+    def nodes(self) -> list[tuple[float, float]]:
+        """Return the logarithms that are run beside it, with their shares.
+
+        Returns
+        -------
+        list of (float, float)
+            Shares of sum 1 and multiples of the spacing, or ends.
+        """
+        below = math.floor(self.value / _SPACING)
+        ends = [max(_SPACING * below, self.low), min(_SPACING * (below + 1), self.high)]
+        if self.value <= ends[0]:
+            return [(1.0, ends[0])]
+        if self.value >= ends[1]:
+            return [(1.0, ends[1])]
+        share = (self.value - ends[0]) / (ends[1] - ends[0])
+        return [(1.0 - share, ends[0]), (share, ends[1])]
+
+
+class Courses:
+    """Courses by the values of keys, run where they are needed.
+
+    They are run for the values of the case times powers of exp(0.05); in between they are
+    interpolated, which for the depth of a point is good to 1e-4 of it.
+
+    Parameters
+    ----------
+    tables : mapping
+        Of the case.
+    """
+
+    def __init__(self, tables: Mapping[str, Any]) -> None:
+        self._tables = tables
+        self._found: dict[tuple[tuple[str, float], ...], Course] = {}
+
+    @property
+    def runs(self) -> int:
+        """Runs so far."""
+        return len(self._found)
+
+    @property
+    def numerical_error(self) -> float:
+        """The largest of the runs."""
+        return max((one.result.numerical_error for one in self._found.values()), default=0.0)
+
+    def blend(self, given: Mapping[str, float], logs: Mapping[str, Log]) -> Blend:
+        """Return the course with other values of some keys.
+
+        Parameters
+        ----------
+        given : mapping of str to float
+            Values by dotted key.
+        logs : mapping of str to Log
+            Factors on some of them.
+
+        Returns
+        -------
+        Blend
+            Of two courses for every logarithm between the powers.
+
+        Raises
+        ------
+        WearsimError
+            The case cannot be run with them.
+        """
+        corners: list[tuple[float, dict[str, float]]] = [(1.0, dict(given))]
+        for key, log in logs.items():
+            corners = [
+                (part * share, {**values, key: given[key] * math.exp(node)})
+                for part, values in corners
+                for share, node in log.nodes()
+            ]
+        return Blend(tuple((share, self._at(values)) for share, values in corners))
+
+    def _at(self, values: Mapping[str, float]) -> Course:
+        key = tuple(sorted(values.items()))
+        if key not in self._found:
+            tables = self._tables
+            for name, value in key:
+                tables = replaced(tables, name.split("."), value)
+            course = Course(simulate(load_case(tables)))
+            if not course.reached:
+                raise ConvergenceError(
+                    f"calibrate: the limit must be reached for a life to be scaled, but is not in "
+                    f"{course.hours:.3g} h: check the wear coefficient and the limits of [stop]"
+                )
+            self._found[key] = course
+        return self._found[key]

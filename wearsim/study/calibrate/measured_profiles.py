@@ -1,0 +1,176 @@
+"""Measured profiles as observations."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.geometry.measured.registration import UNSEEN, Freedom, Registered, register
+from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
+from wearsim.geometry.profile import Vector
+from wearsim.study.calibrate.observe import Gauge, Observation, Shown, State
+from wearsim.study.calibrate.predicted_history import Course
+from wearsim.study.calibrate.readings import PROFILE, Reading
+
+
+def observation(
+    reading: Reading,
+    new: Course | None,
+    freedom: Freedom,
+    cutoff: float,
+    state: State | None = None,
+) -> Observation:
+    """Return a reading as something that a state can be held against.
+
+    Parameters
+    ----------
+    reading : Reading
+        The reading.
+    new : Course or None
+        Any run of the case, for its new flank; None where none is measured.
+    freedom : str
+        How a profile may be moved.
+    cutoff : float
+        Cut-off wavelength of the filter of profiles [mm].
+    state : State, optional
+        What is known of the wear, to register a profile by.
+
+    Returns
+    -------
+    Observation
+        Of one value, or of a smoothed profile.
+
+    Raises
+    ------
+    GeometryError
+        A profile does not lie on the flank.
+    """
+    if reading.quantity != PROFILE:
+        return Gauge(reading)
+    assert new is not None
+    expected = None if state is None else _recess(reading, state)
+    registered = register(new.nominal, reading.x, reading.y, freedom, expected)
+    return Scan(reading, registered, cutoff)
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """A measured profile, registered and smoothed; the model is smoothed and moved alike.
+
+    The smoothed values v = W p of points p with independent errors sigma have the covariance
+    sigma^2 W W^T = L L^T: residuals are L^-1 (W p_model - v), less what a movement of the
+    points could explain.
+
+    Attributes
+    ----------
+    reading : Reading
+        The reading.
+    registered : Registered
+        Its points on the new flank.
+    cutoff : float
+        Cut-off wavelength [mm].
+    """
+
+    reading: Reading
+    registered: Registered
+    cutoff: float
+
+    @cached_property
+    def stations(self) -> Vector:
+        """Places of the smoothed values [mm]."""
+        return filter_stations(self.registered.arc_length, self.cutoff)
+
+    @property
+    def freedom(self) -> int:
+        """Independent values less what registration takes."""
+        return int(self.stations.size - self._explained.shape[1])
+
+    @property
+    def moved(self) -> tuple[int, float, float, float]:
+        """Line of the reading, and how its points were moved: turn [rad], shifts [mm]."""
+        found = self.registered
+        return self.reading.row, found.turn, found.shift_x, found.shift_y
+
+    @property
+    def left_out(self) -> int:
+        """Points beyond the ends of the flank."""
+        return self.registered.left_out
+
+    @cached_property
+    def _weights(self) -> Vector:
+        return gaussian_weights(self.registered.arc_length, self.stations, self.cutoff)
+
+    @cached_property
+    def _errors(self) -> Vector:
+        """Standard deviations of the smoothed values [mm]."""
+        return np.asarray(self.reading.error * np.sqrt((self._weights**2).sum(axis=1)))
+
+    @cached_property
+    def _whiten(self) -> Callable[[Vector], Vector]:
+        covariance = self.reading.error**2 * self._weights @ self._weights.T
+        inverse = np.linalg.inv(np.linalg.cholesky(covariance))
+        return lambda values: np.asarray(inverse @ values)
+
+    @cached_property
+    def _explained(self) -> Vector:
+        """Orthonormal residuals that movements cause."""
+        moves = self._whiten(self._weights @ self.registered.moves)
+        ways, size, _ = np.linalg.svd(moves, full_matrices=False)
+        return np.asarray(ways[:, size > UNSEEN * size.max(initial=0.0)])
+
+    def _smoothed(self, state: State) -> tuple[Vector, Vector]:
+        """Measured and predicted recess at the stations [mm]."""
+        assert state.course is not None
+        chords = state.course.new.chords
+        predicted = np.interp(self.registered.arc_length, chords, _recess(self.reading, state))
+        return self._weights @ self.registered.recess, self._weights @ predicted
+
+    def residuals(self, state: State) -> Vector:
+        """Return independent residuals of size 1.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        numpy.ndarray
+            Predicted less measured over the error.
+        """
+        measured, predicted = self._smoothed(state)
+        whole = self._whiten(predicted - measured)
+        return np.asarray(whole - self._explained @ (self._explained.T @ whole))
+
+    def shown(self, state: State) -> list[Shown]:
+        """Return the smoothed values, moved as fits best, beside their predictions.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        list of Shown
+            One for each smoothed value.
+        """
+        measured, predicted = self._smoothed(state)
+        moves = self._weights @ self.registered.moves
+        moved = np.linalg.lstsq(
+            self._whiten(moves), self._whiten(predicted - measured), rcond=None
+        )[0]
+        reading, columns = self.reading, (self.stations, measured + moves @ moved, predicted)
+        rows = zip(*columns, self._errors, self.residuals(state), strict=True)
+        return [
+            Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row))
+            for row in rows
+        ]
+
+
+def _recess(reading: Reading, state: State) -> Vector:
+    """How far the worn flank lies behind the new one at the time of a profile [mm]."""
+    assert state.course is not None
+    part, kind = reading.hours / state.life, reading.gap_kind or 1
+    return state.course.mean(lambda one: one.recess(part, kind))

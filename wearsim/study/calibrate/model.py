@@ -1,0 +1,55 @@
+"""Wear coefficients of one drive, and the hours that are left to it, from what was measured."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from wearsim.case.load_case import load_case
+from wearsim.input.document import read_document
+from wearsim.runner.scatter import plain_document
+from wearsim.study.calibrate.calibration import Calibration, Options
+from wearsim.study.calibrate.case_fit import Fitting
+from wearsim.study.calibrate.checks import check_readings
+from wearsim.study.calibrate.readings import read_readings
+from wearsim.study.constant_coefficient import check_constant
+
+
+def calibrate(
+    path: Path, measurements: Path, overrides: Sequence[str] = (), options: Options | None = None
+) -> Calibration:
+    """Fit the coefficients of a case to what was measured.
+
+    The coefficient of the teeth is fitted where there are readings of the teeth, that of the
+    joints where there are elongations, and what the options name besides: bounded least squares
+    of the residuals over their stated errors, intervals by the profile of the likelihood.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The case; its limits are those of the remaining life.
+    measurements : pathlib.Path
+        CSV file as `read_readings` takes it.
+    overrides : sequence of str
+        ``table.key=VALUE``.
+    options : Options, optional
+        How to fit.
+
+    Returns
+    -------
+    Calibration
+        The values, the hours left, and how well the readings are met.
+
+    Raises
+    ------
+    CaseError
+        The case or a cell is wrong, or the case does not know a reading.
+    WearsimError
+        The case cannot be run.
+    """
+    options = options or Options()
+    document = read_document(path, overrides)
+    case = load_case(path, overrides)
+    check_constant(case, "calibrate")
+    readings = read_readings(measurements)
+    check_readings(case, readings, options, str(measurements))
+    tables = plain_document(document, case).data
+    return Fitting(case, tables, readings, options, str(measurements)).calibration()

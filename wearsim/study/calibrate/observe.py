@@ -1,0 +1,192 @@
+"""What coefficients say of every reading, over its error."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from wearsim.geometry.profile import Vector
+from wearsim.study.calibrate.interpolation import Blend
+from wearsim.study.calibrate.predicted_history import Course
+from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, POINT, Reading
+
+
+@dataclass(frozen=True)
+class State:
+    """A drive with one set of coefficients.
+
+    Attributes
+    ----------
+    course : Blend or None
+        How its teeth wear; None where that is not asked for.
+    life : float
+        Of the teeth [h], nan with that.
+    elongation_rate : float
+        Of its chain [%/h].
+    """
+
+    course: Blend | None
+    life: float
+    elongation_rate: float
+
+
+@dataclass(frozen=True)
+class Shown:
+    """One value as it was measured and as it is predicted.
+
+    Attributes
+    ----------
+    row : int
+        Line of the reading in its file.
+    hours : float
+        Running time [h].
+    quantity : str
+        What it is.
+    arc_length : float
+        Where on the flank [mm], nan for what has no place.
+    value, predicted, error : float
+        In the unit of the quantity, the error as standard deviation.
+    residual : float
+        Predicted less measured over the error, those of one profile made independent.
+    """
+
+    row: int
+    hours: float
+    quantity: str
+    arc_length: float
+    value: float
+    predicted: float
+    error: float
+    residual: float
+
+
+class Observation(Protocol):
+    """A reading that a state can be held against."""
+
+    @property
+    def reading(self) -> Reading:
+        """What was measured."""
+
+    @property
+    def freedom(self) -> int:
+        """Independent values less what registration takes."""
+
+    @property
+    def left_out(self) -> int:
+        """Points that could not be used."""
+
+    def residuals(self, state: State) -> Vector:
+        """Return independent residuals of size 1.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        numpy.ndarray
+            Predicted less measured over the error.
+        """
+
+    def shown(self, state: State) -> list[Shown]:
+        """Return the values beside their predictions.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        list of Shown
+            One, or one for each smoothed value.
+        """
+
+
+@dataclass(frozen=True, eq=False)
+class Gauge:
+    """One measured value.
+
+    Attributes
+    ----------
+    reading : Reading
+        The reading.
+    """
+
+    reading: Reading
+
+    @property
+    def freedom(self) -> int:
+        """One value."""
+        return 1
+
+    @property
+    def left_out(self) -> int:
+        """No points."""
+        return 0
+
+    def predicted(self, state: State) -> float:
+        """Return what the reading should be, in its unit.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        float
+            In the unit of the quantity.
+        """
+        if self.reading.quantity == ELONGATION:
+            return state.elongation_rate * self.reading.hours
+        assert state.course is not None
+        part = self.reading.hours / state.life
+        return state.course.mean(lambda one: self._of_teeth(one, part))
+
+    def _of_teeth(self, course: Course, part: float) -> float:
+        reading = self.reading
+        if reading.quantity == DEEPEST and reading.gap_kind is not None:
+            return course.deepest(part, reading.gap_kind)
+        if reading.quantity == DEEPEST:
+            return course.history(DEEPEST, part)
+        if reading.quantity == POINT:
+            return course.depth_at(part, reading.arc_length, reading.gap_kind or 1)
+        return course.history(reading.quantity, 0.0) - course.history(reading.quantity, part)
+
+    def residuals(self, state: State) -> Vector:
+        """Return independent residuals of size 1.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        numpy.ndarray
+            Predicted less measured over the error.
+        """
+        return np.array([(self.predicted(state) - self.reading.value) / self.reading.error])
+
+    def shown(self, state: State) -> list[Shown]:
+        """Return the value beside its prediction.
+
+        Parameters
+        ----------
+        state : State
+            The drive with one set of coefficients.
+
+        Returns
+        -------
+        list of Shown
+            One.
+        """
+        reading, predicted = self.reading, self.predicted(state)
+        return [
+            Shown(
+                reading.row, reading.hours, reading.quantity, reading.arc_length, reading.value,
+                predicted, reading.error, (predicted - reading.value) / reading.error,
+            )
+        ]  # fmt: skip

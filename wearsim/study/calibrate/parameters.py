@@ -1,0 +1,180 @@
+"""The coefficients that are fitted, and the state of the drive that a set of them means."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.case.model import Case
+from wearsim.geometry.profile import Vector
+from wearsim.runner.design import value_at
+from wearsim.study.calibrate.interpolation import Blend, Courses, Log
+from wearsim.study.calibrate.observe import State
+
+JOINT = "joint.specific_wear_rate_mm2_per_N"
+EXPONENT = "wear.pressure_exponent"
+SLIP = "mechanism.roller_slip_fraction"
+
+SHAPES = {EXPONENT: (0.2, 5.0), SLIP: (1e-3, 1.0)}
+"""Keys that can be fitted besides the coefficients, and their bounds."""
+
+_WIDE = math.log(1e6)
+"""Logarithm of the factor within which coefficients are searched."""
+
+BEYOND = 0.25
+"""Part of its life by which a reading may lie beyond the limit; the last rate goes on so far."""
+
+
+@dataclass(frozen=True, eq=False)
+class Parameters:
+    """The logarithms that are fitted.
+
+    The first one stands for the coefficient of the teeth where that is fitted; it is the
+    logarithm of the life of the teeth, which the data know far better than a coefficient whose
+    meaning changes with the others (physics: life times coefficient is constant).
+
+    Attributes
+    ----------
+    courses : Courses
+        Runs of the case.
+    coefficient : float
+        That of the teeth in the case.
+    joint : float
+        That of the joints in the case; nan where no chain wears.
+    elongation_rate : float
+        Of the chain with that [%/h]; nan where no chain wears.
+    teeth, chain : bool
+        Whether the coefficients of the teeth and of the joints are fitted.
+    shapes : mapping of str to float
+        Keys that are fitted besides, with their values in the case.
+    last : float
+        Hours of the last reading of the teeth [h]; nan where there is none.
+    ratio : float
+        Coefficient of the joints over that of the teeth in the runs, as a factor of that in the
+        case.
+    """
+
+    courses: Courses
+    coefficient: float
+    joint: float
+    elongation_rate: float
+    teeth: bool
+    chain: bool
+    shapes: Mapping[str, float]
+    last: float
+    ratio: float
+
+    @property
+    def size(self) -> int:
+        """Number of the parameters."""
+        return self.teeth + self.chain + len(self.shapes)
+
+    @cached_property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Bounds of the logarithms; those of the life of the teeth come from the last reading."""
+        earliest = math.log(self.last / (1.0 + BEYOND)) if self.teeth else math.nan
+        rates = [(earliest, earliest + _WIDE)] * self.teeth + [(-_WIDE, _WIDE)] * self.chain
+        low, high = zip(*rates, *self._shape_bounds(), strict=True)
+        return np.array(low), np.array(high)
+
+    def _shape_bounds(self) -> list[tuple[float, float]]:
+        return [
+            (
+                min(math.log(SHAPES[key][0] / value), 0.0),
+                max(math.log(SHAPES[key][1] / value), 0.0),
+            )
+            for key, value in self.shapes.items()
+        ]
+
+    @property
+    def start(self) -> Vector:
+        """The logarithms of the case."""
+        point = np.zeros(self.size)
+        if self.teeth:
+            low, high = self.bounds
+            hours = math.log(self.course(point).hours)
+            point[0] = min(max(hours, low[0]), high[0])
+        return point
+
+    def course(self, point: Vector) -> Blend:
+        """Return the wear of the teeth that a set of logarithms needs.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms.
+
+        Returns
+        -------
+        Blend
+            With the coefficient of the case.
+        """
+        given = dict(self.shapes)
+        if self.ratio != 1.0:
+            given[JOINT] = self.ratio * self.joint
+        values = point[self.teeth + self.chain :].tolist()
+        ends = zip(self.shapes, values, self._shape_bounds(), strict=True)
+        return self.courses.blend(given, {key: Log(log, *bounds) for key, log, bounds in ends})
+
+    def state(self, point: Vector) -> State:
+        """Return the drive that a set of logarithms means.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms.
+
+        Returns
+        -------
+        State
+            To hold readings against.
+        """
+        joints = math.exp(point[int(self.teeth)]) if self.chain else 1.0
+        rate = joints * self.elongation_rate
+        if not self.teeth:
+            return State(None, math.nan, rate)
+        return State(self.course(point), math.exp(point[0]), rate)
+
+    def swapped(self, point: Vector) -> Vector:
+        """Return logarithms with the coefficient of the teeth for their life, or the other way round.
+
+        Parameters
+        ----------
+        point : numpy.ndarray
+            The logarithms of all values over those of the case, but for the first one, which is
+            that of a life or of the coefficient.
+
+        Returns
+        -------
+        numpy.ndarray
+            The same with the other one first.
+        """
+        if not self.teeth:
+            return point
+        return np.array([math.log(self.course(point).hours) - point[0], *point[1:]])
+
+    def bounds_of_coefficients(self) -> tuple[Vector, Vector]:
+        """Return bounds of the logarithms of all values over those of the case."""
+        low, high = (bound.copy() for bound in self.bounds)
+        if self.teeth:
+            low[0], high[0] = -4.0 * _WIDE, 4.0 * _WIDE
+        return low, high
+
+
+def shape_values(case: Case) -> dict[str, float]:
+    """Return the values of the keys that can be fitted besides the coefficients.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+
+    Returns
+    -------
+    dict
+        By key; those that the case does not have are left out.
+    """
+    found = {key: value_at(case.inputs, key) for key in SHAPES}
+    return {key: float(value) for key, value in found.items() if value is not None}

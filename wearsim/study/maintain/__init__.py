@@ -1,0 +1,1 @@
+"""When to replace the chain, and what that costs."""

@@ -1,0 +1,75 @@
+"""``wearsim maintain``: when to replace the chain, and what that costs."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from wearsim.command.complete import CasePath
+from wearsim.command.options import error_json, load_cases, overrides, print_json, standard, warn
+from wearsim.errors import WearsimError
+
+
+@click.command(short_help="When to replace the chain: chains, hours, cost.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.option(
+    "--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture."
+)
+@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@overrides
+@standard
+def maintain(
+    case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]
+) -> None:
+    """Compare elongations at which the chain of CASE is replaced while its sprocket stays.
+
+    Elongations, prices and whether the sprocket is turned stand in [maintenance]. Tooth and
+    link counts near the case's own follow, with the lives of four of them.
+    """
+    (loaded,) = load_cases([case], settings, as_json)
+    from wearsim.files import check_folder
+    from wearsim.study.maintain.model import maintain as compare_policies
+    from wearsim.study.maintain.sheet import maintenance_json, maintenance_text, save_maintenance
+
+    if out is not None:
+        check_folder(out, force)
+    try:
+        with progress() as told:
+            plan = compare_policies(loaded, told)
+    except WearsimError as error:
+        if as_json:
+            click.echo(error_json(case.stem, error))
+        raise
+    if out is not None:
+        save_maintenance(plan, out, force)
+    if as_json:
+        print_json(maintenance_json(plan), case, plan.warnings)
+    else:
+        click.echo(maintenance_text(plan))
+    if out is not None:
+        warn(f"written to {out}")
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[int, int, str], None]]:
+    """Show on a terminal's stderr which of several runs is under way, and the time left.
+
+    Yields
+    ------
+    callable
+        To be told how many runs are done, of how many, and what comes next.
+    """
+    quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
+    if quiet or not sys.stderr.isatty():
+        yield lambda done, of, what: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("")
+        yield lambda done, of, what: bar.update(task, completed=done, total=of, description=what)

@@ -1,0 +1,342 @@
+"""Maintenance: a chain replaced at a chosen elongation, its sprocket kept, turned or replaced."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import CaseError, ContactError, ConvergenceError, Fault, WearsimError
+from wearsim.input.schema import MaintenanceTable
+from wearsim.result import Life, LowerBound
+from wearsim.simulation import simulate
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.constant_coefficient import check_constant
+from wearsim.study.maintain.reversed_sprocket import turned_life
+from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
+
+Progress = Callable[[int, int, str], None]
+"""Told before each run how many are done, of how many, and what comes next."""
+
+POLICIES = (1.0, 1.5, 2.0, 3.0)
+"""Elongations in percent to compare where none are given, as far as they lie below the drive's limit."""
+
+CONVENTIONS = (
+    "a new sprocket gets a new chain: the last chain goes with its sprocket, however little it is worn",
+    "a stop for every chain, the last one's together with the sprocket's, and one for turning",
+)
+TURN_CONVENTION = (
+    "a sprocket is turned when its first flank is worn, the chain in use stays on; both flanks share the "
+    "wear of the seat; the depth limit then counts on the half of the gap that works"
+)
+
+
+@dataclass(frozen=True)
+class Policy:
+    """What follows from replacing the chain at an elongation.
+
+    Attributes
+    ----------
+    replace_at : float
+        Relative elongation at which a new chain is put on.
+    turned : bool
+        Whether the sprocket is turned when its first flank is worn.
+    chain_hours : float
+        Life of one chain [h].
+    sprocket : Life or LowerBound
+        Of the sprocket, both flanks if it is turned.
+    numerical_error : float
+        Estimated relative error of the sprocket's life.
+    cost : float or None
+        Per 1000 h, in the currency of the prices; None where these are not given or the
+        sprocket's life is not known.
+    """
+
+    replace_at: float
+    turned: bool
+    chain_hours: float
+    sprocket: Life | LowerBound
+    numerical_error: float
+    cost: float | None = None
+
+    @property
+    def hours(self) -> float:
+        """Life of the sprocket, or what its run covers [h]."""
+        return self.sprocket.hours_run
+
+    @property
+    def chains(self) -> int:
+        """Chains that one sprocket takes, the one in use at its end included."""
+        return max(1, math.ceil(self.hours / self.chain_hours - 1e-9))
+
+    @property
+    def last_chain_used(self) -> float:
+        """Part of its life that the last chain has had, from 0 to 1."""
+        return self.hours / self.chain_hours - (self.chains - 1)
+
+    @property
+    def stops(self) -> int:
+        """Stops in the life of one sprocket: for its chains, the last with the sprocket, and a turn."""
+        return self.chains + (1 if self.turned else 0)
+
+
+@dataclass(frozen=True)
+class MaintenancePlan:
+    """Policies of one drive side by side, and tooth and link counts near its own.
+
+    Attributes
+    ----------
+    case, title : str
+        Of the case.
+    policies : tuple of Policy
+        By elongation; a turned sprocket after the same without.
+    counts : tuple of ToothCount
+        Meetings near the case's own numbers of teeth and links, with lives of four of them.
+    count_limit : float
+        Relative elongation at which the chain is replaced in these lives.
+    conventions : tuple of str
+        How chains and stops are counted.
+    assumptions, warnings : tuple of str
+        What the case takes for granted, and what the user should look at.
+    """
+
+    case: str
+    title: str
+    policies: tuple[Policy, ...]
+    counts: tuple[ToothCount, ...]
+    count_limit: float
+    conventions: tuple[str, ...]
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def cheapest(self) -> Policy | None:
+        """The policy with the least cost, None where no cost is known."""
+        priced = [(policy.cost, i) for i, policy in enumerate(self.policies) if policy.cost]
+        return self.policies[min(priced)[1]] if priced else None
+
+
+def cost_per_1000_hours(
+    table: MaintenanceTable, hours: float, chains: int, stops: int
+) -> float | None:
+    """Return what chains, sprocket and stops cost per 1000 h of running.
+
+    1000 (chains times their price + price of the sprocket + stops times hours of standstill
+    times their cost)/hours.
+
+    Parameters
+    ----------
+    table : MaintenanceTable
+        Prices in one currency.
+    hours : float
+        Life of the sprocket [h], above 0.
+    chains, stops : int
+        In that time.
+
+    Returns
+    -------
+    float or None
+        Per 1000 h; None where no prices are given.
+
+    Examples
+    --------
+    (3 * 40 + 100 + 3 * 2 * 30)/8000 * 1000 = 400/8:
+
+    >>> table = MaintenanceTable(
+    ...     chain_price=40, sprocket_price=100, downtime_hours=2, downtime_cost_per_hour=30
+    ... )
+    >>> cost_per_1000_hours(table, 8000.0, 3, 3)
+    50.0
+    """
+    if table.chain_price is None or table.sprocket_price is None:
+        return None
+    stop = (table.downtime_hours or 0.0) * (table.downtime_cost_per_hour or 0.0)
+    return 1000.0 * (chains * table.chain_price + table.sprocket_price + stops * stop) / hours
+
+
+def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> MaintenancePlan:
+    """Compare policies of replacing the chain of a case.
+
+    Each policy is a run to the sprocket's limit with a new chain whenever one has grown to
+    the elongation; a turned sprocket is a second run on the mirrored outline from the depth
+    and the chain at the end of the first.
+
+    Parameters
+    ----------
+    case : Case
+        A case with ``mechanism.kind = "wrap"``; policies and prices from ``[maintenance]``.
+    progress : callable, optional
+        Told before each run how many are done, of how many, and what comes next.
+
+    Returns
+    -------
+    MaintenancePlan
+        Policies that fail, because the chain would jump, are named under its warnings.
+
+    Raises
+    ------
+    CaseError
+        The case has no wrap.
+    ContactError
+        Every policy fails.
+    """
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        message = "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'"
+        raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    check_constant(case, "maintain")
+    table = MaintenanceTable(**case.inputs.get("maintenance", {}))
+    limit: float = case.inputs["stop"]["elongation_percent"]
+    elongations = table.replace_at_percent or [*(e for e in POLICIES if e < limit), limit]
+    counts = meetings_around(case, drive)
+    runs = sum(count.run for count in counts) - (limit in elongations)
+    steps = _Steps(len(elongations) * (2 if table.turn_sprocket else 1) + max(runs, 0), progress)
+    warnings = list(case.warnings)
+    policies = _all_policies(case, drive, table, elongations, steps, warnings)
+    own = [policy for policy in policies if policy.replace_at == drive.joint.elongation_limit]
+    counts = _with_lives(counts, case, own[0] if own else None, steps.next, warnings)
+    return MaintenancePlan(
+        case=case.name,
+        title=case.title,
+        policies=tuple(policies),
+        counts=counts,
+        count_limit=drive.joint.elongation_limit,
+        conventions=(*CONVENTIONS, *((TURN_CONVENTION,) if table.turn_sprocket else ())),
+        assumptions=case.assumptions,
+        warnings=tuple(dict.fromkeys(warnings)),
+    )
+
+
+def _with_limit(case: Case, drive: WrapDrive, percent: float) -> Case:
+    """Return the case with another elongation at which its chain is replaced."""
+    joint = replace(drive.joint, elongation_limit=0.01 * percent)
+    stop = {**case.inputs["stop"], "elongation_percent": percent}
+    return replace(case, drive=replace(drive, joint=joint), inputs={**case.inputs, "stop": stop})
+
+
+class _Steps:
+    """Runs one after the other, each told about before it starts."""
+
+    def __init__(self, total: int, progress: Progress) -> None:
+        self.total, self.progress, self.done = total, progress, 0
+
+    def next(self, what: str) -> None:
+        self.progress(self.done, self.total, what)
+        self.done += 1
+
+
+def _all_policies(
+    case: Case,
+    drive: WrapDrive,
+    table: MaintenanceTable,
+    elongations: list[float],
+    steps: _Steps,
+    warnings: list[str],
+) -> list[Policy]:
+    """Run every policy; what fails becomes a warning, unless all do."""
+    policies: list[Policy] = []
+    failure: WearsimError | None = None
+    for percent in elongations:
+        done = steps.done
+        try:
+            policies += _policies(_with_limit(case, drive, percent), table, steps, warnings)
+        except (CaseError, ContactError, ConvergenceError) as reason:
+            failure = reason
+            warnings.append(f"replacing the chain at {percent:g} % fails: {reason}")
+        steps.done = done + (2 if table.turn_sprocket else 1)
+    if failure is not None and not policies:
+        raise failure
+    return policies
+
+
+def _policies(
+    case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]
+) -> list[Policy]:
+    """Return one policy, and the same with the sprocket turned where that is wanted."""
+    drive = case.drive
+    assert isinstance(drive, WrapDrive)
+    what = f"chain replaced at {100.0 * drive.joint.elongation_limit:.3g} %"
+    steps.next(what)
+    first = simulate(case)
+    warnings += [text for text in first.warnings if text not in warnings]
+    policy = Policy(
+        replace_at=drive.joint.elongation_limit,
+        turned=False,
+        chain_hours=chain_life(case).hours,
+        sprocket=first.parts["sprocket"],
+        numerical_error=first.numerical_error,
+    )
+    found = [policy]
+    if table.turn_sprocket and isinstance(policy.sprocket, Life):
+        steps.next(f"{what}, sprocket turned")
+        try:
+            second, error = turned_life(case, first)
+        except (ContactError, ConvergenceError) as reason:
+            warnings.append(f"turning the sprocket, {what}, fails: {reason}")
+        else:
+            error = max(error, first.numerical_error)
+            life = _sum(policy.sprocket, second)
+            found.append(replace(policy, turned=True, sprocket=life, numerical_error=error))
+    return [
+        replace(entry, cost=cost_per_1000_hours(table, entry.hours, entry.chains, entry.stops))
+        if isinstance(entry.sprocket, Life)
+        else entry
+        for entry in found
+    ]
+
+
+def _sum(first: Life, second: Life | LowerBound) -> Life | LowerBound:
+    return type(second)(first.cycles + second.cycles_run, first.hours + second.hours_run)
+
+
+def _with_lives(
+    counts: tuple[ToothCount, ...],
+    case: Case,
+    own: Policy | None,
+    tell: Callable[[str], None],
+    warnings: list[str],
+) -> tuple[ToothCount, ...]:
+    """Return the counts with the lives of those to be run; the case's own is a policy as a rule."""
+    found = []
+    drive = case.drive
+    assert isinstance(drive, WrapDrive)
+    numbers = drive.gaps, drive.layout.links
+    for count in counts:
+        meetings = count.meetings
+        if not count.run:
+            found.append(count)
+        elif own is not None and (meetings.teeth, meetings.links) == numbers:
+            found.append(
+                replace(count, lives={"chain": chain_life(case), "sprocket": own.sprocket})
+            )
+        else:
+            tell(f"{meetings.teeth} teeth, {meetings.links} links")
+            found.append(_run_count(count, case, warnings))
+    return tuple(found)
+
+
+def _run_count(count: ToothCount, case: Case, warnings: list[str]) -> ToothCount:
+    try:
+        changed = variant(case, count.meetings)
+        sprocket = simulate(changed).parts["sprocket"]
+    except (CaseError, ContactError, ConvergenceError) as reason:
+        warnings.append(f"{count.meetings.teeth} teeth, {count.meetings.links} links: {reason}")
+        return count
+    return replace(count, lives={"chain": chain_life(changed), "sprocket": sprocket})
+
+
+def chain_life(case: Case) -> Life:
+    """Return the life of a chain, whose joints wear at a constant rate.
+
+    Parameters
+    ----------
+    case : Case
+        A case with a wrap.
+
+    Returns
+    -------
+    Life
+        Whether it lies within the horizon or not.
+    """
+    assert isinstance(case.drive, WrapDrive)
+    cycles = wrap_contact(case, case.drive).cycles_per_chain
+    return Life(cycles, cycles / case.cycles_per_hour)

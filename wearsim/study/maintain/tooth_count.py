@@ -1,0 +1,101 @@
+"""Tooth and link counts near those of a drive: who meets whom, and the same drive with them."""
+
+import copy
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import product
+from pathlib import PurePath
+from typing import Any
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case, WrapDrive
+from wearsim.chain.drive_layout import Meetings
+from wearsim.input.schema.sprocket import STANDARD_FORMS
+from wearsim.result import Life, LowerBound
+from wearsim.result.folder import FILE_KEYS
+
+
+@dataclass(frozen=True)
+class ToothCount:
+    """Numbers of teeth and links, and the lives that go with them.
+
+    Attributes
+    ----------
+    meetings : Meetings
+        Who meets whom with these numbers.
+    run : bool
+        Whether their lives are to be calculated.
+    lives : mapping
+        Of ``chain`` and ``sprocket``; empty where they were not calculated.
+    """
+
+    meetings: Meetings
+    run: bool
+    lives: Mapping[str, Life | LowerBound] = field(default_factory=dict)
+
+
+def meetings_around(case: Case, drive: WrapDrive) -> tuple[ToothCount, ...]:
+    """Return the counts next to those of a drive: one tooth, two links more and less.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    drive : WrapDrive
+        Its drive.
+
+    Returns
+    -------
+    tuple of ToothCount
+        By teeth, then links; to be run are the case's own and those of a tooth or two links
+        more. The teeth of a drawing or of points stay as they are; a sprocket of which only
+        every second gap carries a roller has none.
+    """
+    if case.engaged_every > 1:
+        return ()
+    drawn = case.inputs["sprocket"]["profile"] not in STANDARD_FORMS
+    teeth, links = drive.gaps, drive.layout.links
+    return tuple(
+        ToothCount(Meetings(teeth + more, links + longer), run=more >= 0 and longer >= 0)
+        for more, longer in product((0,) if drawn else (-1, 0, 1), (-2, 0, 2))
+        if teeth + more >= 5 and links + longer >= 10
+    )
+
+
+def variant(case: Case, meetings: Meetings) -> Case:
+    """Return a case with other numbers of teeth and links, all else as it is.
+
+    Load, limits and the other sprocket stay; the tip diameter follows the teeth where it is
+    the standard's, the centre distance follows the links.
+
+    Parameters
+    ----------
+    case : Case
+        A case with a wrap.
+    meetings : Meetings
+        Teeth of the worn sprocket and links of the chain.
+
+    Returns
+    -------
+    Case
+        Complete.
+
+    Raises
+    ------
+    CaseError
+        No drive has these numbers.
+    """
+    inputs: dict[str, Any] = copy.deepcopy(dict(case.inputs))
+    sprocket, drive = inputs["sprocket"], inputs.setdefault("drive", {})
+    if meetings.teeth != sprocket["teeth"]:
+        sprocket["teeth"] = meetings.teeth
+        if any(text.startswith("sprocket.tip_diameter_mm = ") for text in case.assumptions):
+            del sprocket["tip_diameter_mm"]
+    drive["links"] = meetings.links
+    drive.pop("centre_distance_mm", None)
+    for table, key in FILE_KEYS:
+        if key in inputs.get(table, {}):
+            name = PurePath(inputs[table][key]).name
+            (path,) = (path for path in case.files if path.name == name)
+            inputs[table][key] = str(path.resolve())
+    return load_case(inputs)

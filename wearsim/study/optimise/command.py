@@ -1,0 +1,108 @@
+"""``wearsim optimise``: the best designs of a case."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from wearsim.command.complete import CasePath
+from wearsim.command.options import overrides, print_json, standard, warn
+from wearsim.command.study import Place, place_options
+from wearsim.command.study_run import in_batches, timed
+
+if TYPE_CHECKING:
+    from wearsim.study.optimise.model import OptimiseStudy
+
+
+@click.command(short_help="The best profile for life, mass and pressure; Pareto fronts.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.option(
+    "--evaluations", type=click.IntRange(min=10, max=1_000_000), default=400, show_default=True,
+    help="Designs that may be tried.",
+)  # fmt: skip
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the search."
+)
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@place_options
+@overrides
+@standard
+def optimise(
+    case: Path, evaluations: int, seed: int, as_json: bool, place: Place, settings: tuple[str, ...]
+) -> int:
+    """Print the best designs of CASE (.toml) among those that its table [optimise] allows.
+
+    The table names parameters (ranges or lists of values of any keys), objectives (life_hours,
+    mass_kg, peak_pressure_MPa) and limits. One objective gives the best design, several the
+    front of those than which none is better in all (pip install 'wearsim[optimise]').
+
+    With --out, DIR holds candidates.csv, front.csv, summary.md, pictures, each of the best
+    designs as a case in designs, and what is finished: run again, the same command goes on.
+    """
+    from wearsim.study.optimise.model import load_optimise
+    from wearsim.study.optimise.trials import Outcome, Trials, check_feasible, front
+
+    study = load_optimise(case, settings, evaluations, seed)
+    if len(study.objectives) > 1:
+        from wearsim.extras import check_installed
+
+        check_installed(("optuna",), "optimise", "optimise with several objectives")
+    told = _told(study)
+    if place.dry_run:
+        _show_plan(study, place, told)
+        return 0
+    from wearsim.study.optimise.search import search
+
+    text = f"optimising {study.case.title}"
+    with in_batches(study.given, place, told, text, evaluations + 1) as run:
+        trials = Trials(study, run)
+        settled = search(study, trials)
+    tried = tuple(trials.found.values())
+    best = tuple(front(tried, study.objectives))
+    outcome = Outcome(study, trials.given, tried, best, settled)
+    from wearsim.study.optimise.sheet import (
+        optimise_json,
+        optimise_text,
+        save_candidates,
+        save_optimise,
+        warnings_of,
+    )
+
+    if place.out is not None:
+        save_candidates(outcome, place.out)
+    check_feasible(study, tried)
+    if as_json:
+        print_json(optimise_json(outcome), case, warnings_of(outcome))
+    else:
+        click.echo(optimise_text(outcome))
+    if place.out is not None:
+        save_optimise(outcome, place.out)
+        warn(f"written to {place.out}")
+    return 0
+
+
+def _told(study: "OptimiseStudy") -> dict[str, Any]:
+    """What the manifest tells; the number of designs is none of it: more of them go on."""
+    return {
+        "study": "optimise",
+        "case": study.case.name,
+        "seed": study.seed,
+        "optimise": study.case.inputs["optimise"],
+    }
+
+
+def _show_plan(study: "OptimiseStudy", place: Place, told: Mapping[str, Any]) -> None:
+    from wearsim.runner.store import check_store
+
+    place.workers()
+    if place.out is not None:
+        check_store(place.out, study.given, told, place.force)
+    points = study.space.start(4, study.seed, study.values)
+    seconds, count = timed(study.design([study.space.row(point) for point in points]))
+    click.echo(f"designs      {study.evaluations} at most, beside the case as given")
+    click.echo(
+        f"time         at least {seconds * study.evaluations:.3g} s in one thread, from {count} designs"
+    )
+    if place.out is not None:
+        click.echo(f"files        in {place.out / 'shards'}, and tables beside it")

@@ -1,0 +1,95 @@
+"""Designs of a study as cases of their own, beside what else lies in their folder."""
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from wearsim.command.study_files import save_texts
+from wearsim.errors import OutputError
+from wearsim.files import write_file
+from wearsim.input.document import retitled
+from wearsim.result.folder import FILE_KEYS
+from wearsim.runner.design import Design, replaced
+from wearsim.runner.store import own_designs
+
+
+def save_designs(folder: Path, heads: Mapping[str, str], cases: Design) -> None:
+    """Write designs as cases, with the files that they name, in place of those of an earlier run.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Of the designs; what wearsim did not write there stays.
+    heads : mapping of str to str
+        First line of each file, by its name.
+    cases : Design
+        As many cases in the same order.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written, or something else has the name of a design.
+    """
+    try:
+        own = {path.name: path for path in own_designs(folder)}
+        _check_free(folder, heads.keys() - own.keys())
+        placed = {name: _place(folder, name, cases.files[name]) for name in _named(cases)}
+        for name in own.keys() - heads.keys():
+            own[name].unlink()
+    except OSError as error:
+        if isinstance(error, OutputError):
+            raise
+        raise OutputError(f"{folder}: must be writable: {error.strerror or error}") from None
+    texts = {
+        name: _case_text(head, retitled(cases.tables_of(at), cases.tables), placed)
+        for at, (name, head) in enumerate(heads.items())
+    }
+    save_texts(folder, texts)
+
+
+def _check_free(folder: Path, names: set[str]) -> None:
+    for path in (folder / name for name in sorted(names)):
+        if path.exists():
+            raise OutputError(
+                f"{path}: must be free for a design, but wearsim did not write what is there: move it "
+                "away, then the same command goes on"
+            )
+
+
+def _named(cases: Design) -> list[str]:
+    """Names of the files that at least one case names."""
+    found = {
+        cases.tables_of(at).get(table, {}).get(key)
+        for at in range(len(cases.rows))
+        for table, key in FILE_KEYS
+    }
+    return sorted(found & cases.files.keys())
+
+
+def _place(folder: Path, name: str, text: str) -> str:
+    """Write a file, under another name where a different one has its own, and return the name."""
+    data = text.encode("utf-8", "surrogateescape")
+    place = folder / name
+    digest = hashlib.sha256(data).hexdigest()[:12]
+    for path in (place, place.with_stem(f"{place.stem}-{digest}")):
+        if not path.exists():
+            write_file(path, data, force=False)
+            return path.name
+        if path.is_file() and path.read_bytes() == data:
+            return path.name
+    raise OutputError(f"{place}: must be free, but something else is there: move it away")
+
+
+def _case_text(head: str, tables: Mapping[str, Any], placed: Mapping[str, str]) -> str:
+    import tomlkit
+
+    for table, key in FILE_KEYS:
+        name = tables.get(table, {}).get(key)
+        if name in placed:
+            tables = replaced(tables, (table, key), placed[name])
+    document = tomlkit.document()
+    document.add(tomlkit.comment(head))
+    for key, value in tables.items():
+        document.add(key, value)
+    return tomlkit.dumps(document)

@@ -1,0 +1,81 @@
+"""The mass of a sprocket as it is cut from a plate."""
+
+from wearsim.case.model import Case, StrandDrive, WrapDrive
+from wearsim.catalogue.catalogues import materials
+from wearsim.errors import CaseError, Fault
+from wearsim.geometry.blank import blank_area, gap_space, tooth_space
+
+_M3_PER_MM3 = 1e-9
+
+
+def blank_mass(case: Case) -> float:
+    """Return the mass of a new sprocket: its outline times face width and density.
+
+    Parameters
+    ----------
+    case : Case
+        A sprocket on a strand or in a wrap.
+
+    Returns
+    -------
+    float
+        Mass [kg], without bore, hub and chamfers.
+
+    Raises
+    ------
+    CaseError
+        The case has no sprocket whose whole outline is known.
+    GeometryError
+        The wheel does not exist.
+    """
+    drive = case.drive
+    if isinstance(drive, StrandDrive):
+        area = blank_area(tooth_space(drive.tooth), drive.tooth.teeth)
+    elif isinstance(drive, WrapDrive):
+        area = blank_area(gap_space(drive.outline, drive.gap), drive.gaps)
+    else:
+        text = (
+            "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do "
+            "not tell: leave mass_kg out of [optimise]"
+        )
+        raise CaseError([Fault(text, "mass_kg", case.name)])
+    return _M3_PER_MM3 * area * drive.face_width * density(case)
+
+
+def density(case: Case) -> float:
+    """Return the density of a sprocket's material.
+
+    Parameters
+    ----------
+    case : Case
+        A case with a sprocket.
+
+    Returns
+    -------
+    float
+        That of the named material, else of steel [kg/m3].
+    """
+    return materials()[_material(case)].density
+
+
+def mass_assumption(case: Case) -> str:
+    """Return what the mass takes for granted.
+
+    Parameters
+    ----------
+    case : Case
+        A case with a sprocket.
+
+    Returns
+    -------
+    str
+        In words.
+    """
+    return (
+        "the mass is that of the new outline over the face width, without bore, hub and chamfers, of "
+        f"{_material(case)} with {density(case):g} kg/m3"
+    )
+
+
+def _material(case: Case) -> str:
+    return str(case.inputs.get("material", {}).get("sprocket", {}).get("name", "steel"))

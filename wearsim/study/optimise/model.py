@@ -1,0 +1,205 @@
+"""What an optimisation asks of a case: what may change, what is sought, and within what limits."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
+from pathlib import Path, PurePath
+from typing import Any
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
+from wearsim.input.document import Document, read_document
+from wearsim.input.schema.dotted import all_differ
+from wearsim.input.schema.optimise import MeasureLimit, OptimiseTable
+from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
+from wearsim.runner.scatter import WITH_FATIGUE
+from wearsim.study.optimise.mass import blank_mass, mass_assumption
+from wearsim.study.optimise.search_space import SearchSpace, search_space
+
+_BEYOND = 1.02
+"""Horizon over the longest life that is allowed, at least."""
+
+
+@dataclass(frozen=True)
+class OptimiseStudy:
+    """What is asked of a case.
+
+    Attributes
+    ----------
+    case : Case
+        As it is given.
+    given : Design
+        The case as the only one, without [optimise].
+    space : SearchSpace
+        What may change.
+    values : tuple
+        Of the parameters in the case, None where it has none.
+    objectives : tuple of str
+        What is sought.
+    limits : mapping of str to MeasureLimit
+        What a design must keep to.
+    seed, evaluations : int
+        Of the search, and how many designs it may try.
+    """
+
+    case: Case
+    given: Design
+    space: SearchSpace
+    values: tuple[Any, ...]
+    objectives: tuple[str, ...]
+    limits: Mapping[str, MeasureLimit]
+    seed: int
+    evaluations: int
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Measures that are sought or limited, the life always."""
+        return tuple(dict.fromkeys(("life_hours", *self.objectives, *self.limits)))
+
+    def design(self, rows: Sequence[tuple[Any, ...]]) -> Design:
+        """Return the cases of some designs.
+
+        Parameters
+        ----------
+        rows : sequence of tuple
+            Values of the parameters.
+
+        Returns
+        -------
+        Design
+            To be run.
+        """
+        return replace(self.given, keys=self.space.keys, rows=tuple(rows))
+
+    def assumptions(self, cases: Sequence[Case]) -> tuple[str, ...]:
+        """Return what is taken for granted of designs.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            The designs, at least one.
+
+        Returns
+        -------
+        tuple of str
+            What holds for all of them, and that more does where they differ.
+        """
+        each = [(*self._of_measures(case), *case.assumptions) for case in cases]
+        shared = [text for text in each[0] if all(text in other for other in each[1:])]
+        if any(len(texts) > len(shared) for texts in each):
+            shared.append(
+                "more that differs from design to design: `wearsim check designs/01.toml` tells it"
+            )
+        return tuple(shared)
+
+    def _of_measures(self, case: Case) -> list[str]:
+        found = []
+        if "mass_kg" in self.measures:
+            found.append(mass_assumption(case))
+        if "peak_pressure_MPa" in self.measures:
+            found.append(
+                "the peak pressure is that on the new flank (Hertz) under the heaviest block of the duty; "
+                "wear changes it"
+            )
+        if case.fatigue is not None:
+            found.append(WITH_FATIGUE)
+        return found
+
+
+def load_optimise(
+    path: Path, overrides: Sequence[str], evaluations: int, seed: int
+) -> OptimiseStudy:
+    """Return what is asked of a case by its table [optimise].
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The case.
+    overrides : sequence of str
+        ``table.key=VALUE``.
+    evaluations : int
+        Designs that may be tried.
+    seed : int
+        The same seed gives the same search.
+
+    Returns
+    -------
+    OptimiseStudy
+        To be searched. The horizon is raised to a limit of the life that lies beyond it.
+
+    Raises
+    ------
+    CaseError
+        The case is wrong, has no table [optimise], or has none of what is sought; a file that a
+        parameter names is not there.
+    """
+    document = read_document(path, overrides)
+    case = load_case(path, overrides)
+    if "optimise" not in case.inputs:
+        text = "this table is required: it tells what may change, as parameters by their keys"
+        raise CaseError([Fault(text, "optimise", str(path))])
+    table = OptimiseTable.model_validate(case.inputs["optimise"])
+    space = search_space(document.data, table.parameters)
+    limits = {name: limit for name, limit in table.limits if limit is not None}
+    if "mass_kg" in (*table.objectives, *limits):
+        blank_mass(case)
+    if "life_hours" in limits:
+        life = limits["life_hours"]
+        # A life that runs beyond its high limit must be seen to.
+        horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
+        raised = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
+        case = replace(raised, title=case.title)
+    data = {name: part for name, part in document.data.items() if name != "optimise"}
+    data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
+    given, space = _with_files(replace(document, data=data), space, path)
+    return OptimiseStudy(
+        case, replace(given, keys=(), rows=((),)), space,
+        tuple(_value(case.inputs, key) for key in space.keys),
+        tuple(table.objectives), limits, seed, evaluations,
+    )  # fmt: skip
+
+
+def _with_files(document: Document, space: SearchSpace, path: Path) -> tuple[Design, SearchSpace]:
+    """Read the files that the case and the choices name; the choices are then bare names."""
+    named = {
+        parameter.key: parameter.choices
+        for parameter in space.parameters
+        if parameter.key in NAMES_FILE
+    }
+    faults = [
+        Fault(f"must name files that can be read, but {name!r} cannot", _place(key), str(path))
+        for key, names in named.items()
+        for name in names
+        if not _is_readable(document.folder / name)
+    ]
+    if faults:
+        raise CaseError(faults)
+    rows = list(zip_longest(*(named.get(key, ()) for key in space.keys)))
+    given = design(document, space.keys, rows, str(path))
+    parameters = []
+    for parameter, column in zip(space.parameters, zip(*given.rows, strict=True), strict=False):
+        bare = tuple(name for name in column if name is not None)
+        if not all_differ(bare):
+            text = "every file once, but one is given twice: remove it"
+            raise CaseError([Fault(text, _place(parameter.key), str(path))])
+        parameters.append(replace(parameter, choices=bare) if bare else parameter)
+    return given, SearchSpace(tuple(parameters) or space.parameters)
+
+
+def _is_readable(path: Path) -> bool:
+    try:
+        with path.open("rb"):
+            return True
+    except (OSError, ValueError):
+        return False
+
+
+def _place(key: str) -> str:
+    return f'optimise.parameters."{key}"'
+
+
+def _value(inputs: Mapping[str, Any], key: str) -> Any:
+    """Of a key in the case; of a file its name without folder."""
+    found = value_at(inputs, key)
+    return PurePath(found).name if key in NAMES_FILE and isinstance(found, str) else found

@@ -1,0 +1,317 @@
+"""What is shown of an optimisation: text, JSON, tables, and the best designs as case files."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.report.lines import grouped
+from wearsim.runner.store import DESIGN_MARK, DESIGNS
+from wearsim.study.optimise.design_files import save_designs
+from wearsim.study.optimise.figure import optimise_figures
+from wearsim.study.optimise.trials import (
+    MAXIMISED,
+    Candidate,
+    Outcome,
+    commonest_reason,
+    limit_names,
+    margins,
+)
+from wearsim.study.similar_texts import kinds
+
+_SAME = 1e-6
+"""Relative scatter of a measure that is none."""
+
+_MOST_SHOWN = 20
+"""Designs of a front in the text; the files hold all."""
+
+
+def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.DataFrame:
+    """Return a row for each design.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search.
+    candidates : sequence of Candidate
+        Some of its designs.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Number in the order of trial, values of the parameters, what came of them, whether the
+        life was reached, the relative distance to every limit, whether the design is feasible,
+        and why it failed.
+    """
+    study = outcome.study
+    columns = [
+        "design", *study.space.keys, *study.measures, "life_reached", "stop",
+        *(f"margin_{name}" for name in limit_names(study)), "feasible", "error", "warnings",
+    ]  # fmt: skip
+    rows = []
+    for one in candidates:
+        row = {"design": one.number, **dict(zip(study.space.keys, one.values, strict=True))}
+        row |= dict(one.measures)
+        if not one.error:
+            row |= {f"margin_{name}": value for name, value in margins(study, one).items()}
+        rows.append(
+            row | {"life_reached": one.reached, "stop": one.stop, "feasible": one.feasible}
+            | {"error": one.error, "warnings": one.warnings}
+        )  # fmt: skip
+    return pd.DataFrame(rows, columns=columns)
+
+
+def warnings_of(outcome: Outcome) -> tuple[str, ...]:
+    """Return what is doubtful about the best designs.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search.
+
+    Returns
+    -------
+    tuple of str
+        Parameters on their ends, lives beyond the horizon, and warnings of the case.
+    """
+    study, found = outcome.study, []
+    for at, parameter in enumerate(study.space.parameters):
+        ends = [parameter.end_of(one.values[at]) for one in outcome.front]
+        for end in ("low", "high"):
+            if ends.count(end) == len(ends):
+                which = "the best design" if len(ends) == 1 else f"all {len(ends)} designs"
+                found.append(
+                    f"{parameter.key} of {which} lies on its {end} end: a wider range may give better ones"
+                )
+    for name in study.objectives:
+        values = [one.measures[name] for one in outcome.candidates if one.feasible]
+        if len(values) > 1 and max(values) - min(values) <= _SAME * max(values):
+            found.append(
+                f"no parameter changes {name}: what governs it lies elsewhere (wearsim life tells what "
+                "ends the life)"
+            )
+    if "life_hours" in study.objectives and not all(one.reached for one in outcome.front):
+        found.append(
+            "lives beyond run.horizon_hours count as lives up to it, and which of them is longest is not "
+            "known: raise it"
+        )
+    if not outcome.given.feasible:
+        why = "fails" if outcome.given.error else "breaks limits"
+        found.append(f"the case as given {why}: what the best design gains has no measure")
+    else:
+        found += [
+            f"the case as given has a better {name} than every design that was tried: it lies outside the "
+            "parameters, or more trials are needed"
+            for name in study.objectives
+            if outcome.given.cost(name) < min(one.cost(name) for one in outcome.front) - _SAME
+        ]
+    if not outcome.settled:
+        found.append(
+            f"the search was ended by --evaluations {study.evaluations} while it still gained: more may "
+            "give better designs"
+        )
+    return (*found, *study.space.warnings, *_of_designs(outcome))
+
+
+def _of_designs(outcome: Outcome) -> list[str]:
+    """Warnings of the best designs, those that differ in their numbers only as one."""
+    told = kinds(
+        f"design {_name(number, outcome)}: {text}"
+        for number, one in enumerate(outcome.front, 1)
+        for text in filter(None, one.warnings.split("\n"))
+    )
+    return [
+        first if count == 1 else f"{first} (and of {count - 1} more designs)"
+        for first, count in told
+    ]
+
+
+def optimise_text(outcome: Outcome) -> str:
+    """Return the best designs as text.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search.
+
+    Returns
+    -------
+    str
+        A Markdown table of the case as given and of the best designs, then what was tried.
+    """
+    study, front = outcome.study, outcome.front
+    kind = "best design" if len(study.objectives) == 1 else f"front of {len(front)} designs"
+    sought = ", ".join(
+        f"{'longest' if name in MAXIMISED else 'least'} {name}" for name in study.objectives
+    )
+    lines = [study.case.title, "", f"{kind}: {sought}", "", *_table(outcome)]
+    if len(front) > _MOST_SHOWN:
+        lines.append(f"and {len(front) - _MOST_SHOWN} more: front.csv of --out holds all")
+    lines += ["", *_gains(outcome)]
+    failed = [one for one in outcome.candidates if not one.feasible]
+    lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
+    if failed:
+        lines.append(f"             {commonest_reason(study, failed)}")
+    texts = study.assumptions(outcome.cases)
+    lines += ["", "assumptions:"]
+    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
+    lines += [f"warning: {text}" for text in warnings_of(outcome)]
+    return "\n".join(lines)
+
+
+def _table(outcome: Outcome) -> list[str]:
+    study = outcome.study
+    limits = limit_names(study)
+    head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    shown = [("as given", outcome.given)]
+    shown += [
+        (_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MOST_SHOWN], 1)
+    ]
+    for name, one in shown:
+        cells = [name, *(_shown(value) for value in one.values)]
+        if one.error:
+            cells += ["failed"] * (len(head) - len(cells))
+        else:
+            cells += [_measure(one, measure) for measure in study.measures]
+            cells += [f"{100.0 * value:+.3g} %" for value in margins(study, one).values()]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return lines
+
+
+def _name(number: int, outcome: Outcome) -> str:
+    return f"{number:0{_digits(outcome)}d}"
+
+
+def _digits(outcome: Outcome) -> int:
+    return max(2, len(str(len(outcome.front))))
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _measure(one: Candidate, name: str) -> str:
+    value = grouped(one.measures[name])
+    return f"> {value}" if name == "life_hours" and not one.reached else value
+
+
+def _gains(outcome: Outcome) -> list[str]:
+    """What the best designs gain against the case as given, where that runs."""
+    if outcome.given.error:
+        return []
+    lines = []
+    for name in outcome.study.objectives:
+        best = min(outcome.front, key=lambda one, name=name: one.cost(name))  # type: ignore[misc]
+        change = 100.0 * (best.measures[name] / outcome.given.measures[name] - 1.0)
+        values = f"{_measure(outcome.given, name)} -> {_measure(best, name)}"
+        lines.append(f"{name:<20} {values} ({change:+.3g} % against the case as given)")
+    return lines
+
+
+def optimise_json(outcome: Outcome) -> dict[str, Any]:
+    """Return the best designs as plain values.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search.
+
+    Returns
+    -------
+    dict
+        What is not known is null.
+    """
+    study = outcome.study
+    failed = [one for one in outcome.candidates if not one.feasible]
+    return {
+        "schema_version": 1,
+        "case": study.case.name,
+        "objectives": list(study.objectives),
+        "seed": study.seed,
+        "evaluations": len(outcome.candidates),
+        "infeasible": len(failed),
+        "commonest_reason": commonest_reason(study, failed),
+        "given": _plain(outcome, outcome.given),
+        "designs": [_plain(outcome, one) for one in outcome.front],
+        "assumptions": list(study.assumptions(outcome.cases)),
+        "warnings": list(warnings_of(outcome)),
+    }
+
+
+def _plain(outcome: Outcome, one: Candidate) -> dict[str, Any]:
+    study = outcome.study
+    return {
+        "inputs": dict(zip(study.space.keys, one.values, strict=True)),
+        **{name: plain(one.measures.get(name, math.nan)) for name in study.measures},
+        "life_reached": one.reached,
+        "stop": one.stop,
+        "margins": {} if one.error else margins(study, one),
+        "feasible": one.feasible,
+        "error": one.error,
+        "warnings": list(filter(None, one.warnings.split("\n"))),
+    }
+
+
+def save_candidates(outcome: Outcome, folder: Path) -> None:
+    """Write the table of all designs that were tried into the folder of a study.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search, perhaps without a feasible design.
+    folder : pathlib.Path
+        Its folder.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
+    save_texts(folder, {"candidates.csv": tried.to_csv(index=False)})
+
+
+def save_optimise(outcome: Outcome, folder: Path) -> None:
+    """Write the best designs, as a table, as pictures and as cases, into the folder of a study.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Of a search.
+    folder : pathlib.Path
+        Its folder.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    texts = {
+        "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
+        "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
+    }
+    save_texts(folder, texts)
+    save_figures(folder, outcome.study.case.title, optimise_figures(outcome))
+    _save_designs(outcome, folder / DESIGNS)
+
+
+def _save_designs(outcome: Outcome, folder: Path) -> None:
+    """Write each of the best designs as a case of its own, with the files that it names."""
+    study = outcome.study
+    heads = {
+        f"{_name(number, outcome)}.toml": _head(outcome, one)
+        for number, one in enumerate(outcome.front, 1)
+    }
+    save_designs(folder, heads, study.design([one.values for one in outcome.front]))
+
+
+def _head(outcome: Outcome, one: Candidate) -> str:
+    study = outcome.study
+    found = ", ".join(f"{name} {_measure(one, name)}" for name in study.measures)
+    return f"design {one.number}{DESIGN_MARK}{study.case.name}: {found}"

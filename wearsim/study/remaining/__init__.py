@@ -1,0 +1,1 @@
+"""What is left of a life after a reading in service."""

@@ -1,0 +1,258 @@
+"""What is left of a life after one reading in service."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.case.model import Case, WrapDrive
+from wearsim.errors import CaseError, Fault
+from wearsim.geometry.profile import Vector
+from wearsim.result import Life, LowerBound
+from wearsim.simulation import simulate
+from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.study.constant_coefficient import check_constant
+
+
+def ambiguity(over_pins: Vector, error: float) -> str:
+    """Return why a reading over pins may belong to several times of a life.
+
+    Parameters
+    ----------
+    over_pins : numpy.ndarray
+        The measurement over the life [mm].
+    error : float
+        Of the reading [mm].
+
+    Returns
+    -------
+    str
+        What must hold and what to do; empty where it falls all the time, but for the error.
+
+    Examples
+    --------
+    >>> ambiguity(np.array([80.0, 79.9, 79.95]), 0.1)
+    ''
+    """
+    again = float((over_pins - np.minimum.accumulate(over_pins)).max())
+    if again <= error:
+        return ""
+    return (
+        f"must belong to one time, but the measurement over pins grows again by {again:.3g} mm in the "
+        "life: measure the depth"
+    )
+
+
+_CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
+
+DEPTH, OVER_PINS, ELONGATION = "max_depth_mm", "over_pins_mm", "elongation_percent"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One reading of wear in service.
+
+    Attributes
+    ----------
+    quantity : str
+        ``max_depth_mm``, ``over_pins_mm`` (how much the measurement over pins has become
+        less) or ``elongation_percent``.
+    value, error : float
+        In the unit of the quantity, both above 0.
+    hours : float
+        Running time since the part that was measured, sprocket or chain, was new [h].
+    """
+
+    quantity: str
+    value: float
+    error: float
+    hours: float
+
+
+@dataclass(frozen=True)
+class RemainingLife:
+    """What is left of the life of the part that was measured.
+
+    Attributes
+    ----------
+    case, title : str
+        Of the case.
+    part : str
+        ``sprocket`` or ``chain``.
+    reading : Reading
+        What was measured.
+    model_hours : float
+        When the case's own coefficient gives that reading [h].
+    coefficient : float
+        That the reading stands for, in the unit of the case's law.
+    life, remaining : Life or LowerBound
+        From new, and from the reading on.
+    remaining_low, remaining_high : Life or LowerBound
+        With the reading at the high and at the low end of its error.
+    assumptions, warnings : tuple of str
+        What was taken for granted, and what the user should look at.
+    """
+
+    case: str
+    title: str
+    part: str
+    reading: Reading
+    model_hours: float
+    coefficient: float
+    life: Life | LowerBound
+    remaining: Life | LowerBound
+    remaining_low: Life | LowerBound
+    remaining_high: Life | LowerBound
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def factor(self) -> float:
+        """The coefficient over that of the case."""
+        return self.model_hours / self.reading.hours
+
+
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """How a quantity grows with the case's own coefficient, up to the end of the life."""
+
+    hours: Vector
+    values: Vector
+    life: Life | LowerBound
+    coefficient: float
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    def hours_of(self, value: float) -> float:
+        """Hours at which a value is first reached."""
+        highest = np.maximum.accumulate(self.values)
+        rising = np.concatenate([[True], highest[1:] > highest[:-1]])
+        return float(np.interp(value, highest[rising], self.hours[rising]))
+
+
+def remaining_life(
+    case: Case, reading: Reading, progress: Callable[[float], None] = lambda part: None
+) -> RemainingLife:
+    """Return the life that remains after a reading in service.
+
+    Wear depends on coefficient times time only. If the case's own coefficient k gives the
+    reading after h_m hours and it was made after h, the coefficient is k h_m/h and the life
+    is L h/h_m instead of L. On a wrap the coefficients of teeth and joints change alike for a
+    reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
+    long as the coefficient is constant.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    reading : Reading
+        The reading.
+    progress : callable, optional
+        Told how much of a run is done, from 0 to 1.
+
+    Returns
+    -------
+    RemainingLife
+        Of the part that was measured.
+
+    Raises
+    ------
+    CaseError
+        The case does not know the quantity, the reading is not above its error or beyond the
+        limit or the run, or it belongs to several times of the run.
+    ContactError
+        The contact leaves its theory or vanishes, or the chain jumps.
+    ConvergenceError
+        The life would be wrong.
+    """
+    check_constant(case, "remaining")
+    if not 0.0 < reading.error < reading.value:
+        raise _fault(
+            case,
+            reading,
+            f"must be larger than its error of {reading.error:g}: measure later or better",
+        )
+    course = (
+        _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
+    )
+    most = float(course.values.max())
+    reached = isinstance(course.life, Life)
+    if reading.value > most * (1.0 + 1e-12):
+        what = "the limit is reached" if reached else "the run ends at run.horizon_hours"
+        raise _fault(case, reading, f"must be at most {most:.6g}, where {what}")
+    model = course.hours_of(reading.value)
+    low = course.hours_of(min(reading.value + reading.error, most))
+    high = course.hours_of(reading.value - reading.error)
+    warnings = list(course.warnings)
+    factor = model / reading.hours
+    if not case.wear.low <= factor <= case.wear.high and reading.quantity != ELONGATION:
+        warnings.append(
+            f"the reading asks for {factor:.3g} times the wear coefficient of the case, outside its band "
+            f"of {case.wear.low:.3g} to {case.wear.high:.3g}: check the reading and the load"
+        )
+    return RemainingLife(
+        case=case.name,
+        title=case.title,
+        part="chain" if reading.quantity == ELONGATION else "sprocket",
+        reading=reading,
+        model_hours=model,
+        coefficient=factor * course.coefficient,
+        life=_stretched(course.life, reading.hours / model, 0.0),
+        remaining=_stretched(course.life, reading.hours / model, reading.hours),
+        remaining_low=_stretched(course.life, reading.hours / low, reading.hours),
+        remaining_high=_stretched(course.life, reading.hours / high, reading.hours),
+        assumptions=course.assumptions,
+        warnings=tuple(warnings),
+    )
+
+
+def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | LowerBound:
+    """Return a life on another scale of time without the hours that have gone."""
+    left = stretch * life.hours_run - gone
+    left = left if left > 1e-9 * gone else 0.0
+    return type(life)(life.cycles_run / life.hours_run * left, left)
+
+
+def _fault(case: Case, reading: Reading, message: str) -> CaseError:
+    return CaseError([Fault(f"{reading.value:g} {message}", reading.quantity, "reading")])
+
+
+def _chain(case: Case, reading: Reading) -> _Course:
+    """Elongation of a chain: linear, so that no run is needed."""
+    drive = case.drive
+    if not isinstance(drive, WrapDrive):
+        raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
+    contact = wrap_contact(case, drive)
+    cycles = contact.cycles_per_chain
+    life = Life(cycles, cycles / case.cycles_per_hour)
+    return _Course(
+        hours=np.array([0.0, life.hours]),
+        values=np.array([0.0, 100.0 * contact.elongation_limit]),
+        life=life,
+        coefficient=drive.joint.coefficient,
+        assumptions=(*_CONSTANT, *case.assumptions),
+        warnings=case.warnings,
+    )
+
+
+def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _Course:
+    """Depth or measurement over pins of the sprocket."""
+    result = simulate(case, progress)
+    columns = result.history_columns
+    if reading.quantity not in columns:
+        raise _fault(case, reading, "needs a sprocket with gaps: set kind = 'wrap'")
+    values = columns[reading.quantity]
+    if reading.quantity == OVER_PINS:
+        doubt = ambiguity(values, reading.error)
+        if doubt:
+            raise _fault(case, reading, doubt)
+        values = values[0] - values
+    joints = ("joints wear as much more or less than their coefficient says as teeth do",)
+    return _Course(
+        hours=columns["time_hours"],
+        values=values,
+        life=result.parts.get("sprocket", result.life),
+        coefficient=case.wear.coefficient,
+        assumptions=(*_CONSTANT, *(joints if "chain" in result.parts else ()), *result.assumptions),
+        warnings=result.warnings,
+    )

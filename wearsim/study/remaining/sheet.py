@@ -1,0 +1,97 @@
+"""What is left of a life, as text and as JSON."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from wearsim.report.answer import hours, service_text
+from wearsim.report.lines import grouped, numbered, row
+from wearsim.report.service import service_keys
+from wearsim.result import Life, life_keys
+from wearsim.study.remaining.model import RemainingLife
+
+_WORDS = {
+    "max_depth_mm": "{} mm worn off",
+    "over_pins_mm": "{} mm less over pins",
+    "elongation_percent": "{} % longer",
+}
+
+
+def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
+    """Return the answer as ``wearsim remaining`` prints it.
+
+    Parameters
+    ----------
+    found : RemainingLife
+        The answer.
+    inputs : mapping
+        Tables of the case.
+
+    Returns
+    -------
+    str
+        Several lines, at most a hundred characters wide.
+    """
+    reading = found.reading
+    band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
+    what = _WORDS[reading.quantity].format(f"{reading.value:g}")
+    service = service_text(inputs, found.remaining, reading.hours)
+    rows = [
+        (
+            "Remaining",
+            f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h",
+        ),
+        ("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
+        *([("In service", service)] if service else []),
+        ("Life", f"{hours(found.life)} of the {found.part} in all"),
+        (
+            "Coefficient",
+            f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
+            f"after {grouped(found.model_hours)} h",
+        ),
+        ("Assumes", numbered(found.assumptions)),
+        ("Warnings", "; ".join(found.warnings) or "none"),
+    ]
+    return "\n".join([found.title, *(row(label, text) for label, text in rows)])
+
+
+def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the answer as ``wearsim remaining --json`` prints it.
+
+    Parameters
+    ----------
+    found : RemainingLife
+        The answer.
+    inputs : mapping
+        Tables of the case.
+
+    Returns
+    -------
+    dict
+        Numbers, strings, lists and None for a life that the run does not reach.
+    """
+    reading = found.reading
+    content = {
+        "schema_version": 1,
+        "case": found.case,
+        "title": found.title,
+        "part": found.part,
+        "quantity": reading.quantity,
+        "reading": reading.value,
+        "reading_error": reading.error,
+        "reading_hours": reading.hours,
+        "model_hours": found.model_hours,
+        "coefficient": found.coefficient,
+        "coefficient_factor": found.factor,
+        "life_reached": isinstance(found.life, Life),
+        **life_keys("life_hours", found.life),
+        **life_keys("remaining_hours", found.remaining),
+        **life_keys("remaining_hours_low", found.remaining_low),
+        **life_keys("remaining_hours_high", found.remaining_high),
+        "hours_run": found.life.hours_run,
+    }
+    return {
+        **content,
+        **service_keys(inputs, found.remaining, reading.hours),
+        "assumptions": list(found.assumptions),
+        "warnings": list(found.warnings),
+    }

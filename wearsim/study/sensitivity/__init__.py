@@ -1,0 +1,1 @@
+"""What of the input matters to a life."""

@@ -1,0 +1,78 @@
+"""``wearsim sensitivity``: what of the input matters to a life."""
+
+from pathlib import Path
+
+import click
+
+from wearsim.command.complete import CasePath
+from wearsim.command.options import overrides, print_json, standard, warn, working
+from wearsim.command.study import Place, place_options
+from wearsim.command.study_run import run
+
+
+def _power_of_two(context: click.Context, parameter: click.Parameter, value: int) -> int:
+    if value & (value - 1):
+        raise click.BadParameter(f"{value} is not a power of two.")
+    return value
+
+
+@click.command(short_help="What of the input matters: Sobol', Morris, tornado.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.option(
+    "--samples", type=click.IntRange(min=8, max=1 << 20), default=256, show_default=True,
+    callback=_power_of_two,
+    help="Base samples of Sobol's method, a power of two; keys + 2 lives each.",
+)  # fmt: skip
+@click.option(
+    "--trajectories", type=click.IntRange(min=4, max=10_000), default=20, show_default=True,
+    help="Of Morris' method; keys + 1 lives each.",
+)  # fmt: skip
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples."
+)
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@place_options
+@overrides
+@standard
+def sensitivity(
+    case: Path, samples: int, trajectories: int, seed: int, as_json: bool, place: Place,
+    settings: tuple[str, ...],
+) -> int:  # fmt: skip
+    """Print which keys of CASE (.toml) its life depends on, and what would double it.
+
+    The table [uncertainty] of the case tells what scatters and how. With --out, DIR holds
+    sensitivity.csv, cases.csv, summary.md, a tornado, and what is finished: run again, the same
+    command goes on. Needs SALib (pip install 'wearsim[study]').
+    """
+    from wearsim.extras import check_installed
+
+    check_installed(("SALib",), "study", "sensitivity")
+    from wearsim.study.sensitivity.model import doubling, effects, load_sensitivity
+
+    study = load_sensitivity(case, settings, samples, trajectories, seed)
+    scattered = study.scattered
+    told = {"study": "sensitivity", "case": scattered.case.name, "seed": seed}
+    table = run(study.design, place, told, f"sampling {scattered.case.title}")
+    if table is None:
+        return 0
+    found = effects(study, table)
+    with working(f"doubling the life of {scattered.case.title}"):
+        doubled = doubling(scattered)
+    from wearsim.study.sensitivity.sheet import (
+        Answer,
+        save_sensitivity,
+        sensitivity_json,
+        sensitivity_text,
+        warnings_of,
+    )
+
+    doubts = warnings_of(found, scattered.case)
+    answer = Answer(study, float(table["life_hours"][0]), found, doubled, doubts)
+    if as_json:
+        print_json(sensitivity_json(answer), case, answer.warnings)
+    else:
+        click.echo(sensitivity_text(answer))
+    if place.out is not None:
+        save_sensitivity(answer, table, place.out)
+        warn(f"written to {place.out}")
+    return 0

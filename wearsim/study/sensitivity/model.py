@@ -1,0 +1,248 @@
+"""What of the input matters to a life: Sobol' indices, Morris' screening, one key at a time.
+
+All indices are of ln L: lives are products of their inputs' powers far more nearly than sums.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case
+from wearsim.errors import StudyError
+from wearsim.extras import library
+from wearsim.geometry.profile import Vector
+from wearsim.runner.design import Design, replaced
+from wearsim.runner.scatter import Scatter, Scattered, load_scattered
+from wearsim.simulation import simulate
+from wearsim.study.solve_for.model import solve_for
+from wearsim.study.uncertainty.model import EDGE
+
+LOW, HIGH = 0.1, 0.9
+"""Probabilities between which one key at a time is moved, and Morris' method moves them all."""
+
+_LEVELS = 4
+_SAME = 1e-9
+"""Difference of ln L below which lives are the same."""
+
+
+@dataclass(frozen=True)
+class SensitivityStudy:
+    """The cases of a sensitivity study.
+
+    Attributes
+    ----------
+    scattered : Scattered
+        The case and what of it scatters.
+    seed : int
+        Of the samples.
+    morris : numpy.ndarray
+        Shares of Morris' trajectories, shape (trajectories (keys + 1), keys).
+    sobol : int
+        Rows of Sobol's method, which come last.
+    design : Design
+        The middle, each key low and high, Morris' rows, Sobol's rows.
+    """
+
+    scattered: Scattered
+    seed: int
+    morris: Vector
+    sobol: int
+    design: Design
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What one key does to the life.
+
+    Attributes
+    ----------
+    scatter : Scatter
+        The key.
+    low_hours, high_hours : float
+        Life with the key at its 10 % and 90 % point, all others in their middle [h].
+    first, first_error : float
+        Sobol's index of first order and its 95 % half-width: part of the variance of ln L that
+        goes when the key is known.
+    total, total_error : float
+        Sobol's total index: part of the variance that stays when all others are known.
+    morris, morris_error, interaction : float
+        Morris' mean of the size of the effects on ln L, its 95 % half-width, and their standard
+        deviation.
+    """
+
+    scatter: Scatter
+    low_hours: float
+    high_hours: float
+    first: float
+    first_error: float
+    total: float
+    total_error: float
+    morris: float
+    morris_error: float
+    interaction: float
+
+
+def load_sensitivity(
+    path: Path, overrides: Sequence[str], samples: int, trajectories: int, seed: int
+) -> SensitivityStudy:
+    """Return the cases of a sensitivity study.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The case; its table [uncertainty] tells what scatters.
+    overrides : sequence of str
+        ``table.key=VALUE``.
+    samples : int
+        Base samples of Sobol's method, a power of two; it takes keys + 2 lives for each.
+    trajectories : int
+        Of Morris' method, keys + 1 lives for each.
+    seed : int
+        The same seed gives the same samples.
+
+    Returns
+    -------
+    SensitivityStudy
+        To be run.
+
+    Raises
+    ------
+    CaseError
+        The case is wrong, or a key of the table holds no number that could scatter.
+    """
+    scattered = load_scattered(path, overrides)
+    problem = _problem(scattered)
+    count = len(scattered.scatters)
+    middle = np.full((1, count), 0.5)
+    one = np.repeat(middle, 2 * count, axis=0)
+    for index in range(count):
+        one[2 * index : 2 * index + 2, index] = LOW, HIGH
+    sampled = library("SALib.sample.morris", "study", "sensitivity")
+    levels = sampled.sample(problem, trajectories, num_levels=_LEVELS, seed=seed)
+    saltelli = library("SALib.sample.sobol", "study", "sensitivity")
+    cube = saltelli.sample(problem, samples, calc_second_order=False, seed=seed)
+    shares = np.concatenate([middle, one, LOW + (HIGH - LOW) * levels, cube.clip(EDGE, 1.0 - EDGE)])
+    return SensitivityStudy(scattered, seed, levels, len(cube), scattered.design(shares))
+
+
+def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
+    """Return what every key does to the life.
+
+    Parameters
+    ----------
+    study : SensitivityStudy
+        The cases.
+    table : pandas.DataFrame
+        What came of them, of `run_study`.
+
+    Returns
+    -------
+    list of Effect
+        By the total index, the largest first.
+
+    Raises
+    ------
+    StudyError
+        A case failed or was not run to its life: the indices need them all.
+    """
+    _check(table)
+    hours = table["life_hours"].to_numpy(float)
+    count, problem = len(study.scattered.scatters), _problem(study.scattered)
+    one = hours[1 : 1 + 2 * count].reshape(count, 2)
+    logs = np.log(hours)
+    if np.ptp(logs) < _SAME:
+        raise StudyError("nothing that scatters changes the life: there is nothing to tell apart")
+    screened = library("SALib.analyze.morris", "study", "sensitivity").analyze(
+        problem,
+        study.morris,
+        logs[1 + 2 * count : -study.sobol],
+        num_levels=_LEVELS,
+        seed=study.seed,
+    )
+    # The estimators lose digits where the mean is large against the scatter.
+    varied = logs[-study.sobol :] - logs[-study.sobol :].mean()
+    indices = library("SALib.analyze.sobol", "study", "sensitivity").analyze(
+        problem, varied, calc_second_order=False, seed=study.seed
+    )
+    found = [
+        Effect(
+            scatter, *one[index].tolist(),
+            *(float(indices[name][index]) for name in ("S1", "S1_conf", "ST", "ST_conf")),
+            *(float(screened[name][index]) for name in ("mu_star", "mu_star_conf", "sigma")),
+        )
+        for index, scatter in enumerate(study.scattered.scatters)
+    ]  # fmt: skip
+    return sorted(found, key=lambda effect: -effect.total)
+
+
+def doubling(scattered: Scattered) -> dict[str, float]:
+    """Return the value of every key at which the case lives twice as long, the others as they are.
+
+    Parameters
+    ----------
+    scattered : Scattered
+        The case and what of it scatters.
+
+    Returns
+    -------
+    dict
+        By key; nan where no value that can run does it, and for a case with contact fatigue, whose
+        life may change by leaps.
+
+    Raises
+    ------
+    WearsimError
+        The case has no life to be doubled.
+    """
+    if scattered.case.fatigue is not None:
+        return dict.fromkeys(scattered.keys, math.nan)
+    hours = simulate(_case_with(scattered, "", math.nan)).life.hours
+    found = {}
+    for scatter in scattered.scatters:
+        if scatter.value <= 0.0:
+            found[scatter.key] = math.nan
+            continue
+        solved = solve_for(partial(_case_with, scattered, scatter.key), scatter.value, 2.0 * hours)
+        found[scatter.key] = solved.trial.value if solved.met else math.nan
+    return found
+
+
+def _case_with(scattered: Scattered, key: str, value: float) -> Case:
+    tables = scattered.document.data
+    for scatter in scattered.scatters:
+        given = value if scatter.key == key else scatter.value
+        tables = replaced(tables, scatter.key.split("."), given)
+    return load_case(tables)
+
+
+def _problem(scattered: Scattered) -> dict[str, Any]:
+    count = len(scattered.keys)
+    return {"names": list(scattered.keys), "num_vars": count, "bounds": [[0.0, 1.0]] * count}
+
+
+def _check(table: pd.DataFrame) -> None:
+    failed = table[table["error"] != ""]
+    if not failed.empty:
+        raise StudyError(
+            f"{len(failed)} of {len(table)} cases failed, and indices need them all: narrow the "
+            f"distributions; the first: {failed.iloc[0].error}"
+        )
+    bounds = int(table["life_hours"].isna().sum())
+    if bounds:
+        raise StudyError(
+            f"{bounds} of {len(table)} cases met no limit within run.horizon_hours, and indices need "
+            "lives: raise it"
+        )
+    none = int((table["life_hours"] == 0.0).sum())
+    if none:
+        raise StudyError(
+            f"{none} of {len(table)} cases live 0 h by contact fatigue, and indices are of the logarithm "
+            "of the life: narrow the distributions or take a better material"
+        )

@@ -1,0 +1,230 @@
+"""What is shown of a sensitivity study: text, JSON, a table and a tornado."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from wearsim.case.model import Case
+from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.report.lines import grouped
+from wearsim.study.sensitivity.model import HIGH, LOW, Effect, SensitivityStudy
+
+_NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What of the input matters.
+
+    Attributes
+    ----------
+    study : SensitivityStudy
+        What was asked.
+    hours : float
+        Life with every key in its middle [h].
+    effects : sequence of Effect
+        Of the keys, the largest first.
+    doubled : mapping of str to float
+        Values that double the life of the case, nan where none does.
+    warnings : tuple of str
+        What is doubtful about the indices.
+    """
+
+    study: SensitivityStudy
+    hours: float
+    effects: Sequence[Effect]
+    doubled: Mapping[str, float]
+    warnings: tuple[str, ...]
+
+
+def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
+    """Return what is doubtful about indices.
+
+    Parameters
+    ----------
+    effects : sequence of Effect
+        Of all keys.
+    case : Case
+        The case.
+
+    Returns
+    -------
+    tuple of str
+        Indices that are not much larger than their errors, and what is left out.
+    """
+    found = (_NOT_DOUBLED,) if case.fatigue is not None else ()
+    loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
+    if not loose:
+        return found
+    return (
+        *found,
+        f"the indices of {', '.join(loose)} are not known well: take more --samples",
+    )
+
+
+def sensitivity_table(answer: Answer) -> pd.DataFrame:
+    """Return a row for each key.
+
+    Parameters
+    ----------
+    answer : Answer
+        What matters.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Lives with the key low and high, indices with their errors, the value that doubles the
+        life.
+    """
+    return pd.DataFrame(
+        {
+            "key": effect.scatter.key,
+            "value": effect.scatter.value,
+            "low_life_hours": effect.low_hours,
+            "high_life_hours": effect.high_hours,
+            "first_order_index": effect.first,
+            "first_order_error": effect.first_error,
+            "total_index": effect.total,
+            "total_error": effect.total_error,
+            "morris_mu_star": effect.morris,
+            "morris_error": effect.morris_error,
+            "morris_sigma": effect.interaction,
+            "value_for_double_life": answer.doubled[effect.scatter.key],
+        }
+        for effect in answer.effects
+    )
+
+
+def sensitivity_text(answer: Answer) -> str:
+    """Return what matters as text.
+
+    Parameters
+    ----------
+    answer : Answer
+        What matters.
+
+    Returns
+    -------
+    str
+        Lines.
+    """
+    scattered = answer.study.scattered
+    width = max(len(key) for key in scattered.keys)
+    lines = [
+        scattered.case.title,
+        "",
+        f"life         {grouped(answer.hours)} h in the middle of all",
+    ]
+    lines += ["", "part of the variance of ln L, and life with one key low and high (10 and 90 %):"]
+    for effect in answer.effects:
+        lines.append(
+            f"  {effect.scatter.key:<{width}}  total {effect.total:5.2f} +-{effect.total_error:.2f}"
+            f"  alone {effect.first:5.2f} +-{effect.first_error:.2f}"
+            f"  {grouped(effect.low_hours):>9} to {grouped(effect.high_hours):>9} h"
+        )
+    lines += ["", "Morris: mean size of the effects on ln L, and their scatter:"]
+    for effect in answer.effects:
+        lines.append(
+            f"  {effect.scatter.key:<{width}}  {effect.morris:6.3f} +-{effect.morris_error:.3f}  scatter "
+            f"{effect.interaction:.3f}"
+        )
+    lines += ["", "what would double the life, the others as they are:"]
+    none = "not looked for" if scattered.case.fatigue is not None else "no value that can run"
+    for effect in answer.effects:
+        value = answer.doubled[effect.scatter.key]
+        shown = none if math.isnan(value) else f"{value:.4g}"
+        lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
+    lines += ["", "what scatters:"]
+    lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]
+    lines += ["", "assumptions:"]
+    texts = [*scattered.assumptions, *scattered.case.assumptions]
+    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
+    lines += [f"warning: {text}" for text in (*answer.warnings, *scattered.case.warnings)]
+    return "\n".join(lines)
+
+
+def sensitivity_json(answer: Answer) -> dict[str, Any]:
+    """Return what matters as plain values.
+
+    Parameters
+    ----------
+    answer : Answer
+        What matters.
+
+    Returns
+    -------
+    dict
+        What is not known is null.
+    """
+    rows = sensitivity_table(answer).to_dict("records")
+    scattered = answer.study.scattered
+    return {
+        "schema_version": 1,
+        "case": scattered.case.name,
+        "life_hours": answer.hours,
+        "seed": answer.study.seed,
+        "keys": [{str(name): plain(value) for name, value in row.items()} for row in rows],
+        "assumptions": [*scattered.assumptions, *scattered.case.assumptions],
+        "warnings": [*answer.warnings, *scattered.case.warnings],
+    }
+
+
+def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
+    """Write tables and the tornado into the folder of a study.
+
+    Parameters
+    ----------
+    answer : Answer
+        What matters.
+    table : pandas.DataFrame
+        A row for each case.
+    folder : pathlib.Path
+        Its folder.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    texts = {
+        "cases.csv": table.to_csv(index=False),
+        "sensitivity.csv": sensitivity_table(answer).to_csv(index=False),
+        "summary.md": f"```\n{sensitivity_text(answer)}\n```\n",
+    }
+    save_texts(folder, texts)
+    save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})
+
+
+def tornado(answer: Answer) -> Figure:
+    """Return the picture of one key at a time, the widest on top.
+
+    Parameters
+    ----------
+    answer : Answer
+        What matters.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A bar for each key from its life at 10 % to that at 90 %.
+    """
+    effects = sorted(answer.effects, key=lambda e: abs(math.log(e.high_hours / e.low_hours)))
+    figure = Figure(figsize=(7.5, 1.6 + 0.55 * len(effects)), layout="constrained")
+    panel = figure.subplots()
+    for place, effect in enumerate(effects):
+        for hours, colour in ((effect.low_hours, "tab:blue"), (effect.high_hours, "tab:red")):
+            panel.barh(place, hours - answer.hours, left=answer.hours, color=colour, height=0.6)
+    for share, colour in ((LOW, "tab:blue"), (HIGH, "tab:red")):
+        panel.barh(0, 0, color=colour, label=f"key at its {100 * share:.0f} % point")
+    panel.axvline(answer.hours, color="black", linewidth=1.0)
+    panel.set_xscale("log")
+    panel.set_yticks(range(len(effects)), [effect.scatter.key for effect in effects], fontsize=8)
+    panel.set_xlabel("life, h")
+    panel.grid(alpha=0.3, axis="x", which="both")
+    panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+    return figure

@@ -1,0 +1,1 @@
+"""The value of a key at which a case lives as long as required."""

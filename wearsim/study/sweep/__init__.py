@@ -1,0 +1,1 @@
+"""Lives over values of any input keys."""

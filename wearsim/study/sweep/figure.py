@@ -1,0 +1,224 @@
+"""Pictures of a sweep: curves, a heat map, and parallel coordinates."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from wearsim.quantities import quantities
+from wearsim.report.figure_text import literal
+from wearsim.report.lines import grouped
+from wearsim.study.sweep.model import Sweep
+
+_MOST_CURVES = 10
+_MOST_LINES = 2000
+_MOST_NUMBERS = 100
+
+
+def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
+    """Return the pictures that suit a sweep, by file stem.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        Its axes.
+    table : pandas.DataFrame
+        A row for each case, of `run_study`.
+
+    Returns
+    -------
+    dict
+        ``curves`` where a key with numbers has up to 10 curves, ``heat_map`` for two axes of
+        numbers, ``parallel`` for two keys and more; none where no case has a life.
+    """
+    if not (table["hours_run"] > 0.0).any():
+        return {}
+    figures: dict[str, Figure] = {}
+    numeric = [axis[0] for axis in sweep.axes if len(axis) == 1 and _is_numeric(table[axis[0]])]
+    others = [key for key in sweep.design.keys if not numeric or key != numeric[0]]
+    if numeric and len(table.groupby(others) if others else [0]) <= _MOST_CURVES:
+        figures["curves"] = _curves(table, numeric[0], others)
+    if len(sweep.axes) == len(numeric) == 2:
+        figures["heat_map"] = _heat_map(table, *numeric)
+    if len(sweep.design.keys) > 1:
+        figures["parallel"] = _parallel(table, sweep.design.keys)
+    return figures
+
+
+def _is_numeric(column: "pd.Series[Any]") -> bool:
+    return all(isinstance(value, int | float) and value is not True for value in column)
+
+
+def _is_whole(column: "pd.Series[Any]") -> bool:
+    return all(isinstance(value, int) for value in column)
+
+
+def axis_label(key: str) -> str:
+    """Return the name of a key above its scale.
+
+    Parameters
+    ----------
+    key : str
+        Dotted key, or a column.
+
+    Returns
+    -------
+    str
+        With its unit apart.
+
+    Examples
+    --------
+    >>> axis_label("load.tension_N")
+    'load.tension, N'
+    """
+    quantity = quantities().get(key.rpartition(".")[2])
+    unit = quantity.unit if quantity else ""
+    return f"{key.rpartition('_')[0]}, {unit}" if unit else key
+
+
+def _hours(table: pd.DataFrame) -> "pd.Series[float]":
+    """Lives, or how long the run was where no limit was met."""
+    return table["life_hours"].fillna(table["hours_run"])
+
+
+def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
+    figure = Figure(figsize=(7.0, 4.6), layout="constrained")
+    panel = figure.subplots()
+    groups = table.groupby(list(others), sort=False) if others else [((), table)]
+    for number, (values, group) in enumerate(groups):
+        group = group[group["error"] == ""].sort_values(key)
+        shown = ", ".join(
+            f"{axis_label(key)} {value:.4g}"
+            if isinstance(value, float)
+            else f"{axis_label(key)} {value}"
+            for key, value in zip(others, values, strict=True)
+        )
+        colour = f"C{number}"
+        panel.plot(
+            group[key],
+            group["life_hours"],
+            "-o",
+            color=colour,
+            markersize=4,
+            label=literal(shown) or None,
+        )
+        bound = group[group["life_hours"].isna()]
+        panel.plot(bound[key], bound["hours_run"], "^", color=colour, mfc="white", markersize=9)
+    if (table["life_hours"].isna() & (table["error"] == "")).any():
+        panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
+    panel.set_xlabel(axis_label(key))
+    panel.set_ylabel("life, h")
+    panel.margins(y=0.1)
+    panel.set_ylim(bottom=0.0)
+    panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
+    panel.grid(alpha=0.3)
+    if panel.get_legend_handles_labels()[0]:
+        panel.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure
+
+
+def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
+    hours = table.assign(hours=_hours(table)).pivot(index=up, columns=across, values="hours")
+    reached = table.pivot(index=up, columns=across, values="life_hours").notna().to_numpy()
+    figure = Figure(figsize=(7.0, 5.2), layout="constrained")
+    panel = figure.subplots()
+    norm = _scale(table)
+    cells = hours.to_numpy(float)
+    image = panel.pcolormesh(np.ma.masked_invalid(cells), norm=norm, cmap="viridis")
+    for place, axis in ((hours.columns, panel.xaxis), (hours.index, panel.yaxis)):
+        axis.set_ticks(np.arange(len(place)) + 0.5, [f"{value:.4g}" for value in place])
+    if cells.size <= _MOST_NUMBERS:
+        for (row, column), value in np.ndenumerate(cells):
+            dark = value < np.sqrt(_least(table) * _hours(table).max())
+            sign = "" if reached[row, column] else "> "
+            text = "failed" if np.isnan(value) else sign + grouped(float(f"{value:.3g}"))
+            panel.text(
+                column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=8,
+                color="white" if dark else "black",
+            )  # fmt: skip
+    figure.colorbar(image, label="life, h")
+    panel.set_xlabel(axis_label(across))
+    panel.set_ylabel(axis_label(up))
+    return figure
+
+
+def _least(table: pd.DataFrame) -> float:
+    return float(_hours(table).min())
+
+
+def _scale(table: pd.DataFrame) -> LogNorm:
+    """Colours from the shortest life to the longest."""
+    return LogNorm(_least(table), max(float(_hours(table).max()), 1.0001 * _least(table)))
+
+
+def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
+    """Every case a line through its values and its life, all scales from least to greatest.
+
+    An open arrow is a life that was not reached.
+    """
+    rows = table[table["error"] == ""].assign(life=_hours)
+    rows = rows.iloc[:: max(1, len(rows) // _MOST_LINES)].sort_values("life")
+    columns = [*keys, "life"]
+    figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
+    panel = figure.subplots()
+    norm = _scale(table)
+    heights = np.column_stack(
+        [scaled_heights(panel, at, rows[key]) for at, key in enumerate(columns)]
+    )
+    colours = mpl.colormaps["viridis"](norm(rows["life"].to_numpy()))
+    bounds = rows["life_hours"].isna()
+    for line, colour, bound in zip(heights, colours, bounds, strict=True):
+        panel.plot(np.arange(len(columns)), line, color=colour, alpha=0.6, linewidth=1.0)
+        if bound:
+            panel.plot(len(columns) - 1, line[-1], "^", color=colour, mfc="white", markersize=8)
+    if bounds.any():
+        panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
+        panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    labels = [axis_label(key).replace(".", ".\n", 1) for key in keys] + ["life, h"]
+    panel.set_xticks(np.arange(len(columns)), labels, fontsize=8)
+    panel.set_yticks([])
+    panel.set_ylim(-0.05, 1.05)
+    panel.set_xlim(-0.4, len(columns) - 0.6)
+    panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
+    figure.colorbar(ScalarMappable(norm, "viridis"), ax=panel, label="life, h")
+    return figure
+
+
+def scaled_heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
+    """Draw one scale of parallel coordinates.
+
+    Parameters
+    ----------
+    panel : matplotlib.axes.Axes
+        Where it is drawn.
+    at : int
+        Its place.
+    values : pandas.Series
+        Numbers or words.
+
+    Returns
+    -------
+    numpy.ndarray
+        Where the values lie on it, from 0 to 1.
+    """
+    panel.axvline(at, color="0.3", linewidth=1.0)
+    if _is_numeric(values):
+        low, high = float(values.min()), float(values.max())
+        marks = [(0.0, f"{low:.4g}"), (1.0, f"{high:.4g}")] if high > low else [(0.5, f"{low:.4g}")]
+        span = (high - low) or 1.0
+        heights = (values.to_numpy(float) - low) / span if high > low else np.full(len(values), 0.5)
+    else:
+        names = list(dict.fromkeys(map(str, values)))
+        steps = np.linspace(0.0, 1.0, len(names)) if len(names) > 1 else np.array([0.5])
+        marks = list(zip(steps, names, strict=True))
+        heights = np.array([steps[names.index(str(value))] for value in values])
+    for height, text in marks:
+        panel.text(at + 0.03, height, literal(text), fontsize=8, va="center")
+    return heights

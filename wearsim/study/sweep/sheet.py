@@ -1,0 +1,99 @@
+"""What is shown of a sweep: a table, JSON, and files in its folder."""
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.report.lines import grouped
+from wearsim.study.sweep.figure import sweep_figures
+from wearsim.study.sweep.model import Sweep
+
+
+def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
+    """Return a sweep as a Markdown table.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        Its keys.
+    table : pandas.DataFrame
+        A row for each case, of `run_study`.
+
+    Returns
+    -------
+    str
+        Keys, life and what ended it; a bound where no limit was met, the error where it failed.
+    """
+    head = [*sweep.design.keys, "life, h", "ended by"]
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for row in table.to_dict("records"):
+        cells = [_shown(row[key]) for key in sweep.design.keys]
+        cells += [_life(row), "" if row["error"] else row["stop"]]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines)
+
+
+def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
+    """Return a sweep as JSON, an object for each case.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        Its keys.
+    table : pandas.DataFrame
+        A row for each case, of `run_study`.
+
+    Returns
+    -------
+    list of str
+        A line for each; what is not known is null.
+    """
+    lines = []
+    for row in table.to_dict("records"):
+        known = {name: plain(value) for name, value in row.items()}
+        inputs = {key: known.pop(key) for key in sweep.design.keys}
+        content = {"schema_version": 1, "case": sweep.design.name, "inputs": inputs, **known}
+        lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
+    return lines
+
+
+def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
+    """Write the table and the pictures of a sweep into its folder.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        Its axes.
+    table : pandas.DataFrame
+        A row for each case, of `run_study`.
+    folder : pathlib.Path
+        That of the study.
+
+    Raises
+    ------
+    OutputError
+        The folder cannot be written.
+    """
+    texts = {
+        "cases.csv": table.to_csv(index=False),
+        "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",
+    }
+    save_texts(folder, texts)
+    save_figures(folder, sweep.title, sweep_figures(sweep, table))
+
+
+def _life(row: Mapping[Any, Any]) -> str:
+    if row["error"]:
+        return f"failed: {row['error']}"
+    if math.isnan(row["life_hours"]):
+        return f"> {grouped(row['hours_run'])} (limit not reached)"
+    return grouped(row["life_hours"])
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

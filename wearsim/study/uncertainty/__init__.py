@@ -1,0 +1,1 @@
+"""How sure a life is."""

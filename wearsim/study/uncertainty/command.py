@@ -1,0 +1,109 @@
+"""``wearsim uncertainty``: how sure a life is."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from wearsim.command.complete import CasePath
+from wearsim.command.options import NOT_MET, finite, overrides, print_json, standard, warn, working
+from wearsim.command.study import Place, place_options
+from wearsim.command.study_run import exit_code, run
+
+if TYPE_CHECKING:
+    from wearsim.study.uncertainty.model import Method
+    from wearsim.study.uncertainty.sheet import Answer
+
+
+_ROUNDING = 1e-9
+
+
+@click.command(short_help="P10, P50 and P90 of a life whose inputs scatter.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.option(
+    "--samples", type=click.IntRange(min=2, max=10_000_000), default=1024, show_default=True,
+    help="Lives that are calculated.",
+)  # fmt: skip
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples."
+)
+@click.option(
+    "--method", type=click.Choice(("sobol", "lhs", "random")), default="sobol", show_default=True,
+    help="Scrambled Sobol' points, a Latin hypercube, or independent samples.",
+)  # fmt: skip
+@click.option(
+    "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
+    callback=finite, help="Exit with 4 where P10 is shorter; raises the horizon to at least H.",
+)  # fmt: skip
+@click.option(
+    "--cross-check", is_flag=True,
+    help="Repeat the fits by the library reliability (pip install 'wearsim[crosscheck]').",
+)  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@place_options
+@overrides
+@standard
+def uncertainty(
+    case: Path, samples: int, seed: int, method: "Method", require_hours: float | None,
+    cross_check: bool, as_json: bool, place: Place, settings: tuple[str, ...],
+) -> int:  # fmt: skip
+    """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
+
+    The table [uncertainty] of the case tells what scatters and how; the wear coefficient does by
+    the published scatter where the table names none.
+
+    With --out, DIR holds cases.csv, convergence.csv, summary.md, pictures, and what is finished:
+    run again, the same command goes on.
+    """
+    from wearsim.extras import check_installed
+    from wearsim.study.uncertainty.model import load_uncertainty
+
+    if cross_check:
+        check_installed(("reliability",), "crosscheck", "--cross-check")
+    study = load_uncertainty(case, settings, samples, seed, method, require_hours)
+    told = {
+        "study": "uncertainty",
+        "case": study.scattered.case.name,
+        "method": method,
+        "seed": seed,
+    }
+    table = run(study.design, place, told, f"sampling {study.scattered.case.title}")
+    if table is None:
+        return 0
+    from wearsim.study.uncertainty.sheet import (
+        Answer,
+        save_uncertainty,
+        uncertainty_json,
+        uncertainty_text,
+        warnings_of,
+    )
+
+    code, answer = exit_code(table), Answer(study, table)
+    if cross_check:
+        answer = _cross_checked(answer)
+    if as_json:
+        print_json(uncertainty_json(answer), case, warnings_of(answer))
+    else:
+        click.echo(uncertainty_text(answer))
+    if place.out is not None:
+        save_uncertainty(answer, place.out)
+        warn(f"written to {place.out}")
+    missed = _missed(answer, require_hours)
+    return code or missed
+
+
+def _cross_checked(answer: "Answer") -> "Answer":
+    # The library takes two seconds to load.
+    from wearsim.study.uncertainty.cross_check import cross_check
+
+    with working("repeating the fits by reliability"):
+        return replace(answer, crossed=cross_check(answer.hours, answer.reached, answer.fits))
+
+
+def _missed(answer: "Answer", require_hours: float | None) -> int:
+    p10 = answer.percentiles[0]
+    if require_hours is None or p10.hours >= (1.0 - _ROUNDING) * require_hours:
+        return 0
+    warn(f"{answer.study.scattered.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")
+    return NOT_MET

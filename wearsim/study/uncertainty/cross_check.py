@@ -1,0 +1,162 @@
+"""Fits to lives repeated by the library reliability, which also knows how sure their parameters are."""
+
+import io
+import math
+import re
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from wearsim.geometry.profile import Vector
+from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Flags
+
+TOLERANCE = 0.01
+"""Relative difference of parameters from which the two fits are told to disagree."""
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """A parameter between its bounds.
+
+    Attributes
+    ----------
+    value : float
+        Estimate of greatest likelihood.
+    low, high : float
+        Ends of its 95 % interval by the curvature of the likelihood; nan where not known.
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class CrossFit:
+    """A distribution fitted by reliability.
+
+    Attributes
+    ----------
+    name : str
+        ``lognormal`` or ``weibull``.
+    shape, scale : Bounded
+        Those of `Fit`: sigma of ln L and the median [h]; modulus and characteristic life [h].
+    """
+
+    name: str
+    shape: Bounded
+    scale: Bounded
+
+
+@dataclass(frozen=True)
+class CrossCheck:
+    """What reliability makes of lives.
+
+    Attributes
+    ----------
+    library : str
+        Its name and version.
+    fits : tuple of CrossFit
+        In the order of the fits that they repeat.
+    doubts : tuple of str
+        Where it differs from those, has failed or warns.
+    """
+
+    library: str
+    fits: tuple[CrossFit, ...]
+    doubts: tuple[str, ...]
+
+
+def cross_check(lives: Vector, reached: Flags, fits: Sequence[Fit]) -> CrossCheck:
+    """Return the fits to some lives repeated by reliability.
+
+    Parameters
+    ----------
+    lives : numpy.ndarray
+        Hours of the lives, or how long they are at least, shape (n,).
+    reached : numpy.ndarray of bool
+        Whether they are lives; the others are suspensions.
+    fits : sequence of Fit
+        Those of `wearsim.study.uncertainty.percentiles.fits` to the same lives.
+
+    Returns
+    -------
+    CrossCheck
+        Without fits where there are none to repeat.
+    """
+    library = f"reliability {version('reliability')}"
+    if not fits:
+        return CrossCheck(library, (), ())
+    # As a unit the library's optimisers take a middling life better than an hour.
+    unit = float(np.median(lives[reached]))
+    found, doubts = [], []
+    for fit in fits:
+        try:
+            crossed, printed = _repeated(fit.name, lives[reached] / unit, lives[~reached] / unit)
+        except (ArithmeticError, RuntimeError, ValueError) as error:
+            doubts.append(f"{library} finds no {fit.name} fit: {error}")
+            continue
+        scale = Bounded(*(unit * part for part in vars(crossed.scale).values()))
+        crossed = CrossFit(fit.name, crossed.shape, scale)
+        found.append(crossed)
+        doubts += [f"{library}, {fit.name}: {text}" for text in printed]
+        doubts += _differences(library, fit, crossed)
+    return CrossCheck(library, tuple(found), tuple(doubts))
+
+
+def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFit, list[str]]:
+    """Fit one distribution; what the library prints comes as lines."""
+    with _kept_to_itself() as printed:
+        from reliability.Fitters import Fit_Lognormal_2P, Fit_Weibull_2P
+
+        fitter = Fit_Weibull_2P if name == "weibull" else Fit_Lognormal_2P
+        found: Any = fitter(
+            failures=failures, right_censored=suspensions, CI=CONFIDENCE,
+            show_probability_plot=False, print_results=False,
+        )  # fmt: skip
+    lines = re.sub(r"\x1b\[[\d;]*m", "", printed.getvalue()).splitlines()
+    return _parameters(name, found), [line.removeprefix("WARNING: ") for line in lines if line]
+
+
+def _parameters(name: str, found: Any) -> CrossFit:
+    if name == "weibull":
+        shape = Bounded(float(found.beta), float(found.beta_lower), float(found.beta_upper))
+        scale = Bounded(float(found.alpha), float(found.alpha_lower), float(found.alpha_upper))
+    else:
+        shape = Bounded(float(found.sigma), float(found.sigma_lower), float(found.sigma_upper))
+        scale = Bounded(*map(math.exp, (found.mu, found.mu_lower, found.mu_upper)))
+    return CrossFit(name, shape, scale)
+
+
+@contextmanager
+def _kept_to_itself() -> Iterator[io.StringIO]:
+    """Catch what reliability prints, and take back what it sets for the whole process."""
+    widths = ("display.width", "display.max_columns", "display.max_rows")
+    kept = [part for name in widths for part in (name, pd.get_option(name))]
+    printed = io.StringIO()
+    with (
+        redirect_stdout(printed),
+        warnings.catch_warnings(),
+        np.errstate(all="ignore"),
+        pd.option_context(*kept),
+    ):
+        warnings.simplefilter("ignore")
+        yield printed
+
+
+def _differences(library: str, fit: Fit, crossed: CrossFit) -> list[str]:
+    found = []
+    for part in ("shape", "scale"):
+        ours, theirs = getattr(fit, part), getattr(crossed, part).value
+        if not abs(theirs - ours) <= TOLERANCE * ours:
+            found.append(
+                f"the {part} of the {fit.name} fit is {ours:.6g}, that of {library} {theirs:.6g}: they "
+                f"should agree within {100 * TOLERANCE:g} %, trust neither"
+            )
+    return found
