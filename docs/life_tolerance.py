@@ -90,7 +90,7 @@ def counts(cases: Sequence[Measured]) -> list[str]:
         ("steps and grid above t and the error stated", sum(over_stated(case) > 1.0 for case in cases)),
         ("ended at the horizon", sum(case.result.stop == "horizon_hours" for case in cases)),
         ("t below 1e-4", sum(tolerance < 1e-4 for tolerance in t)),
-    ]  # fmt: skip
+    ]
     return ["## Numbers of cases", "", *table((f"of {len(cases)}", "cases"), rows)]
 
 
@@ -98,12 +98,18 @@ def worst(title: str, cases: Sequence[Measured], figure: Figure) -> list[str]:
     head = ("case", "what it is", "points", "ends on", "t", "steps", "all", "stated", "warned")
     rows = [
         (
-            case.name, case.draw.what, case.draw.points, case.result.stop,
-            f"{case.draw.tolerance:.2g}", f"{case.steps:.2g}", f"{case.total:.2g}",
-            f"{case.stated:.2g}", "yes" if case.warned else "no",
+            case.name,
+            case.draw.what,
+            case.draw.points,
+            case.result.stop,
+            f"{case.draw.tolerance:.2g}",
+            f"{case.steps:.2g}",
+            f"{case.total:.2g}",
+            f"{case.stated:.2g}",
+            "yes" if case.warned else "no",
         )
         for case in sorted(cases, key=figure, reverse=True)[:WORST]
-    ]  # fmt: skip
+    ]
     return [f"## Worst {title}", "", *table(head, rows)]
 
 

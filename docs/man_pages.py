@@ -8,6 +8,4 @@ import wearsim
 from wearsim.cli.main import wearsim_command
 
 if __name__ == "__main__":
-    write_man_pages(
-        "wearsim", wearsim_command, version=wearsim.__version__, target_dir=sys.argv[1], date=""
-    )
+    write_man_pages("wearsim", wearsim_command, version=wearsim.__version__, target_dir=sys.argv[1], date="")

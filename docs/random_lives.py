@@ -112,17 +112,12 @@ def draw(rng: Random, folder: Path) -> Draw:
         "load": {"speed_rpm": log_uniform(rng, 10.0, 1000.0)},
         "wear": wear,
         "stop": {"critical_depth_mm": depth},
-        "run": {
-            "life_tolerance": tolerance,
-            "horizon_hours": float(rng.choice([5e4, 1e12])),
-        },
+        "run": {"life_tolerance": tolerance, "horizon_hours": float(rng.choice([5e4, 1e12]))},
     }
     what = f"{kind}, {chain.designation}, {depth:.2g} mm"
     if kind == "table":
         columns, form = random_columns(rng, chain.roller_diameter, local)
-        return Draw(
-            kind, f"{what}, {form}, {law}", points, tolerance, tabled(tables, columns, folder)
-        )
+        return Draw(kind, f"{what}, {form}, {law}", points, tolerance, tabled(tables, columns, folder))
     teeth = round(log_uniform(rng, 9, 120))
     tables["sprocket"] = {"teeth": teeth, "profile": "evolute"}
     tables["mechanism"] = {"roller_slip_fraction": uniform(rng, 0.05, 1.0)}
@@ -274,9 +269,7 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
             tighter = replace(case.run, life_tolerance=0.1 * drawn.tolerance)
             stage = "with a tenth of the tolerance"
             contact = pointwise_mechanism(case).contact
-            loose, tight = (
-                task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter)
-            )
+            loose, tight = (task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter))
             stage = "with that on four times the points"
             finer = wearsim.load_case(drawn.tables(finer_points(drawn.points)))
             fine = wearsim.simulate(replace(finer, run=tighter))

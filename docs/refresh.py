@@ -33,10 +33,7 @@ def main() -> None:
         (r"```text\n(?=cycles,)", "\n".join(history)),
     ):
         text = re.sub(
-            rf"({start}).*?(\n```)",
-            lambda found, new=new: found[1] + new + found[2],
-            text,
-            flags=re.S,
+            rf"({start}).*?(\n```)", lambda found, new=new: found[1] + new + found[2], text, flags=re.S
         )
     (ROOT / "README.md").write_text(text, "utf-8")
 

@@ -155,11 +155,7 @@ def wrap_drive(rng: Random) -> Tables:
         "chain": {"designation": chain.designation},
         "sprocket": sprocket,
         "drive": {"mate_teeth": mate},
-        "mechanism": {
-            "kind": "wrap",
-            "roller_slip_fraction": uniform(rng, 0.05, 1.0),
-            "phases": 8,
-        },
+        "mechanism": {"kind": "wrap", "roller_slip_fraction": uniform(rng, 0.05, 1.0), "phases": 8},
         "joint": {
             "specific_wear_rate_mm2_per_N": joint,
             "pitch": str(rng.choice(["alternating", "uniform"])),
@@ -285,11 +281,14 @@ def read() -> list[Judged]:
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
         return [
             Judged(
-                row["kind"], int(row["number"]), float(row["life_cycles"]),
-                float(row["stated_error"]), float(row["reference_cycles"]),
+                row["kind"],
+                int(row["number"]),
+                float(row["life_cycles"]),
+                float(row["stated_error"]),
+                float(row["reference_cycles"]),
             )
             for row in rows
-        ]  # fmt: skip
+        ]
 
 
 def write(rows: list[Judged]) -> None:
@@ -334,9 +333,13 @@ def table_of(rows: list[Judged]) -> list[str]:
         ratios = [row.ratio for row in ones]
         true = np.median([abs(row.life / row.reference - 1.0) for row in ones])
         cells = (
-            kind, len(ones), sum(ratio <= 1.0 for ratio in ratios), f"{max(ratios):.2f}",
-            f"{100 * true:.2g} %", f"{100 * np.median([row.stated for row in ones]):.2g} %",
-        )  # fmt: skip
+            kind,
+            len(ones),
+            sum(ratio <= 1.0 for ratio in ratios),
+            f"{max(ratios):.2f}",
+            f"{100 * true:.2g} %",
+            f"{100 * np.median([row.stated for row in ones]):.2g} %",
+        )
         lines.append(f"| {' | '.join(map(str, cells))} |")
     return lines
 

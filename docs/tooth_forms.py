@@ -40,9 +40,7 @@ def tables(name: str, sprocket: dict[str, object]) -> dict[str, object]:
     """A drive with another tooth form, its chain by dimensions so that no standard objects."""
     case = load_case(ROOT / "cases" / f"{name}.toml")
     chain = case.drive.chain
-    inputs = {
-        key: dict(value) if isinstance(value, dict) else value for key, value in case.inputs.items()
-    }
+    inputs = {key: dict(value) if isinstance(value, dict) else value for key, value in case.inputs.items()}
     keep = ("teeth", "role", "engaged_every", "face_width_mm")
     inputs["sprocket"] = {key: inputs["sprocket"][key] for key in keep if key in inputs["sprocket"]}
     inputs["sprocket"] |= sprocket
@@ -124,10 +122,16 @@ def main() -> None:
     text = (ROOT / "docs" / "tooth_forms_head.md").read_text("utf-8")
     lines = [text.rstrip(), "", f"Made on {date.today()} with `python docs/tooth_forms.py`.", ""]
     head = (
-        "tooth form", "sprocket life, h", "chains used", "what ends the drive first",
-        "area worn off, mm2", "force on tooth 1 over T_t, new / stretched chain",
-        "pressure angle, deg", "peak pressure, MPa", "numerical error",
-    )  # fmt: skip
+        "tooth form",
+        "sprocket life, h",
+        "chains used",
+        "what ends the drive first",
+        "area worn off, mm2",
+        "force on tooth 1 over T_t, new / stretched chain",
+        "pressure angle, deg",
+        "peak pressure, MPa",
+        "numerical error",
+    )
     for letter in dict.fromkeys(letter for letter, _, _ in found):
         lines += [
             f"### Drive {letter} ({DRIVES[letter]})",
@@ -142,10 +146,13 @@ def main() -> None:
         ]
         lines.append("")
     lines += [
-        "## Drive E with an evolute flank on the strand and on the wrap", "",
+        "## Drive E with an evolute flank on the strand and on the wrap",
+        "",
         "| picture | roller slip fraction | sprocket life, h | peak pressure, MPa | area worn off, mm2 |",
-        "|---|---|---|---|---|", *pictures(), "",
-    ]  # fmt: skip
+        "|---|---|---|---|---|",
+        *pictures(),
+        "",
+    ]
     (ROOT / "reports/reference/tooth_forms.md").write_text("\n".join(lines), "utf-8")
 
 

@@ -96,14 +96,10 @@ def page(rows: Iterable[tuple[str, int, Mapping[str, object]]]) -> str:
     parts = [HEAD.read_text(encoding="utf-8").rstrip("\n")]
     for heading, files in SECTIONS.items():
         found = [
-            row
-            for file in files
-            for _, row in sorted(by_file.pop(file, []), key=lambda entry: entry[0])
+            row for file in files for _, row in sorted(by_file.pop(file, []), key=lambda entry: entry[0])
         ]
         if found:
             parts.append(f"## {heading}\n\n{table(found)}")
     if by_file:
-        raise LookupError(
-            f"docs/validation_page.py: name a section of {', '.join(sorted(by_file))}"
-        )
+        raise LookupError(f"docs/validation_page.py: name a section of {', '.join(sorted(by_file))}")
     return "\n\n".join(parts) + "\n"

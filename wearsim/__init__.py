@@ -22,13 +22,7 @@ _PUBLIC = {
 if TYPE_CHECKING:
     from wearsim.case.load_case import load_case
     from wearsim.case.model import Case
-    from wearsim.errors import (
-        CaseError,
-        ContactError,
-        ConvergenceError,
-        GeometryError,
-        WearsimError,
-    )
+    from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.simulation import simulate
     from wearsim.simulation.simulate_many import simulate_many

@@ -14,12 +14,6 @@ from wearsim._version import __version__
 def facts() -> dict[str, Any]:
     """Return what is known of wearsim and its sources.
 
-    Returns
-    -------
-    dict
-        ``title``, ``version``, ``authors``, ``year`` and so on; ``references`` is a list of the
-        same for every source, with ``used_by``.
-
     Examples
     --------
     >>> facts()["title"], len(facts()["references"]) > 1
@@ -30,18 +24,11 @@ def facts() -> dict[str, Any]:
 
 
 def cff() -> str:
-    """Return the Citation File Format 1.2.0, the content of ``CITATION.cff``.
-
-    Returns
-    -------
-    str
-        YAML.
-    """
+    """Return the Citation File Format 1.2.0, the content of ``CITATION.cff``."""
     known = facts()
     lines = ["cff-version: 1.2.0", "type: software"]
     lines += [
-        f"{key}: {_quoted(known[key])}"
-        for key in ("message", "title", "abstract", "version", "license")
+        f"{key}: {_quoted(known[key])}" for key in ("message", "title", "abstract", "version", "license")
     ]
     lines += ["keywords:", *(f"  - {_quoted(word)}" for word in known["keywords"])]
     lines += ["authors:", *_cff_authors(known, "  ")]
@@ -76,13 +63,7 @@ def _cff_authors(known: dict[str, Any], indent: str) -> list[str]:
 
 
 def bibtex() -> str:
-    """Return entries for BibTeX.
-
-    Returns
-    -------
-    str
-        One ``@software`` and one entry for each source.
-    """
+    """Return entries for BibTeX."""
     known = facts()
     own = {
         "author": _bibtex_authors(known),
@@ -101,13 +82,17 @@ def bibtex() -> str:
             **{
                 name: _bibtex_text(str(reference[key]))
                 for name, key in (
-                    ("journal", "journal"), ("number", "issue"), ("publisher", "publisher"),
-                    ("year", "year"), ("doi", "doi"), ("note", "notes"),
+                    ("journal", "journal"),
+                    ("number", "issue"),
+                    ("publisher", "publisher"),
+                    ("year", "year"),
+                    ("doi", "doi"),
+                    ("note", "notes"),
                 )
                 if key in reference
             },
             **({"pages": "--".join(pages)} if pages else {}),
-        }  # fmt: skip
+        }
         entries.append(_bibtex_entry(kind, reference["key"], fields))
     return "\n".join(entries)
 
@@ -126,39 +111,25 @@ def _bibtex_authors(known: dict[str, Any]) -> str:
     return " and ".join(
         _bibtex_text(", ".join(filter(None, (author["family"], author.get("given")))))
         if "family" in author
-        else "others" if author["name"].startswith("and ") else f"{{{_bibtex_text(author['name'])}}}"
+        else "others"
+        if author["name"].startswith("and ")
+        else f"{{{_bibtex_text(author['name'])}}}"
         for author in known["authors"]
-    )  # fmt: skip
+    )
 
 
 def apa(version: str = __version__) -> str:
-    """Return the references in the style of the APA.
-
-    Parameters
-    ----------
-    version : str
-        Of the wearsim to cite.
-
-    Returns
-    -------
-    str
-        A line for wearsim and one for each source.
-    """
+    """Return the references in the style of the APA."""
     known = facts()
     own = (
-        f"{_apa_authors(known)} ({known['year']}). {known['title']} (Version {version}) "
-        "[Computer software]."
+        f"{_apa_authors(known)} ({known['year']}). {known['title']} (Version {version}) [Computer software]."
     )
     return "\n".join([own, *map(_apa_source, known["references"])]) + "\n"
 
 
 def _apa_source(reference: dict[str, Any]) -> str:
     pages = "-".join(str(reference[key]) for key in ("start", "end") if key in reference)
-    place = ", ".join(
-        str(part)
-        for part in (reference.get("journal"), reference.get("issue"), pages)
-        if part
-    )  # fmt: skip
+    place = ", ".join(str(part) for part in (reference.get("journal"), reference.get("issue"), pages) if part)
     parts = [
         f"{_apa_authors(reference)} ({reference.get('year', 'n.d.')})",
         reference["title"],
@@ -181,13 +152,7 @@ def _apa_authors(known: dict[str, Any]) -> str:
 
 
 def text() -> str:
-    """Return what to cite in plain words, with what each source is used for.
-
-    Returns
-    -------
-    str
-        Several lines.
-    """
+    """Return what to cite in plain words, with what each source is used for."""
     known = facts()
     own, *sources = apa().splitlines()
     lines = [known["message"], "", f"  {own}", "", "Sources of the equations:"]

@@ -16,33 +16,17 @@ _DISTRIBUTIONS = {"skfem": "scikit-fem"}
 
 @dataclass(frozen=True)
 class Library:
-    """A library that wearsim uses.
+    """A library that wearsim uses."""
 
-    Attributes
-    ----------
-    name : str
-        As it is installed.
-    extra : str
-        Extra of wearsim that brings it, empty where it always comes.
-    lowest, newest : str
-        Versions between which the tests have passed.
-    """
-
-    name: str
-    extra: str
-    lowest: str
-    newest: str
+    name: str  # as it is installed
+    extra: str  # extra of wearsim that brings it, empty where it always comes
+    lowest: str  # versions between which the tests have passed
+    newest: str  # versions between which the tests have passed
 
 
 @cache
 def libraries() -> tuple[Library, ...]:
-    """Return the libraries that wearsim uses, those of extras last.
-
-    Returns
-    -------
-    tuple of Library
-        As ``pyproject.toml`` demands them.
-    """
+    """Return the libraries that wearsim uses, those of extras last."""
     path = Path(__file__).with_name("libraries.csv")
     with path.open(encoding="utf-8", newline="") as file:
         return tuple(
@@ -53,25 +37,6 @@ def libraries() -> tuple[Library, ...]:
 
 def library(module: str, extra: str, option: str) -> Any:
     """Return a library of an extra.
-
-    Parameters
-    ----------
-    module : str
-        Its name in Python.
-    extra : str
-        The extra of wearsim that it belongs to.
-    option : str
-        What needs it, as the user wrote it.
-
-    Returns
-    -------
-    module
-        The library.
-
-    Raises
-    ------
-    CaseError
-        It is not installed.
 
     Examples
     --------
@@ -86,20 +51,6 @@ def library(module: str, extra: str, option: str) -> Any:
 
 def check_installed(modules: Sequence[str], extra: str, option: str) -> None:
     """Find out whether libraries of an extra are there, without the time to load them.
-
-    Parameters
-    ----------
-    modules : sequence of str
-        Their names in Python.
-    extra : str
-        The extra of wearsim that they belong to.
-    option : str
-        What needs them, as the user wrote it.
-
-    Raises
-    ------
-    CaseError
-        One is not installed.
 
     Examples
     --------

@@ -14,20 +14,7 @@ from wearsim.errors import OutputError
 
 
 def check_free(path: Path, force: bool) -> None:
-    """Raise where something is in the way.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Place to write to.
-    force : bool
-        Whether it may be replaced.
-
-    Raises
-    ------
-    OutputError
-        It exists and may not be replaced.
-    """
+    """Raise where something is in the way."""
     try:
         taken = path.exists()
     except OSError as error:
@@ -48,15 +35,7 @@ _TABLES = (
     *("lines", "statics", "flanks", "rack", "rollers", "indices", "line_of_action"),
     *("fit", "fitted_values"),
     *("pinion_profile", "wheel_profile", "stress_fields", "direction_fields"),
-    *(
-        "combinations",
-        "changes",
-        "comparison",
-        "axis_stresses",
-        "meshes",
-        "fem_axis",
-        "fem_pressure",
-    ),
+    *("combinations", "changes", "comparison", "axis_stresses", "meshes", "fem_axis", "fem_pressure"),
 )
 _WRITTEN = {
     *(
@@ -82,27 +61,12 @@ _PAGE = b'<meta name="generator" content="wearsim '
 
 
 def check_folder(folder: Path, force: bool) -> None:
-    """Raise where a folder cannot be made or replaced without loss.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Place to write to.
-    force : bool
-        Whether a folder that wearsim wrote may be replaced.
-
-    Raises
-    ------
-    OutputError
-        Something is there that may not be replaced, or that wearsim did not write.
-    """
+    """Raise where a folder cannot be made or replaced without loss."""
     check_free(folder, force)
     if not folder.exists():
         return
     if not folder.is_dir():
-        raise OutputError(
-            f"{folder}: must be a folder to be replaced, but is a file: choose another place"
-        )
+        raise OutputError(f"{folder}: must be a folder to be replaced, but is a file: choose another place")
     foreign = sorted(entry.name for entry in folder.iterdir() if not _own(entry))
     if foreign:
         raise OutputError(
@@ -126,23 +90,6 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     """Give a temporary folder that takes its final name when all of it is written.
 
     What a killed process left of the same folder is cleared away first.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Final place.
-    force : bool
-        Replace what is there.
-
-    Yields
-    ------
-    pathlib.Path
-        Folder to write into.
-
-    Raises
-    ------
-    OutputError
-        The place is taken or cannot be written.
     """
     with contextlib.suppress(OSError):
         _clear_beside(folder.resolve())
@@ -217,22 +164,7 @@ def _clear_beside(folder: Path) -> None:
 
 
 def write_file(path: Path, content: str | bytes, force: bool) -> None:
-    """Write a file beside its place and rename it.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Final place.
-    content : str or bytes
-        All of it.
-    force : bool
-        Replace what is there.
-
-    Raises
-    ------
-    OutputError
-        The place is taken or cannot be written.
-    """
+    """Write a file beside its place and rename it."""
     check_free(path, force)
     if path.exists() and not path.is_file():
         raise OutputError(f"{path}: must be a file, but is none: choose another place, or -")

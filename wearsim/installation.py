@@ -23,46 +23,21 @@ LOWEST_PYTHON, NEWEST_PYTHON = (3, 11), (3, 13)
 KNOWN_CYCLES = 26_102_090.0
 """Life of the case of the self-test by an independent program, to six digits."""
 
-_BROWSERS = (
-    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge",
-)  # fmt: skip
+_BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was looked at.
+    """One thing that was looked at."""
 
-    Attributes
-    ----------
-    name : str
-        What it is.
-    state : str
-        ``ok``; ``note`` for what works but should be known; ``failed`` for what must be mended.
-    found : str
-        What was found.
-    advice : str
-        What to do, empty where there is nothing to do.
-    """
-
-    name: str
-    state: str
-    found: str
-    advice: str = ""
+    name: str  # what it is
+    state: str  # `ok`; `note` for what works but should be known; `failed` for what must be mended
+    found: str  # what was found
+    advice: str = ""  # what to do, empty where there is nothing to do
 
 
 def findings(case: Path | None) -> list[Finding]:
-    """Look at everything that wearsim needs or can use.
-
-    Parameters
-    ----------
-    case : pathlib.Path or None
-        The shipped case with the known life; None where it is missing.
-
-    Returns
-    -------
-    list of Finding
-        In the order to read them in.
-    """
+    """Look at everything that wearsim needs or can use."""
     return [
         Finding("wearsim", "ok", f"{__version__} in {Path(__file__).parent}"),
         _python(),

@@ -8,34 +8,16 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Quantity:
-    """A row of the table.
+    """A row of the table."""
 
-    Attributes
-    ----------
-    name : str
-        Input key or column; ends in the unit where there is one.
-    symbol : str
-        As in the equations, empty where there is none.
-    unit : str
-        Empty for numbers without a unit and for words.
-    meaning : str
-        What it is.
-    """
-
-    name: str
-    symbol: str
-    unit: str
-    meaning: str
+    name: str  # input key or column; ends in the unit where there is one
+    symbol: str  # as in the equations, empty where there is none
+    unit: str  # empty for numbers without a unit and for words
+    meaning: str  # what it is
 
 
 @cache
 def quantities() -> dict[str, Quantity]:
-    """Return all quantities by name.
-
-    Returns
-    -------
-    dict
-        Quantity by name, in the order of the table.
-    """
+    """Return all quantities by name."""
     with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as file:
         return {row["name"]: Quantity(**row) for row in csv.DictReader(file)}

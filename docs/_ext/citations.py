@@ -8,9 +8,7 @@ from typing import NamedTuple
 
 _TAG = re.compile(r"\\tag\{(.*?)\}")
 _CELL = re.compile(r"\$ \((\d+)\) \|")
-CITATION = re.compile(
-    r"\b([\w-]+)\.md((?:(?:,? | and | to | or | times |, with |, for m = 1 )\(\w+\))+)"
-)
+CITATION = re.compile(r"\b([\w-]+)\.md((?:(?:,? | and | to | or | times |, with |, for m = 1 )\(\w+\))+)")
 _PART = re.compile(r"(to )?\((\w+)\)")
 
 
@@ -31,9 +29,7 @@ def numbers(text: str) -> list[str]:
 def equations(docs: Path) -> list[Equation]:
     """All numbered equations of the pages of a folder."""
     pages = sorted(docs.glob("*.md"))
-    return [
-        Equation(page.stem, number) for page in pages for number in numbers(page.read_text("utf-8"))
-    ]
+    return [Equation(page.stem, number) for page in pages for number in numbers(page.read_text("utf-8"))]
 
 
 def cited(text: str) -> list[Equation]:

@@ -70,9 +70,7 @@ def _replace(text: nodes.Text, page: str, own: set[str]) -> None:
     }
     at, new = 0, []
     place = parent.index(text)
-    is_cell = isinstance(parent.parent, nodes.entry) and isinstance(
-        parent[max(place - 1, 0)], nodes.math
-    )
+    is_cell = isinstance(parent.parent, nodes.entry) and isinstance(parent[max(place - 1, 0)], nodes.math)
     for match in _NUMBER.finditer(whole):
         if match[1] not in own and match.start() not in elsewhere:
             continue
@@ -116,9 +114,7 @@ def _cite(app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: li
     """Turn citations in a docstring into references."""
 
     def links(match: re.Match[str]) -> str:
-        return _NUMBER.sub(
-            lambda n: f":ref:`{n[0]} <{label(Equation(match[1], n[1]))}>`", f"{match[0]}"
-        )
+        return _NUMBER.sub(lambda n: f":ref:`{n[0]} <{label(Equation(match[1], n[1]))}>`", f"{match[0]}")
 
     lines[:] = [CITATION.sub(links, line) for line in lines]
 

@@ -72,10 +72,7 @@ def _python(text: str) -> str:
     import matplotlib as mpl  # takes a moment, and only the gallery draws
 
     printed = io.StringIO()
-    same = (
-        mpl.rc_context({"svg.hashsalt": "wearsim"}),
-        patch.dict(os.environ, SOURCE_DATE_EPOCH="0"),
-    )
+    same = (mpl.rc_context({"svg.hashsalt": "wearsim"}), patch.dict(os.environ, SOURCE_DATE_EPOCH="0"))
     try:
         with contextlib.redirect_stdout(printed), same[0], same[1]:
             exec(compile(text, "example", "exec"), {})  # noqa: S102
@@ -124,9 +121,7 @@ def _folder(directive: Directive) -> _Folder:
 
 def _rest(answer: str) -> nodes.raw:
     """The whole of an answer, folded."""
-    whole = (
-        f"<details><summary>the whole answer</summary><pre>{html.escape(answer)}</pre></details>"
-    )
+    whole = f"<details><summary>the whole answer</summary><pre>{html.escape(answer)}</pre></details>"
     return nodes.raw("", whole, format="html")
 
 

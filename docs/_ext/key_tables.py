@@ -11,12 +11,7 @@ from wearsim.input.schema import CaseTables
 from wearsim.quantities import quantities
 
 _HEAD = ("key", "meaning", "unit", "default", "allowed")
-_BOUNDS = {
-    "exclusiveMinimum": "> {}",
-    "minimum": "from {}",
-    "exclusiveMaximum": "< {}",
-    "maximum": "to {}",
-}
+_BOUNDS = {"exclusiveMinimum": "> {}", "minimum": "from {}", "exclusiveMaximum": "< {}", "maximum": "to {}"}
 
 
 def _allowed(entry: dict[str, Any]) -> str:
@@ -45,9 +40,7 @@ def _rows(schema: dict[str, Any], place: str, table: dict[str, Any]) -> list[tup
         required = "required" if name in table.get("required", ()) else ""
         default = str(entry.get("default", required))
         meaning = entry.get("description", "")
-        rows.append(
-            (f"{place}{name}", meaning, known.unit if known else "", default, _allowed(entry))
-        )
+        rows.append((f"{place}{name}", meaning, known.unit if known else "", default, _allowed(entry)))
     return rows
 
 
@@ -69,9 +62,7 @@ def _table(rows: list[tuple[str, ...]]) -> nodes.table:
             row = nodes.row()
             for column, text in enumerate(line):
                 paragraph = nodes.paragraph()
-                paragraph += (
-                    nodes.literal(text=text) if part is body and not column else nodes.Text(text)
-                )
+                paragraph += nodes.literal(text=text) if part is body and not column else nodes.Text(text)
                 row += nodes.entry("", paragraph)
             part += row
     group += [head, body]

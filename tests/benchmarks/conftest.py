@@ -21,9 +21,8 @@ DEPTH = 0.2
 FLAGS = {
     "plain": ["-O3", "-march=native"],
     "fast-math": ["-O3", "-march=native", "-ffast-math"],
-    "fissioned": ["-O3", "-march=native", "-fno-math-errno", "-ffinite-math-only",
-                  "-fno-signed-zeros"],
-}  # fmt: skip
+    "fissioned": ["-O3", "-march=native", "-fno-math-errno", "-ffinite-math-only", "-fno-signed-zeros"],
+}
 
 
 @pytest.fixture
@@ -78,8 +77,7 @@ def c_function(tmp_path_factory):
         library = folder / f"{source}-{kind}.so"
         compiler = shlex.split(os.environ.get("CC", "gcc"))
         subprocess.run(
-            [*compiler, *FLAGS[kind], "-shared", "-fPIC", str(file), "-o", str(library), "-lm"],
-            check=True,
+            [*compiler, *FLAGS[kind], "-shared", "-fPIC", str(file), "-o", str(library), "-lm"], check=True
         )
         function = getattr(ctypes.CDLL(str(library)), name)
         function.argtypes = [TYPES[letter] for letter in arguments]

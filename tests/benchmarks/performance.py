@@ -15,8 +15,7 @@ WAYS = {
     "kernel": "numba kernel, strict arithmetic",
     "c plain": "C, one loop over the points, -O3 -march=native",
     "c fast-math": "the same with -ffast-math",
-    "c fissioned": "C in split loops, -O3 -march=native -fno-math-errno -ffinite-math-only "
-    "-fno-signed-zeros",
+    "c fissioned": "C in split loops, -O3 -march=native -fno-math-errno -ffinite-math-only -fno-signed-zeros",
     "numpy": "NumPy, whole arrays",
 }
 PROCESSES = {
@@ -133,9 +132,7 @@ def wrap_lines(results):
     yield "| elongation of the chain | warm, us | cold, us |"
     yield "|---|---|---|"
     for elongation in ("0.0", "0.01", "0.03"):
-        warm, cold = (
-            1e6 * median(results[f"test_wrap[{elongation}-{start}]"]) for start in ("warm", "cold")
-        )
+        warm, cold = (1e6 * median(results[f"test_wrap[{elongation}-{start}]"]) for start in ("warm", "cold"))
         yield f"| {100 * float(elongation):g} % | {warm:.1f} | {cold:.1f} |"
     yield ""
     info = results["test_wrap_reaches_its_goal"]["extra_info"]

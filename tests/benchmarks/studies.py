@@ -27,9 +27,18 @@ CLUSTER_COUNT = 10_000
 def sampled(count: int, *options: str) -> tuple[float, float]:
     """Return seconds and MiB (of all processes of the command) of a study."""
     command = [
-        WEARSIM, "uncertainty", str(CASE), "--samples", str(count), "--method", "lhs", "-q",
-        "--set", SCATTER, *options,
-    ]  # fmt: skip
+        WEARSIM,
+        "uncertainty",
+        str(CASE),
+        "--samples",
+        str(count),
+        "--method",
+        "lhs",
+        "-q",
+        "--set",
+        SCATTER,
+        *options,
+    ]
     start = time.perf_counter()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -67,13 +76,19 @@ def with_workers(count: int) -> float:
 def main() -> None:
     sampled(1000)
     lines = [
-        "# Studies", "", "Made by `python tests/benchmarks/studies.py`.", "",
+        "# Studies",
+        "",
+        "Made by `python tests/benchmarks/studies.py`.",
+        "",
         f"- date: {datetime.date.today()}",
-        f"- machine: {platform.machine()}, {os.cpu_count()} cores, {platform.system()}", "",
+        f"- machine: {platform.machine()}, {os.cpu_count()} cores, {platform.system()}",
+        "",
         f"Sampled lives of cases/{CASE.name}, whose wear coefficient and tension scatter, so that every",
-        "life is a run of its own; the whole command, in threads.", "",
-        "| lives | s | ms a life | peak memory, MiB |", "|---|---|---|---|",
-    ]  # fmt: skip
+        "life is a run of its own; the whole command, in threads.",
+        "",
+        "| lives | s | ms a life | peak memory, MiB |",
+        "|---|---|---|---|",
+    ]
     for count in COUNTS:
         seconds, memory = sampled(count)
         lines.append(f"| {count} | {seconds:.1f} | {1000 * seconds / count:.3f} | {memory:.0f} |")

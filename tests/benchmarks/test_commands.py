@@ -62,12 +62,7 @@ def imports():
 
 
 def run(*arguments, **variables):
-    subprocess.run(
-        [COMMAND, *arguments],
-        check=True,
-        capture_output=True,
-        env={**os.environ, **variables},
-    )
+    subprocess.run([COMMAND, *arguments], check=True, capture_output=True, env={**os.environ, **variables})
 
 
 def test_help(benchmark, imports):

@@ -65,10 +65,25 @@ class Solve:
         contact = self.contact
         self.state[:], self.clock[:] = self.start, 0.0
         return wear_in_steps(
-            rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
-            contact.modulus, self.law, self.diffusion, self.ends, self.limit,
-            TOLERANCE, 1e6, 2**62, self.work, self.increments, self.clock, self.times, self.path,
-        )  # fmt: skip
+            rosenbrock_step,
+            contact.kernel,
+            self.state,
+            contact.constants,
+            contact.columns,
+            contact.modulus,
+            self.law,
+            self.diffusion,
+            self.ends,
+            self.limit,
+            TOLERANCE,
+            1e6,
+            2**62,
+            self.work,
+            self.increments,
+            self.clock,
+            self.times,
+            self.path,
+        )
 
     def measured(self, benchmark):
         """Benchmark the solve; return the life in cycles times coefficient."""

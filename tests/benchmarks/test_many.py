@@ -29,9 +29,7 @@ def cases():
     """A function that yields so many cases, no two with the same wear: the contact modulus differs."""
 
     def build(nodes, tolerance, count):
-        case = wearsim.load_case(
-            STRAND, [f"sprocket.nodes={nodes}", f"run.life_tolerance={tolerance}"]
-        )
+        case = wearsim.load_case(STRAND, [f"sprocket.nodes={nodes}", f"run.life_tolerance={tolerance}"])
         for number in range(count):
             yield replace(case, modulus=case.modulus * (1.0 + 1e-4 * number))
 
@@ -53,16 +51,12 @@ def test_threads(benchmark, cases, nodes, tolerance):
     given = list(cases(nodes, tolerance, LIVES))
     rounds, found = 5 if nodes == 200 else 2, {}
     for threads in (1, 2):
-        found[threads] = best_of(
-            rounds, lambda n=threads: deque(wearsim.simulate_many(given, n), 0)
-        )
+        found[threads] = best_of(rounds, lambda n=threads: deque(wearsim.simulate_many(given, n), 0))
     few = given[::100]
     tight = [replace(case, run=replace(case.run, life_tolerance=1e-6)) for case in few]
     errors = [
         abs(loose.life.cycles / exact.life.cycles - 1.0)
-        for loose, exact in zip(
-            wearsim.simulate_many(few), wearsim.simulate_many(tight), strict=True
-        )
+        for loose, exact in zip(wearsim.simulate_many(few), wearsim.simulate_many(tight), strict=True)
     ]
     benchmark.extra_info.update(seconds=found, error=max(errors))
     benchmark(lambda: deque(wearsim.simulate_many(given[:100]), 0))

@@ -78,9 +78,20 @@ def ways(c_function):
         def kernel():
             x, y, depth = contact.profile.x.copy(), contact.profile.y.copy(), np.zeros(nodes)
             run_offset_cycles(
-                x, y, depth, contact.constants, contact.columns, np.zeros((OFFSET_ROWS, nodes)),
-                contact.modulus, numbers, diffusion, 1.0, 1.0, CYCLES, np.zeros(1),
-            )  # fmt: skip
+                x,
+                y,
+                depth,
+                contact.constants,
+                contact.columns,
+                np.zeros((OFFSET_ROWS, nodes)),
+                contact.modulus,
+                numbers,
+                diffusion,
+                1.0,
+                1.0,
+                CYCLES,
+                np.zeros(1),
+            )
             return depth
 
         def c(kind):

@@ -28,8 +28,6 @@ def test_report_of_a_run(benchmark, run, tmp_path, options):
     out = tmp_path / "out"
     arguments = [COMMAND, "report", str(run), "--out", str(out), "--force", *options]
     benchmark.pedantic(
-        lambda: subprocess.run(arguments, check=True, capture_output=True),
-        rounds=2,
-        warmup_rounds=1,
+        lambda: subprocess.run(arguments, check=True, capture_output=True), rounds=2, warmup_rounds=1
     )
     benchmark.extra_info["page_kB"] = (out / "index.html").stat().st_size // 1000

@@ -90,27 +90,56 @@ def runs(reference_contact, start, c_run_cycles):
         def kernel():
             state = start(contact)
             run_cycles(
-                contact.kernel, state.x, state.y, state.depth, contact.constants, contact.columns,
-                state.work, contact.modulus, numbers, diffusion, 1.0, 1.0, CYCLES, state.done,
-            )  # fmt: skip
+                contact.kernel,
+                state.x,
+                state.y,
+                state.depth,
+                contact.constants,
+                contact.columns,
+                state.work,
+                contact.modulus,
+                numbers,
+                diffusion,
+                1.0,
+                1.0,
+                CYCLES,
+                state.done,
+            )
             state.pressure, state.speed = state.work[8], state.work[6]
             return state
 
         def c(function):
             state = start(contact)
             function(
-                state.x, state.y, state.depth, nodes, contact.constants, state.work,
-                contact.modulus, numbers[0], diffusion, 1.0, CYCLES, state.done,
-            )  # fmt: skip
+                state.x,
+                state.y,
+                state.depth,
+                nodes,
+                contact.constants,
+                state.work,
+                contact.modulus,
+                numbers[0],
+                diffusion,
+                1.0,
+                CYCLES,
+                state.done,
+            )
             state.pressure, state.speed = state.work[3], state.work[4]
             return state
 
         def arrays():
             state = start(contact)
             state.pressure, state.speed = numpy_cycles(
-                state.x, state.y, state.depth, contact.constants, contact.modulus, numbers[0],
-                diffusion, 1.0, CYCLES,
-            )  # fmt: skip
+                state.x,
+                state.y,
+                state.depth,
+                contact.constants,
+                contact.modulus,
+                numbers[0],
+                diffusion,
+                1.0,
+                CYCLES,
+            )
             return state
 
         def way(name):

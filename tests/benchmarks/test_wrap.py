@@ -49,9 +49,18 @@ class Solver:
     def __call__(self):
         self.position[:] = self.start
         return kernels.solve_wrap(
-            self.locus, self.locus, 0, ROLLERS, self.constants, *self.angles, TOLERANCE,
-            self.position, self.work, self.tension, self.force,
-        )  # fmt: skip
+            self.locus,
+            self.locus,
+            0,
+            ROLLERS,
+            self.constants,
+            *self.angles,
+            TOLERANCE,
+            self.position,
+            self.work,
+            self.tension,
+            self.force,
+        )
 
 
 def solver(elongation, start):

@@ -8,9 +8,14 @@ import pytest
 import wearsim
 
 ARGUMENTS = [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-]  # fmt: skip
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 
 HOSTILE = "<script>document.title = 'taken'</script> & <b>bold</b> \"x\""
 
@@ -32,13 +37,11 @@ WRAP = {
 GEARS = {
     "format_version": 1,
     "title": "Gears",
-    "gear": {
-        "pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61,
-    },
+    "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61},
     "load": {"torque_N_m": 100, "speed_rpm": 1450},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
     "stop": {"critical_depth_mm": 0.02},
-}  # fmt: skip
+}
 
 if find_spec("pytest_playwright") is None:
 

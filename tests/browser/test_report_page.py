@@ -95,17 +95,13 @@ def test_the_legend_hides_and_shows_by_mouse_and_keyboard(watched, reports, key)
     assert toggle.get_attribute("aria-label") == "show new chain"
 
 
-@pytest.mark.parametrize(
-    ("kind", "name"), [("strand", "tooth"), ("wrap", "tooth"), ("gears", "wheel")]
-)
+@pytest.mark.parametrize(("kind", "name"), [("strand", "tooth"), ("wrap", "tooth"), ("gears", "wheel")])
 def test_the_slider_moves_the_worn_flank(watched, reports, results, kind, name):
     """The worn flank of the run at factor 1, twice as far from the new one at factor 2."""
     shown(watched, reports / kind)
     worn = snapshot(results[KINDS.index(kind)], -1)
     axis = "wheel_x_mm" if name == "wheel" else "x_mm"
-    first = watched.evaluate(
-        "id => document.getElementById(id).data.findIndex(t => t.name === 'new')", name
-    )
+    first = watched.evaluate("id => document.getElementById(id).data.findIndex(t => t.name === 'new')", name)
     new = watched.evaluate(TRACE, [name, first])[0]
     found = {}
     for factor in (1, 2):

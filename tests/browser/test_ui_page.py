@@ -89,9 +89,12 @@ class Server:
         quiet = [] if browser else ["--no-browser"]
         self.process = subprocess.Popen(
             [*COMMAND, "ui", *quiet, *map(str, arguments)],
-            cwd=folder, env={**os.environ, "BROWSER": str(browser)}, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, text=True,
-        )  # fmt: skip
+            cwd=folder,
+            env={**os.environ, "BROWSER": str(browser)},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.url = self.process.stdout.readline().strip()
         assert self.url, self.process.stderr.read()
         self.port = int(self.url.rstrip("/").rpartition(":")[2])
@@ -276,10 +279,7 @@ def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
         else:
             assert server.path.read_text() == other
         if answer.startswith("Load"):
-            eventually(
-                lambda: field(page, "title").input_value(),
-                lambda found: found == "Of another editor",
-            )
+            eventually(lambda: field(page, "title").input_value(), lambda found: found == "Of another editor")
             other = STRAND.replace("Test drive", "Of a third one")
 
 
@@ -329,9 +329,7 @@ def test_exported_wheel_is_that_of_the_command(watched, serve, tmp_path, form, s
 
 
 def test_a_hostile_title_stays_text(watched, serve):
-    text = STRAND.replace(
-        '"Test drive"', json.dumps(HOSTILE + "</script><img src=x onerror=alert(1)>")
-    )
+    text = STRAND.replace('"Test drive"', json.dumps(HOSTILE + "</script><img src=x onerror=alert(1)>"))
     server = serve(text, name="a'b<i>.toml")
     page = opened(watched, server)
     title = page.locator(".ws-title")
@@ -360,10 +358,7 @@ def test_a_page_fits_and_asks_nobody_else(watched, serve, text, width, scheme):
     asked = {re.match(r"\w+://[^/]*|\w+:", url)[0] for url in watched.asked}
     assert asked <= {server.url.rstrip("/"), "data:", "blob:"}
     assert watched.said == []
-    eventually(
-        lambda: watched.evaluate("document.documentElement.scrollWidth"),
-        lambda found: found <= width,
-    )
+    eventually(lambda: watched.evaluate("document.documentElement.scrollWidth"), lambda found: found <= width)
     ground = watched.evaluate("getComputedStyle(document.body).backgroundColor")
     assert ground == {"light": "rgb(255, 255, 255)", "dark": "rgb(20, 23, 26)"}[scheme]
     page = {"light": "rgb(255, 255, 255)", "dark": "rgb(20, 23, 26)"}[scheme]
@@ -390,10 +385,7 @@ def test_fields_are_named_and_reached_by_the_keyboard(watched, serve):
 
 def test_a_table_of_the_duty_is_added_filled_and_removed(watched, serve):
     text = STRAND.replace("power_kW = 3  # at the shaft\nspeed_rpm = 100\n", "")
-    text = (
-        text.replace("[load]\n", "")
-        + "[[duty]]\nspeed_rpm = 100\npower_kW = 3\nshare_of_time = 1\n"
-    )
+    text = text.replace("[load]\n", "") + "[[duty]]\nspeed_rpm = 100\npower_kW = 3\nshare_of_time = 1\n"
     server = serve(text)
     page = opened(watched, server)
     page.get_by_text("[[duty]]", exact=True).click()
@@ -517,9 +509,13 @@ def asked(server, path="/", method="GET", **headers):
 def handshake(server, **headers):
     """Status line of the answer to a websocket of the page."""
     given = {
-        "Host": f"127.0.0.1:{server.port}", "Upgrade": "websocket", "Connection": "Upgrade",
-        "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==", "Sec-WebSocket-Version": "13", **headers,
-    }  # fmt: skip
+        "Host": f"127.0.0.1:{server.port}",
+        "Upgrade": "websocket",
+        "Connection": "Upgrade",
+        "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+        "Sec-WebSocket-Version": "13",
+        **headers,
+    }
     lines = [f"GET {SOCKET}&transport=websocket HTTP/1.1", *(f"{k}: {v}" for k, v in given.items())]
     with socket.create_connection(("127.0.0.1", server.port), timeout=20) as connection:
         connection.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
@@ -539,10 +535,14 @@ def test_other_sites_are_refused_on_http_polling_and_websocket(serve):
     assert asked(server, polling, Origin=f"http://{own}") == 200
     assert "101" in handshake(server, Origin=f"http://{own}")
     for headers in (
-        {"Origin": f"http://{evil}"}, {"Origin": "null"}, {"Host": evil},
-        {"Host": f"{evil}:{server.port}"}, {"Origin": f"http://{own}.{evil}"},
-        {"Origin": f"https://{own}"}, {"Origin": "http://127.0.0.1:1"},
-    ):  # fmt: skip
+        {"Origin": f"http://{evil}"},
+        {"Origin": "null"},
+        {"Host": evil},
+        {"Host": f"{evil}:{server.port}"},
+        {"Origin": f"http://{own}.{evil}"},
+        {"Origin": f"https://{own}"},
+        {"Origin": "http://127.0.0.1:1"},
+    ):
         assert asked(server, **headers) == 403, headers
         assert asked(server, polling, **headers) == 403, headers
         assert asked(server, polling, "POST", **headers) == 403, headers
@@ -615,12 +615,9 @@ WATCH = """() => {
 
 @pytest.mark.parametrize(
     ("text", "edits", "first"),
-    [
-        (STRAND.replace("nodes = 51\n", ""), 9, "drawing"),
-        (WRAP.replace("nodes = 301\n", ""), 3, "estimate"),
-    ],
+    [(STRAND.replace("nodes = 51\n", ""), 9, "drawing"), (WRAP.replace("nodes = 301\n", ""), 3, "estimate")],
     ids=["strand", "wrap"],
-)  # fmt: skip
+)
 def test_seconds_from_an_edit_to_its_answer(watched, serve, text, edits, first):
     """Printed, and bounded loosely: machines differ."""
     page = opened(watched, serve(text))
@@ -633,8 +630,5 @@ def test_seconds_from_an_edit_to_its_answer(watched, serve, text, edits, first):
         found.append(page.evaluate("window.after"))
     for state in ("computing", first, "drawing", "current"):
         times = sorted(after[state] for after in found)
-        print(
-            f"\n{state}: {times[len(times) // 2]:.0f} ms ({times[0]:.0f} to {times[-1]:.0f})",
-            end="",
-        )
+        print(f"\n{state}: {times[len(times) // 2]:.0f} ms ({times[0]:.0f} to {times[-1]:.0f})", end="")
     assert min(after[first] for after in found) < 3000.0

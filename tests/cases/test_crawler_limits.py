@@ -50,9 +50,7 @@ def test_a_roller_pushes_at_every_point_or_the_run_says_where_it_does_not():
     assert np.all(np.isfinite(run.flank_columns["pressure_MPa"]))
 
 
-@pytest.mark.parametrize(
-    ("teeth", "every", "turns"), [(27, 2, 2), (28, 2, 1), (30, 4, 2), (27, 3, 1)]
-)
+@pytest.mark.parametrize(("teeth", "every", "turns"), [(27, 2, 2), (28, 2, 1), (30, 4, 2), (27, 3, 1)])
 def test_turns_between_two_loadings_of_a_gap(teeth: int, every: int, turns: int) -> None:
     """Counted by rolling: roller m meets gap (m every) mod teeth, teeth/every rollers a turn."""
     met = [m for m in range(1, teeth * every + 1) if m * every % teeth == 0]

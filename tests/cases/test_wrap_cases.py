@@ -19,9 +19,7 @@ from wearsim.simulation.tooth_loads import tooth_loads
 
 FOLDER = Path(__file__).parents[2] / "cases"
 PATHS = {
-    path.stem: path
-    for path in sorted(FOLDER.glob("*.toml"))
-    if 'kind = "wrap"' in path.read_text("utf-8")
+    path.stem: path for path in sorted(FOLDER.glob("*.toml")) if 'kind = "wrap"' in path.read_text("utf-8")
 }
 QUICK = ("sprocket.nodes=151", "mechanism.phases=2", "run.life_tolerance=0.1")
 EVERY_CASE = pytest.mark.parametrize("name", PATHS)

@@ -98,9 +98,7 @@ def test_points_are_those_of_the_run(run, kind):
     """Of a snapshot its own numbers, and halfway between two of them their mean."""
     result = WearResult.load(run(kind))
     flanks = worn_flanks(result)
-    assert [flank.name for flank in flanks] == (
-        ["pinion", "wheel"] if kind == "gears" else ["tooth"]
-    )
+    assert [flank.name for flank in flanks] == (["pinion", "wheel"] if kind == "gears" else ["tooth"])
     table, cycles = result.flank, flanks[0].cycles
     if kind == "wrap":
         table = table[table["gap_kind"] == table["gap_kind"][table["depth_mm"].idxmax()]]
@@ -183,9 +181,7 @@ def test_case_is_worn_first_and_stdout_takes_the_file(cli, drive, monkeypatch):
     cli("animate", path, "--out", "-", *options)
     with Image.open(stream.buffer) as file:
         assert file.n_frames == 2
-        assert (
-            "$x_{ &lt;b&gt; Зуб, with load.speed_rpm = 50: the flank" in file.info["xmp"].decode()
-        )
+        assert "$x_{ &lt;b&gt; Зуб, with load.speed_rpm = 50: the flank" in file.info["xmp"].decode()
 
 
 @pytest.mark.parametrize(

@@ -70,9 +70,7 @@ def test_json_has_numbers_that_go_together(cli, case, table):
     assert value["low"] < value["value"] < value["high"]
     assert part["reading_hours"] == pytest.approx(0.8 * model.hours)
     assert part["remaining_hours"] == pytest.approx(0.2 * model.hours, rel=1e-3)
-    assert part["remaining_hours_low"] == pytest.approx(
-        part["life_hours_low"] - part["reading_hours"]
-    )
+    assert part["remaining_hours_low"] == pytest.approx(part["life_hours_low"] - part["reading_hours"])
     assert part["life_hours"] * value["value"] == pytest.approx(model.hours * 5e-11, rel=1e-6)
 
 
@@ -118,9 +116,14 @@ def scanned(folder, model, part, turn, shift):
 
 @pytest.mark.parametrize(
     ("register", "turn", "shift", "right"),
-    [("none", 0.0, 0.0, True), ("none", 1e-3, 0.0, False), ("turn", 1e-3, 0.0, True),
-     ("turn", 1e-3, 0.05, False), ("free", 1e-3, 0.05, True)],
-)  # fmt: skip
+    [
+        ("none", 0.0, 0.0, True),
+        ("none", 1e-3, 0.0, False),
+        ("turn", 1e-3, 0.0, True),
+        ("turn", 1e-3, 0.05, False),
+        ("free", 1e-3, 0.05, True),
+    ],
+)
 def test_profiles_are_registered_as_asked(cli, case, table, tmp_path, register, turn, shift, right):
     path, model = case
     row = scanned(tmp_path, model, 0.8, turn, shift)
@@ -134,8 +137,7 @@ def test_cut_off_is_the_spacing_of_the_smoothed_values(cli, case, table, tmp_pat
     path, model = case
     readings = table(scanned(tmp_path, model, 0.8, 0.0, 0.0), head=f"{HEAD},points_file")
     counts = [
-        answer(cli, path, readings, "--cutoff-mm", cutoff)["degrees_of_freedom"]
-        for cutoff in ("1", "2")
+        answer(cli, path, readings, "--cutoff-mm", cutoff)["degrees_of_freedom"] for cutoff in ("1", "2")
     ]
     # A turn and the coefficient are taken from the values.
     assert (counts[0] + 2) / (counts[1] + 2) == pytest.approx(2.0, abs=0.3)
@@ -151,9 +153,15 @@ def test_folder_holds_tables_pictures_and_the_calibrated_case(cli, case, table, 
     assert done.code == 0
     assert f"written to {out}" in done.err
     assert {entry.name for entry in out.iterdir()} == {
-        "fit.csv", "fitted_values.csv", "summary.md", "calibrated.toml", "fit.png", "fit.svg",
-        "residuals.png", "residuals.svg",
-    }  # fmt: skip
+        "fit.csv",
+        "fitted_values.csv",
+        "summary.md",
+        "calibrated.toml",
+        "fit.png",
+        "fit.svg",
+        "residuals.png",
+        "residuals.svg",
+    }
     rows = pd.read_csv(out / "fit.csv")
     expected = (rows["predicted"] - rows["value"]) / rows["error"]
     assert rows["standard_residual"].to_numpy() == pytest.approx(expected.to_numpy(), abs=1e-9)
@@ -173,9 +181,7 @@ def test_folder_holds_tables_pictures_and_the_calibrated_case(cli, case, table, 
 
 def test_shipped_readings_give_what_they_were_made_with(cli):
     """Synthetic: 1.3 times the coefficient, 2087 h."""
-    found = answer(
-        cli, SHIPPED / "16b-20t-oiled.toml", SHIPPED / "studies" / "16b-20t-readings.csv"
-    )
+    found = answer(cli, SHIPPED / "16b-20t-oiled.toml", SHIPPED / "studies" / "16b-20t-readings.csv")
     (value,), (part,) = found["values"], found["parts"]
     assert value["low"] < 6.5e-11 < value["high"]
     assert part["life_hours_low"] < 2087.0 < part["life_hours_high"]
@@ -188,10 +194,7 @@ BAD = [
     ("1,max_depth_mm,nan,0.001,", ":2: value: must be a number of at most 1e+06 (got 'nan')"),
     ("1,max_depth_mm,0.0_5,0.001,", ":2: value: must be a number of at most 1e+06 (got '0.0_5')"),
     ("1e300,max_depth_mm,0.01,0.001,", ":2: time_hours: must be a number above 0, from 1e-06 to"),
-    (
-        "400,max_depth_mm,0.01,1e-320,",
-        ":2: error: must be a number above 0, the standard deviation",
-    ),
+    ("400,max_depth_mm,0.01,1e-320,", ":2: error: must be a number above 0, the standard deviation"),
     ("400,max_depth_mm,-0.05,0.004,", ":2: value must not be more than 3 errors below 0, is -0.05"),
     ("400,max_depth_mm,0.4,0.004,", ":2: value must lie within the limit of the case, a depth of"),
     ("400,max_depth_mm,0.0,0.004,", "must show wear, but go with none: the life is at least"),
@@ -280,13 +283,12 @@ def test_gap_kind_and_running_in_are_checked(cli, case, table):
 
 def test_readings_that_scatter_more_than_their_errors_widen_the_intervals(cli, case, table):
     path, model = case
-    off = [depth(model, part, 9.0, factor)
-           for part, factor in ((0.3, 0.7), (0.5, 1.2), (0.7, 0.85), (0.9, 1.1))]  # fmt: skip
+    off = [
+        depth(model, part, 9.0, factor) for part, factor in ((0.3, 0.7), (0.5, 1.2), (0.7, 0.85), (0.9, 1.1))
+    ]
     found = answer(cli, path, table(*off))
     assert found["error_scale"] > 2.0
-    assert any(
-        "times as far from the fit as their errors say" in text for text in found["warnings"]
-    )
+    assert any("times as far from the fit as their errors say" in text for text in found["warnings"])
 
 
 def test_without_pandera_it_says_what_to_install(cli, case, table, monkeypatch):
@@ -313,18 +315,14 @@ def test_movement_of_profiles_is_told(cli, case, table, tmp_path):
     (moved,) = answer(cli, path, readings)["moves"]
     assert moved["turn_rad"] == pytest.approx(-2e-3, abs=1e-4)
     assert (moved["reading_row"], moved["shift_x_mm"], moved["shift_y_mm"]) == (2, 0.0, 0.0)
-    assert "profile of line 2 by -0.002 rad" in " ".join(
-        cli("calibrate", path, readings).out.split()
-    )
+    assert "profile of line 2 by -0.002 rad" in " ".join(cli("calibrate", path, readings).out.split())
 
 
 def test_profiles_need_a_flank(cli, tmp_path):
     (tmp_path / "readings.csv").write_text(
         "time_hours,quantity,error,points_file\n100,profile,0.01,scan.csv\n"
     )
-    np.savetxt(
-        tmp_path / "scan.csv", np.ones((12, 2)), delimiter=",", header="x_mm,y_mm", comments=""
-    )
+    np.savetxt(tmp_path / "scan.csv", np.ones((12, 2)), delimiter=",", header="x_mm,y_mm", comments="")
     case = SHIPPED / "hertz-arc-prescribed.toml"
     done = cli("calibrate", case, tmp_path / "readings.csv")
     assert done.code == 2

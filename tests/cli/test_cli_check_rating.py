@@ -163,8 +163,7 @@ def test_factor_raises_what_it_is_for(checked, key, changed):
 
 
 @pytest.mark.parametrize(
-    ("key", "value"),
-    [("service_factor", "0.9"), ("service_factor", "11"), ("exploitation_factor", "0.4")],
+    ("key", "value"), [("service_factor", "0.9"), ("service_factor", "11"), ("exploitation_factor", "0.4")]
 )
 def test_factor_out_of_range(cli, key, value):
     done = cli("check", CASES / "a40-19t-rating.toml", "--set", f"drive.{key}={value}")
@@ -205,9 +204,7 @@ def test_no_rule_knows_the_track_but_that_of_elongation(checked):
     assert "small sprocket 13.5 teeth at 17.5 rpm" in content["notes"][1]
 
 
-@pytest.mark.parametrize(
-    ("name", "percent"), [("a40-19t-rating", "1.36"), ("a140-17t-starved", "1.70")]
-)
+@pytest.mark.parametrize(("name", "percent"), [("a40-19t-rating", "1.36"), ("a140-17t-starved", "1.70")])
 def test_polygon_effect(checked, name, percent):
     """1 - cos(180/z), as tables print it."""
     assert checked(name)["notes"][2].startswith(

@@ -12,9 +12,18 @@ from wearsim.citation import facts
 
 ROOT = Path(__file__).parents[2]
 REFERENCE_KEYS = {
-    "type", "title", "authors", "publisher", "journal", "issue", "year", "start", "end", "doi",
+    "type",
+    "title",
+    "authors",
+    "publisher",
+    "journal",
+    "issue",
+    "year",
+    "start",
+    "end",
+    "doi",
     "notes",
-}  # fmt: skip
+}
 TYPES = {"article", "book", "standard"}
 """Those of the schema of Citation File Format 1.2.0 that are used here."""
 

@@ -20,9 +20,17 @@ from wearsim.quantities import quantities
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "cases" / "sizing" / "convex-concave-17-34.toml"
 FILES = [
-    "convex_concave.png", "convex_concave.svg", "flanks.csv", "pinion.dxf", "pinion.stl", "rack.csv",
-    "result.json", "rollers.csv", "wheel.dxf", "wheel.stl",
-]  # fmt: skip
+    "convex_concave.png",
+    "convex_concave.svg",
+    "flanks.csv",
+    "pinion.dxf",
+    "pinion.stl",
+    "rack.csv",
+    "result.json",
+    "rollers.csv",
+    "wheel.dxf",
+    "wheel.stl",
+]
 
 
 def sheet(**changed):
@@ -92,9 +100,11 @@ def test_files(cli, tmp_path):
     assert np.hypot(flanks.x_mm, flanks.y_mm).to_numpy() == pytest.approx(flanks.radius_mm)
     # Zone a is the pinion's head and the wheel's foot.
     assert {tuple(row) for row in flanks[["gear", "part", "zone"]].to_numpy()} == {
-        ("pinion", "head", "a"), ("wheel", "foot", "a"),
-        ("pinion", "foot", "b"), ("wheel", "head", "b"),
-    }  # fmt: skip
+        ("pinion", "head", "a"),
+        ("wheel", "foot", "a"),
+        ("pinion", "foot", "b"),
+        ("wheel", "head", "b"),
+    }
     for _, half in flanks.groupby(["gear", "part"]):
         pole = half[np.isclose(half.pressure_angle_deg, 20.0)]
         assert pole.reduced_radius_mm.to_numpy() == pytest.approx([8.7215136548])
@@ -241,9 +251,10 @@ def test_warnings(cli, settings, message):
 def test_involute_out_of_contact_is_no_number():
     """Involute teeth of this height are undercut early: their path is the shorter one."""
     content = sheet(
-        convex_concave__pinion_teeth=7, convex_concave__pole_angle_deg=14.0,
+        convex_concave__pinion_teeth=7,
+        convex_concave__pole_angle_deg=14.0,
         convex_concave__head_arc_radius_mm=7.0,
-    ).content  # fmt: skip
+    ).content
     (end,) = [c for c in content["contacts"] if (c["zone"], c["place"]) == ("b", "end")]
     assert end["path_coordinate_mm"] < -3.5 * 4.5 * math.sin(math.radians(14.0))
     assert end["involute_reduced_radius_mm"] is None

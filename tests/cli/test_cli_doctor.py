@@ -71,9 +71,7 @@ def test_library_missing_or_too_old(cli, monkeypatch, version, found):
     assert "failed  tomlkit" in text and text.endswith("to be mended: tomlkit\n")
 
 
-@pytest.mark.parametrize(
-    ("version", "state"), [("99.0.1", "note"), ("2.5.99", "ok"), ("2.0.0rc1", "ok")]
-)
+@pytest.mark.parametrize(("version", "state"), [("99.0.1", "note"), ("2.5.99", "ok"), ("2.0.0rc1", "ok")])
 def test_newer_library_is_noted(cli, monkeypatch, version, state):
     installed(monkeypatch, numpy=version)
     content, _ = findings(cli, 0)
@@ -82,8 +80,7 @@ def test_newer_library_is_noted(cli, monkeypatch, version, state):
 
 
 @pytest.mark.parametrize(
-    ("version", "state", "code"),
-    [((3, 10, 4), "failed", 1), ((3, 99, 0), "note", 0), ((3, 11, 0), "ok", 0)],
+    ("version", "state", "code"), [((3, 10, 4), "failed", 1), ((3, 99, 0), "note", 0), ((3, 11, 0), "ok", 0)]
 )
 def test_python(cli, monkeypatch, version, state, code):
     class Sys:

@@ -54,9 +54,7 @@ def test_check_says_how_the_blocks_count(cli, case):
 
 def test_every_fault_of_the_blocks_with_its_line(cli, case):
     path = case(BLOCKS.replace("6000", "-6000").replace("= 150", "= 0"))
-    lines = {
-        number: text for number, text in enumerate(path.read_text().splitlines(), start=1) if text
-    }
+    lines = {number: text for number, text in enumerate(path.read_text().splitlines(), start=1) if text}
     done = cli("check", path)
     assert done.code == 2
     for wrong, key, least in (

@@ -97,9 +97,7 @@ def test_help(cli, option):
         assert f"\n  {command} " in done.out
 
 
-@pytest.mark.parametrize(
-    "command", ["life", "check", "profile", "compare", "init", "schema", "list"]
-)
+@pytest.mark.parametrize("command", ["life", "check", "profile", "compare", "init", "schema", "list"])
 def test_every_command_has_help(cli, command):
     done = cli(command, "--help")
     assert done.code == 0

@@ -231,10 +231,7 @@ def test_gear_pair(cli, gears, tmp_path, profile):
     assert cli("export", path, "--state", "both", "--out", out).code == 0
     space = ezdxf.readfile(out).modelspace()
     found = {
-        layer: [
-            np.array(line.get_points("xyb"))
-            for line in space.query(f'LWPOLYLINE[layer=="{layer}"]')
-        ]
+        layer: [np.array(line.get_points("xyb")) for line in space.query(f'LWPOLYLINE[layer=="{layer}"]')]
         for layer in ("PINION_NEW", "WHEEL_NEW", "PINION_WORN", "WHEEL_WORN")
     }
     case = load_case(path)
@@ -245,9 +242,7 @@ def test_gear_pair(cli, gears, tmp_path, profile):
     if profile == "involute":
         assert [len(rows) for rows in found.values()] == [17, 34, 17, 34]
         assert "the case tells no root" in " ".join(texts(out))
-        thick = [
-            angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")
-        ]
+        thick = [angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")]
         radii = pole, case.drive.pair.circles.wheel_radius
         widths = [angle * radius for angle, radius in zip(thick, radii, strict=True)]
         assert sum(widths) == pytest.approx(2 * math.pi * pole / 17, rel=1e-5)
@@ -367,11 +362,7 @@ def test_gauge_in_all_formats_is_one(cli, drive, tmp_path):
     assert (root.get("width"), root.get("height")) == ("210mm", "297mm")
     note = " ".join(texts(tmp_path / "g.dxf"))
     told = ("20 teeth, chain 16B-1", "critical depth = 0.02 mm", "Print at 100 %", "50 mm")
-    way = (
-        "from the side of the wheel, along the axis",
-        "Good: it does not go in",
-        "Worn out, replace",
-    )
+    way = ("from the side of the wheel, along the axis", "Good: it does not go in", "Worn out, replace")
     for part in told + way:
         assert part in note
 

@@ -19,9 +19,13 @@ def test_text(cli):
     assert max(map(len, lines)) <= 100
     rows = [line.split() for line in lines if line.startswith(("  fixed", "  self-aligning"))]
     assert [" ".join(row[:2]) for row in rows] == [
-        "fixed new", "fixed after", "fixed run", "self-aligning new", "self-aligning after",
+        "fixed new",
+        "fixed after",
+        "fixed run",
+        "self-aligning new",
+        "self-aligning after",
         "self-aligning run",
-    ]  # fmt: skip
+    ]
     assert "load.application_factor = 1\n" in done.out
     assert "fixed pinion: only 83% of the new face carry" in done.err
     assert "what changes from mesh to mesh does not run in" in done.err
@@ -34,9 +38,13 @@ def test_json_and_files_agree(cli, tmp_path):
     found = json.loads(done.out)
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {
-        "result.json", "states.csv", "distribution.csv", "history.csv", "face_load.png",
+        "result.json",
+        "states.csv",
+        "distribution.csv",
+        "history.csv",
+        "face_load.png",
         "face_load.svg",
-    }  # fmt: skip
+    }
     with (out / "states.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["face_load_factor"]) for row in rows] == [

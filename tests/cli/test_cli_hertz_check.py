@@ -44,9 +44,7 @@ def test_text(cli):
     (torque,) = [line.split() for line in lines if line.startswith("    torque_N_m ")]
     assert torque == ["torque_N_m", "240", "250.758", "250.217", "to", "251.298"]
     (depth,) = [line.split() for line in lines if line.startswith("    depth ")]
-    assert depth == [
-        "depth", "259.84", "228", "12.3", "12.25", "12.25", "13.96", "254.205", "10.309",
-    ]  # fmt: skip
+    assert depth == ["depth", "259.84", "228", "12.3", "12.25", "12.25", "13.96", "254.205", "10.309"]
     assert "relative to the larger of both" in done.out
     assert "Finite elements here" not in done.out
     assert "warning: 464 MPa is not what the formula gives for this contact" in done.err
@@ -79,9 +77,7 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
     assert done.code == 0
     assert solved == [4, 8, 16]
     names = {path.name for path in out.iterdir()}
-    assert names == {
-        "result.json", "meshes.csv", "fem_axis.csv", "fem_pressure.csv", *TABLES, *PICTURES,
-    }  # fmt: skip
+    assert names == {"result.json", "meshes.csv", "fem_axis.csv", "fem_pressure.csv", *TABLES, *PICTURES}
     meshes = json.loads(done.out)["meshes"]
     assert [mesh["unknowns"] for mesh in meshes] == [400, 800, 1600]
     assert meshes[0]["peak_pressure_error_percent"] == pytest.approx(98.17, abs=0.01)
@@ -89,9 +85,7 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
     text = cli("hertz-check", CASE, "--fem")
     assert "    16      1600    900.000 +98.17 %" in text.out
     assert max(map(len, text.out.splitlines())) <= 100
-    again = cli(
-        "hertz-check", CASE, "--json", "--set", f"finite_elements.axis_file='{out}/fem_axis.csv'"
-    )
+    again = cli("hertz-check", CASE, "--json", "--set", f"finite_elements.axis_file='{out}/fem_axis.csv'")
     assert json.loads(again.out)["contact"]["axis_file"]["depth_von_mises_MPa"] == 450.0
 
 
@@ -124,9 +118,7 @@ def test_a_contact_of_ones_own(cli, tmp_path):
     assert "What one key alone" not in done.out
     assert done.err == ""
     found = json.loads(cli("hertz-check", path, "--json").out)
-    assert set(found) == {
-        "schema_version", "case", "title", "contact", "assumptions", "warnings",
-    }  # fmt: skip
+    assert set(found) == {"schema_version", "case", "title", "contact", "assumptions", "warnings"}
     assert found["contact"]["contact_ratio"] is None
 
 
@@ -175,10 +167,7 @@ def test_bad_input_is_2_and_named(cli, setting, named):
     [
         ("below_surface_mm\n1\n", "column 'von_mises_MPa' is missing"),
         ("below_surface_mm,von_mises_MPa\n", "needs at least one row"),
-        (
-            "below_surface_mm,von_mises_MPa\n-1,2\n",
-            "axis.csv:2: below_surface_mm must be at least 0",
-        ),
+        ("below_surface_mm,von_mises_MPa\n-1,2\n", "axis.csv:2: below_surface_mm must be at least 0"),
     ],
 )
 def test_bad_axis_file_is_2_and_named(cli, tmp_path, rows, named):
@@ -199,9 +188,7 @@ def test_teeth_that_cannot_run_are_3(cli):
 def test_schema(cli):
     done = cli("schema", "--of", "hertz-check")
     assert done.code == 0
-    assert json.loads(done.out)["$defs"]["CombinationsTable"]["properties"]["torque_N_m"][
-        "minItems"
-    ] == 1  # fmt: skip
+    assert json.loads(done.out)["$defs"]["CombinationsTable"]["properties"]["torque_N_m"]["minItems"] == 1
 
 
 def test_page_shows_what_is_printed(cli):

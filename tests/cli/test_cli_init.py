@@ -7,14 +7,7 @@ import pytest
 
 @pytest.mark.parametrize(
     ("chain", "teeth"),
-    [
-        ("16B-1", 20),
-        ("08B-1", 17),
-        ("ANSI 40", 25),
-        ("ПР-38,1-127", 18),
-        ("72B-1", 60),
-        ("05B-1", 40),
-    ],
+    [("16B-1", 20), ("08B-1", 17), ("ANSI 40", 25), ("ПР-38,1-127", 18), ("72B-1", 60), ("05B-1", 40)],
 )
 def test_output_passes_check_and_lives(cli, tmp_path, chain, teeth):
     path = tmp_path / "drive.toml"
@@ -38,10 +31,7 @@ def test_commented_keys_are_the_defaults(cli, tmp_path):
     path, bare = tmp_path / "drive.toml", tmp_path / "bare.toml"
     cli("init", "--out", path)
     lines = path.read_text().splitlines()
-    keys = [
-        line.removeprefix("# ") if line.startswith("# ") and " = " in line else line
-        for line in lines
-    ]
+    keys = [line.removeprefix("# ") if line.startswith("# ") and " = " in line else line for line in lines]
     assert len([line for line in lines if line.startswith("# ") and " = " in line]) >= 6
     bare.write_text("\n".join(keys))
     assert cli("check", bare).code == 0

@@ -11,15 +11,27 @@ from wearsim.case.load_case import load_case
 from wearsim.simulation import simulate
 
 KEYS = (
-    "schema_version", "case", "life_hours", "cycles", "life_reached", "hours_run", "cycles_run",
-    "life_hours_low", "life_hours_high", "stop", "max_depth_mm", "max_depth_arc_length_mm",
-    "initial_peak_pressure_MPa", "final_peak_pressure_MPa", "method", "updates", "assumptions",
+    "schema_version",
+    "case",
+    "life_hours",
+    "cycles",
+    "life_reached",
+    "hours_run",
+    "cycles_run",
+    "life_hours_low",
+    "life_hours_high",
+    "stop",
+    "max_depth_mm",
+    "max_depth_arc_length_mm",
+    "initial_peak_pressure_MPa",
+    "final_peak_pressure_MPa",
+    "method",
+    "updates",
+    "assumptions",
     "warnings",
-)  # fmt: skip
+)
 
-TOO_COARSE = {
-    "critical_depth_mm": '0.02\n[run]\nmethod = "per_cycle"\ncycles_per_update = 100000000'
-}
+TOO_COARSE = {"critical_depth_mm": '0.02\n[run]\nmethod = "per_cycle"\ncycles_per_update = 100000000'}
 """Deeper than the tooth: the contact ends before the limit is met."""
 
 
@@ -208,9 +220,7 @@ def test_all_of_several_fail(cli, drive):
 
 def test_next_command_can_be_pasted(cli, drive):
     path = drive("my drive")
-    assert f"wearsim compare '{path}' --out 'reports/my drive'" in " ".join(
-        cli("life", path).out.split()
-    )
+    assert f"wearsim compare '{path}' --out 'reports/my drive'" in " ".join(cli("life", path).out.split())
 
 
 # -- solving for a key -----------------------------------------------------------------------------

@@ -54,9 +54,7 @@ def test_wear_governs(asked, printed):
     wear, fatigue = found["life_hours"], found["sprocket_fatigue_life_hours"]
     assert wear < fatigue
     assert governing(found) == ("wear", wear)
-    expected = (
-        f"Governs wear, {grouped(wear)} h (contact fatigue of the sprocket {grouped(fatigue)} h)"
-    )
+    expected = f"Governs wear, {grouped(wear)} h (contact fatigue of the sprocket {grouped(fatigue)} h)"
     assert expected in one_line(asked())
 
 
@@ -66,9 +64,7 @@ def test_contact_fatigue_governs(asked, printed):
     assert fatigue < wear
     assert governing(found) == ("sprocket_fatigue", fatigue)
     text = one_line(asked(*MILD))
-    assert (
-        f"Governs contact fatigue of the sprocket, {grouped(fatigue)} h (wear {grouped(wear)} h)"
-    ) in text
+    assert (f"Governs contact fatigue of the sprocket, {grouped(fatigue)} h (wear {grouped(wear)} h)") in text
     assert "contact fatigue of the sprocket comes before the wear" in text
 
 

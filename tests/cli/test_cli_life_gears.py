@@ -62,8 +62,7 @@ def test_life_as_json_and_as_files(cli, gears, tmp_path):
 
 def test_twice_the_speed_is_half_the_life(cli, gears):
     lives = [
-        json.loads(cli("life", gears(speed_rpm=speed), "--json").out)["life_hours"]
-        for speed in (725, 1450)
+        json.loads(cli("life", gears(speed_rpm=speed), "--json").out)["life_hours"] for speed in (725, 1450)
     ]
     assert lives[0] == pytest.approx(2.0 * lives[1], rel=1e-12)
 

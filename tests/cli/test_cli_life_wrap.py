@@ -192,9 +192,7 @@ def test_folder_holds_all_of_the_result(cli, wrapped, tmp_path, conforms):
     assert saved.summary() == line
     assert isinstance(saved.parts["chain"], Life)
     assert saved.life == saved.parts["chain"]
-    again = wearsim.simulate(
-        wearsim.load_case(wrapped, ["joint.specific_wear_rate_mm2_per_N=1.5e-8"])
-    )
+    again = wearsim.simulate(wearsim.load_case(wrapped, ["joint.specific_wear_rate_mm2_per_N=1.5e-8"]))
     for name, values in again.history_columns.items():
         np.testing.assert_array_equal(saved.history_columns[name], values, err_msg=name)
     for name, values in again.flank_columns.items():

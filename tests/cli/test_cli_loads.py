@@ -78,13 +78,24 @@ def test_other_columns_follow_from_those(loads):
     speed = 20 * 12.7e-3 * 100 / 60
     assert found["centrifugal_tension_N"] == pytest.approx(0.6 * speed**2, rel=0.1)
     assert set(found) == {
-        "schema_version", "case", "phase", "elongation_percent", "first_link", "teeth",
-        "slack_tension_N", "centrifugal_tension_N", "min_slack_tension_N", "assumptions",
+        "schema_version",
+        "case",
+        "phase",
+        "elongation_percent",
+        "first_link",
+        "teeth",
+        "slack_tension_N",
+        "centrifugal_tension_N",
+        "min_slack_tension_N",
+        "assumptions",
         "warnings",
-    }  # fmt: skip
+    }
     assert set(found["teeth"][0]) == {
-        *ISSUE, "load_per_width_N_per_mm", "seat_radius_mm", "contact_arc_length_mm",
-    }  # fmt: skip
+        *ISSUE,
+        "load_per_width_N_per_mm",
+        "seat_radius_mm",
+        "contact_arc_length_mm",
+    }
 
 
 def test_phases(loads):
@@ -132,9 +143,14 @@ def test_wrap_by_the_mate(loads, mate, role):
 
 def test_driven_sprocket_sheds_its_load_faster(loads):
     """sin(phi +- delta)/sin(phi +- delta + 18), phi = 29 degrees, mu = 0.1: 0.7157 and 0.5992."""
-    friction = ("--set", "mechanism.friction_roller_tooth=0.1",
-                "--set", "mechanism.friction_roller_bush=0.9",
-                "--set", "drive.slack_tension_N=100")  # fmt: skip
+    friction = (
+        "--set",
+        "mechanism.friction_roller_tooth=0.1",
+        "--set",
+        "mechanism.friction_roller_bush=0.9",
+        "--set",
+        "drive.slack_tension_N=100",
+    )
     for role, ratio in (("driver", 0.7157), ("driven", 0.5992)):
         found = loads(*friction, "--set", f"sprocket.role={role}")
         assert column(found, "tension_N")[1] == pytest.approx(1000.0 * ratio, rel=0.015)
@@ -145,8 +161,7 @@ def test_table(cli, case):
     assert (done.code, done.err) == (0, "")
     lines = done.out.splitlines()
     assert lines[0] == (
-        "ANSI 40: 10 rollers in a wrap of 180.0 degrees, elongation 2 %, phase 1, any link "
-        "after tooth 1"
+        "ANSI 40: 10 rollers in a wrap of 180.0 degrees, elongation 2 %, phase 1, any link after tooth 1"
     )
     assert max(map(len, lines)) <= 107
     rows = [line.split() for line in lines[3:13]]

@@ -63,13 +63,15 @@ def test_text_json_and_files_agree(cli, wrapped, tmp_path):
             key: policy[key] for key in ("sprocket_life_hours", "cost_per_1000_h")
         }
         price = 40 * policy["chains_per_sprocket"] + 60 + 2 * 30 * policy["stops"]
-        assert policy["cost_per_1000_h"] == pytest.approx(
-            1000 * price / policy["sprocket_life_hours"]
-        )
+        assert policy["cost_per_1000_h"] == pytest.approx(1000 * price / policy["sprocket_life_hours"])
     assert len(found["tooth_counts"]) == 9
     assert {path.name for path in out.iterdir()} == {
-        "policies.csv", "tooth_counts.csv", "maintenance.md", "maintenance.png", "maintenance.svg",
-    }  # fmt: skip
+        "policies.csv",
+        "tooth_counts.csv",
+        "maintenance.md",
+        "maintenance.png",
+        "maintenance.svg",
+    }
     assert (out / "maintenance.md").read_text().startswith("# Wrapped test drive\n\n| replace at |")
     assert cli("maintain", wrapped, "--out", out).code == 2
     again = cli("maintain", wrapped, "--out", out, "--force", "--set", "maintenance.chain_price=41")

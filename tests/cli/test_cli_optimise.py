@@ -102,13 +102,15 @@ def test_workers_make_no_difference(cli, case):
         ("mass_kg", "life_hours = {low = 200.0}", lambda m: 200.0 <= m["life_hours"] < 202.0),
         ("mass_kg", "mass_kg = {low = 1.4}", lambda m: 1.4 <= m["mass_kg"] < 1.41),
         ("life_hours", "life_hours = {high = 200.0}", lambda m: 199.0 < m["life_hours"] <= 200.0),
-        ("mass_kg", "peak_pressure_MPa = {high = 900.0}",
-         lambda m: 895.0 < m["peak_pressure_MPa"] <= 900.0),
-        ("life_hours", "peak_pressure_MPa = {low = 900.0}",
-         lambda m: 900.0 <= m["peak_pressure_MPa"] < 905.0),
+        ("mass_kg", "peak_pressure_MPa = {high = 900.0}", lambda m: 895.0 < m["peak_pressure_MPa"] <= 900.0),
+        (
+            "life_hours",
+            "peak_pressure_MPa = {low = 900.0}",
+            lambda m: 900.0 <= m["peak_pressure_MPa"] < 905.0,
+        ),
         ("peak_pressure_MPa", "mass_kg = {high = 1.4}", lambda m: m["mass_kg"] > 1.395),
     ],
-)  # fmt: skip
+)
 def test_objectives_and_limits(cli, case, objective, limits, kept):
     path = case(table(WIDTH, f'"{objective}"', limits))
     (best,) = answer(cli, path, evaluations=30)["designs"]
@@ -131,8 +133,15 @@ def test_lives_beyond_the_horizon(cli, case):
 def test_lists_of_values(cli, case):
     parameters = '"sprocket.back_flank" = ["mirrored", "relieved"]\n'
     parameters += '"sprocket.teeth" = {low = 20, high = 22}\n"load.power_kW" = [3, 2.5, 2]\n'
-    content = answer(cli, case(table(parameters)), "--set", "sprocket.evolute_offset_mm=6.2",
-                     "--set", "optimise.limits.mass_kg.high=5", evaluations=30)  # fmt: skip
+    content = answer(
+        cli,
+        case(table(parameters)),
+        "--set",
+        "sprocket.evolute_offset_mm=6.2",
+        "--set",
+        "optimise.limits.mass_kg.high=5",
+        evaluations=30,
+    )
     (best,) = content["designs"]
     assert best["inputs"]["sprocket.teeth"] == 22
     assert best["inputs"]["load.power_kW"] == 2
@@ -154,12 +163,16 @@ def test_front(cli, case, tmp_path, without_pictures):
     assert len(rows) > 5
     assert rows == sorted(rows, reverse=True)
     assert all(a[1] > b[1] for a, b in pairwise(rows))
-    names = {
-        f"{name}.{kind}" for name in ("convergence", "front", "parallel") for kind in ("png", "svg")
-    }
+    names = {f"{name}.{kind}" for name in ("convergence", "front", "parallel") for kind in ("png", "svg")}
     assert {entry.name for entry in out.iterdir()} == {
-        *names, "candidates.csv", "front.csv", "summary.md", "study.json", "shards", "designs",
-    }  # fmt: skip
+        *names,
+        "candidates.csv",
+        "front.csv",
+        "summary.md",
+        "study.json",
+        "shards",
+        "designs",
+    }
     designs = sorted((out / "designs").iterdir())
     assert [entry.name for entry in designs] == [f"{at:02d}.toml" for at in range(1, len(rows) + 1)]
     life = cli("life", designs[0], "--json")
@@ -223,9 +236,7 @@ def test_nothing_feasible_says_why(cli, case):
     path = case(table('"sprocket.evolute_offset_mm" = {low = 1.0, high = 2.0}\n'))
     done = cli("optimise", path, "--evaluations", 10)
     assert (done.code, done.out) == (3, "")
-    assert (
-        "none of 10 designs is feasible: 10 of them by sprocket.evolute_offset_mm: exit" in done.err
-    )
+    assert "none of 10 designs is feasible: 10 of them by sprocket.evolute_offset_mm: exit" in done.err
     done = cli("optimise", case(table(limits="mass_kg = {high = 0.1}")), "--evaluations", 10)
     assert done.code == 3
     assert "10 of them by limits.mass_kg, above high = 0.1 (" in done.err
@@ -246,9 +257,7 @@ def test_gears_have_no_mass(cli, tmp_path):
 
 def test_wrap_between_the_forms_of_iso_606(cli, tmp_path):
     text = (
-        (CASES / "08b-19t-wrap.toml")
-        .read_text(encoding="utf-8")
-        .replace('form = "min"\n', "nodes = 101\n")
+        (CASES / "08b-19t-wrap.toml").read_text(encoding="utf-8").replace('form = "min"\n', "nodes = 101\n")
     )
     text = text.replace('kind = "wrap"', 'kind = "wrap"\nphases = 2')
     text += "horizon_hours = 10\n"
@@ -411,7 +420,7 @@ def test_misspelt_keys_of_a_range_get_no_hint_at_other_tables(cli, case):
         (table(limits="mass_kg = {low = 0}\n"), "greater than 0"),
         (table(limits="mass = {low = 1}\n"), "did you mean"),
     ],
-)  # fmt: skip
+)
 def test_bad_tables(cli, case, text, message):
     done = cli("optimise", case(text), "--evaluations", 10)
     assert (done.code, done.out) == (2, "")

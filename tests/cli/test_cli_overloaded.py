@@ -158,9 +158,7 @@ def test_workbook_and_comparison(cli, drive, tmp_path):
     assert summary.count("(overloaded)") == 1
 
 
-@pytest.mark.parametrize(
-    ("key", "what"), [("service", "power"), ("exploitation", "joint pressure")]
-)
+@pytest.mark.parametrize(("key", "what"), [("service", "power"), ("exploitation", "joint pressure")])
 def test_factors_of_ratings_say_that_they_change_no_wear(key, what):
     effect = f"it changes the {what} in the ratings, not the wear"
     tables = tomllib.loads(CASE)

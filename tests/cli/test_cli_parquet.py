@@ -31,9 +31,7 @@ def test_needs_a_folder_and_no_solve_for(cli, drive, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "case", ["16b-20t-oiled.toml", "08b-19t-wrap.toml", "involute-36t-mild.toml"]
-)
+@pytest.mark.parametrize("case", ["16b-20t-oiled.toml", "08b-19t-wrap.toml", "involute-36t-mild.toml"])
 def test_same_numbers_types_and_units(cli, tmp_path, case):
     parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
     run = tmp_path / "run"

@@ -46,10 +46,20 @@ def test_closed_pipe_is_141_without_a_word():
 def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):
     """Some 1e8 or 1e9 cycles one by one take minutes; to end takes seconds at most."""
     command = [
-        sys.executable, "-c", STARTED, "life", drive(), "--out", tmp_path / "out",
-        "--set", "run.method=per_cycle", "--set", f"run.horizon_hours={horizon}",
-        "--set", "load.power_kW=1e-4",
-    ]  # fmt: skip
+        sys.executable,
+        "-c",
+        STARTED,
+        "life",
+        drive(),
+        "--out",
+        tmp_path / "out",
+        "--set",
+        "run.method=per_cycle",
+        "--set",
+        f"run.horizon_hours={horizon}",
+        "--set",
+        "load.power_kW=1e-4",
+    ]
     run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         assert run.stdout.readline() == "started\n"

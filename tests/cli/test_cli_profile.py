@@ -22,10 +22,7 @@ def test_columns_and_numbers(cli, drive, tmp_path):
     assert (done.code, done.out) == (0, "")
     text = out.read_text()
     assert text.splitlines()[0] == COLUMNS
-    rows = [
-        {key: float(value) for key, value in row.items()}
-        for row in csv.DictReader(io.StringIO(text))
-    ]
+    rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(text))]
     assert [row["node"] for row in rows] == list(range(1, 52))
     h, r, centrode = 5.6, 7.94, 20 * 25.4 / (2 * math.pi)
     for row, x in ((rows[0], 4.064), (rows[-1], 30.734)):

@@ -59,9 +59,17 @@ critical_depth_mm = 0.02
 """
 
 SECTIONS = (
-    "answer", "drive", "flank", "margins", "run", "inputs", "assumptions", "warnings", "versions",
+    "answer",
+    "drive",
+    "flank",
+    "margins",
+    "run",
+    "inputs",
+    "assumptions",
+    "warnings",
+    "versions",
     "cite",
-)  # fmt: skip
+)
 
 
 def text_of(page):
@@ -271,15 +279,9 @@ def test_percentiles_that_follow_from_a_run(cli, drive, tmp_path):
     hours = json.loads(cli("life", path, "--json").out)["life_hours"]
     cli("report", path, "--out", tmp_path / "out")
     page = text_of(tmp_path / "out" / "index.html")
-    for name, factor in (
-        ("P10", math.exp(-0.64077578)),
-        ("P50", 1.0),
-        ("P90", math.exp(0.64077578)),
-    ):
+    for name, factor in (("P10", math.exp(-0.64077578)), ("P50", 1.0), ("P90", math.exp(0.64077578))):
         (shown,) = re.findall(rf"<dt>{name}: .*?</dt><dd>(.*?)</dd>", page)
         assert float(re.sub(r"[^\d.]", "", shown)) == pytest.approx(hours * factor, rel=1e-3)
-    path.write_text(
-        path.read_text() + '"load.power_kW" = {distribution = "lognormal", sigma_ln = 0.1}\n'
-    )
+    path.write_text(path.read_text() + '"load.power_kW" = {distribution = "lognormal", sigma_ln = 0.1}\n')
     cli("report", path, "--out", tmp_path / "two")
     assert "P10" not in text_of(tmp_path / "two" / "index.html")

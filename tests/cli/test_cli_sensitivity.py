@@ -50,14 +50,10 @@ def test_indices_of_a_product_are_shares_of_the_variance(cli, case):
         # 10 and 90 % points lie 2 * 1.2816 sigma apart.
         ratio = found[key]["low_life_hours"] / found[key]["high_life_hours"]
         assert np.log(ratio) == pytest.approx(2.0 * 1.2815516 * sigma, rel=1e-4)
-        assert found[key]["value_for_double_life"] == pytest.approx(
-            found[key]["value"] / 2, rel=5e-3
-        )
+        assert found[key]["value_for_double_life"] == pytest.approx(found[key]["value"] / 2, rel=5e-3)
         # Effects go over two thirds of the shares, here in steps of equal size both ways.
         assert found[key]["morris_sigma"] < 0.05 * found[key]["morris_mu_star"]
-    assert found[K]["morris_mu_star"] == pytest.approx(
-        found[TENSION]["morris_mu_star"] * 4 / 3, rel=0.01
-    )
+    assert found[K]["morris_mu_star"] == pytest.approx(found[TENSION]["morris_mu_star"] * 4 / 3, rel=0.01)
     assert content["life_hours"] > 0.0
 
 
@@ -69,7 +65,10 @@ def test_indices_agree_with_scipy(cli, case, tmp_path):
     from wearsim.runner.scatter import load_scattered
     from wearsim.runner.workers import Threads
 
-    more = SCATTER.replace('distribution = "lognormal", sigma_ln = 0.3', 'distribution = "weibull", shape = 1.5, scale = 3000.0, low = 500.0')  # fmt: skip  # noqa: E501
+    more = SCATTER.replace(
+        'distribution = "lognormal", sigma_ln = 0.3',
+        'distribution = "weibull", shape = 1.5, scale = 3000.0, low = 500.0',
+    )
     path = case(more)
     scattered = load_scattered(path, [])
 
@@ -86,17 +85,12 @@ def test_indices_agree_with_scipy(cli, case, tmp_path):
 
 
 def test_key_that_does_nothing_and_text(cli, case):
-    more = (
-        SCATTER
-        + '"sprocket.face_width_mm" = {distribution = "uniform", low = 15.0, high = 15.001}\n'
-    )
+    more = SCATTER + '"sprocket.face_width_mm" = {distribution = "uniform", low = 15.0, high = 15.001}\n'
     path = case(more)
     path.write_text(path.read_text().replace("nodes = 51", "nodes = 51\nface_width_mm = 15.0"))
     done = cli("sensitivity", path, "--samples", 32, "--trajectories", 4)
     assert done.code == 0
-    (line,) = [
-        line for line in done.out.splitlines() if "face_width_mm  " in line and "total" in line
-    ]
+    (line,) = [line for line in done.out.splitlines() if "face_width_mm  " in line and "total" in line]
     assert "total  0.00" in line
     assert f"{K}  " in done.out
     assert "what would double the life" in done.out
@@ -126,9 +120,14 @@ def test_folder(cli, case, tmp_path):
     first = cli("sensitivity", case(), "--samples", 8, "--trajectories", 4, "--out", out)
     assert first.code == 0
     assert {entry.name for entry in out.iterdir()} == {
-        "cases.csv", "sensitivity.csv", "summary.md", "tornado.png", "tornado.svg", "study.json",
+        "cases.csv",
+        "sensitivity.csv",
+        "summary.md",
+        "tornado.png",
+        "tornado.svg",
+        "study.json",
         "shards",
-    }  # fmt: skip
+    }
     again = cli("sensitivity", case(), "--samples", 8, "--trajectories", 4, "--out", out)
     assert again.out == first.out
 

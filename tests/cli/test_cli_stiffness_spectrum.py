@@ -73,13 +73,7 @@ def test_files(cli, tmp_path):
     orders = [float(row["mesh_order"]) for row in rows]
     assert orders == sorted(orders)
     svg = (out / "stiffness_spectrum.svg").read_text("utf-8")
-    for text in (
-        "fz - f1",
-        "fz + f1 + f2",
-        "turns of the wheel",
-        "closed form",
-        "stiffness, kN/mm",
-    ):
+    for text in ("fz - f1", "fz + f1 + f2", "turns of the wheel", "closed form", "stiffness, kN/mm"):
         assert f">{text}<" in svg
     assert cli("stiffness-spectrum", CASE, "--out", out).code == 2
 
@@ -118,14 +112,8 @@ def test_teeth_that_lose_contact_are_a_warning_and_with_a_load_an_error(cli, tmp
         ("pinion.teeth=4", "pinion.teeth: must be greater than or equal to 5"),
         ("spectrum.modell=pairs", "did you mean"),
         ("spectrum.formula=printed", "spectrum.formula: belongs to the closed form"),
-        (
-            "wheel.pitch_error_mm=3 deg",
-            "wheel.pitch_error_mm: the unit must be one of the kind of mm",
-        ),
-        (
-            "statics.pinion_torque_N_m=60",
-            "give exactly one of force_N, pinion_torque_N_m (got both)",
-        ),
+        ("wheel.pitch_error_mm=3 deg", "wheel.pitch_error_mm: the unit must be one of the kind of mm"),
+        ("statics.pinion_torque_N_m=60", "give exactly one of force_N, pinion_torque_N_m (got both)"),
     ],
 )
 def test_bad_input(cli, setting, words):

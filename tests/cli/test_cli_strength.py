@@ -57,8 +57,12 @@ def test_files(cli, tmp_path):
     place = tmp_path / "out"
     assert cli("strength", A, "--out", place).code == 0
     assert {path.name for path in place.iterdir()} == {
-        "result.json", "gears.csv", "allowable_over_hours.csv", "strength.png", "strength.svg",
-    }  # fmt: skip
+        "result.json",
+        "gears.csv",
+        "allowable_over_hours.csv",
+        "strength.png",
+        "strength.svg",
+    }
     found = json.loads((place / "result.json").read_text("utf-8"))
     with (place / "allowable_over_hours.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -79,11 +83,7 @@ def test_files(cli, tmp_path):
         (["drive.gear_ratio=0.5"], 2, "--set drive.gear_ratio: must be greater than or equal to 1"),
         (["drive.life_years=2"], 2, "--set drive.life_years: life_hours gives the life already"),
         (["drive.regime=VI"], 2, "--set drive.regime: must be"),
-        (
-            ["pinion.treatment=nitrided"],
-            2,
-            "pinion.contact_limit_MPa: treatment = 'nitrided' needs",
-        ),
+        (["pinion.treatment=nitrided"], 2, "pinion.contact_limit_MPa: treatment = 'nitrided' needs"),
         (["load.module=3"], 2, "did you mean 'module_mm'"),
     ],
 )

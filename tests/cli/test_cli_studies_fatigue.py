@@ -106,9 +106,7 @@ def test_lives_of_no_hours(cli, case, tmp_path):
     done = cli("uncertainty", path, *options, "--json")
     found = json.loads(done.out)
     assert (done.code, found["p10_hours"], found["p90_hours"], found["fits"]) == (0, 0.0, 0.0, [])
-    scatter = (
-        '[uncertainty]\n"load.tension_N" = {distribution = "uniform", low = 3e3, high = 3e4}\n'
-    )
+    scatter = '[uncertainty]\n"load.tension_N" = {distribution = "uniform", low = 3e3, high = 3e4}\n'
     found = json.loads(cli("uncertainty", case(scatter), "--samples", 16, "--json").out)
     assert found["p90_hours"] > found["p10_hours"] == 0.0
     assert found["fits"] == []

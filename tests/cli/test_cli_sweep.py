@@ -44,9 +44,7 @@ def test_every_combination_of_a_grid(cli, sweep, drive):
     assert done.code == 0
     assert [inputs["sprocket.teeth"] for inputs, _ in found] == [20, 20, 20, 25, 25, 25]
     assert [inputs["load.power_kW"] for inputs, _ in found[:3]] == pytest.approx([2, 4, 8])
-    single = cli(
-        "life", drive(), "--json", "--set", "sprocket.teeth=25", "--set", "load.power_kW=8"
-    )
+    single = cli("life", drive(), "--json", "--set", "sprocket.teeth=25", "--set", "load.power_kW=8")
     assert found[-1][1] == json.loads(single.out)["life_hours"]
     # Wear goes with the load.
     assert found[0][1] == pytest.approx(4.0 * found[2][1], rel=1e-4)
@@ -98,12 +96,14 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
     out = tmp_path / "out"
     first = cli("sweep", sweep(GRID), "--out", out)
     assert first.code == 0
-    names = {
-        f"{name}.{kind}" for name in ("curves", "heat_map", "parallel") for kind in ("png", "svg")
-    }
+    names = {f"{name}.{kind}" for name in ("curves", "heat_map", "parallel") for kind in ("png", "svg")}
     assert {path.name for path in out.iterdir()} == {
-        *names, "cases.csv", "summary.md", "study.json", "shards",
-    }  # fmt: skip
+        *names,
+        "cases.csv",
+        "summary.md",
+        "study.json",
+        "shards",
+    }
     with (out / "cases.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["sprocket.teeth"] for row in rows] == ["20"] * 3 + ["25"] * 3
@@ -138,7 +138,7 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
         ('[grid]\n"a.b" = [1]\n[[zip]]\n"a.b" = [1]\n', "a.b stands in two places"),
         ('[[design]]\n"a.b" = 1\n[[design]]\n"a.c" = 1\n', "every [[design]] must give the same keys"),
     ],
-)  # fmt: skip
+)
 def test_bad_studies(cli, sweep, text, message):
     done = cli("sweep", sweep(text))
     assert (done.code, done.out) == (2, "")

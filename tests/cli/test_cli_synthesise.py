@@ -42,15 +42,7 @@ def test_text(cli):
     assert "at least 364.119 MPa there (at 45 deg)" in done.out
     assert "takes a pressure angle of 20 deg" in done.out
     (line,) = [line for line in done.out.splitlines() if line.startswith("  -10.000")]
-    assert line.split()[:7] == [
-        "-10.000",
-        "22.145",
-        "-11.361",
-        "17.303",
-        "32.099",
-        "454.16",
-        "574.90",
-    ]
+    assert line.split()[:7] == ["-10.000", "22.145", "-11.361", "17.303", "32.099", "454.16", "574.90"]
     assert max(map(len, done.out.splitlines())) <= 100
 
 
@@ -114,34 +106,74 @@ def test_files(cli, tmp_path):
 
 
 FAULTS = [
-    (POLE, 'stress.contact_stress_MPa=364', 3,
-     "phase 1: contact_stress_MPa: must be above 364.119 in the pole"),
-    (SEGMENTS, 'phase=[{family = -1, start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 5}]', 3,
-     "phase 1: line of action: the family -1 from l = 10.44 mm must end before l = 5.58564 mm"),
-    (SEGMENTS, 'phase=[{start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 0.01}]', 3,
-     "must end before l = 0.0364695 mm, where its pressure angle comes to 0 deg"),
-    (POLE, 'phase=[{family = -1, first_pole_distance_mm = -1, last_pole_distance_mm = 1}]', 2,
-     "phase.1.family: must be 1 without start_x_mm"),
-    (POLE, 'phase=[{last_pole_distance_mm = 1}]', 2, "phase.1.first_pole_distance_mm: give this"),
-    (POLE, 'phase=[{first_pole_distance_mm = 2, last_pole_distance_mm = 1}]', 2,
-     "phase.1.last_pole_distance_mm: must be above the first, 2 (got 1)"),
-    (POLE, 'phase=[{start_x_mm = 9, last_pole_distance_mm = 1}]', 2, "phase.1.start_y_mm: a point"),
-    (POLE, 'phase=[{start_x_mm = 9, start_y_mm = -2, last_pole_distance_mm = 1}]', 2,
-     "phase.1.start_y_mm: must have the sign of start_x_mm, 9 (got -2)"),
-    (POLE, 'phase=[{start_x_mm = 9, start_y_mm = 2, last_pole_distance_mm = -1}]', 2,
-     "phase.1.last_pole_distance_mm: must be on the side of the start, 9.21954"),
-    (POLE, 'phase=[{first_pole_distance_mm = 1, start_x_mm = 9, start_y_mm = 2, '
-     'last_pole_distance_mm = 1}]', 2, "phase.1.first_pole_distance_mm: start_x_mm gives the start"),
+    (
+        POLE,
+        "stress.contact_stress_MPa=364",
+        3,
+        "phase 1: contact_stress_MPa: must be above 364.119 in the pole",
+    ),
+    (
+        SEGMENTS,
+        "phase=[{family = -1, start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 5}]",
+        3,
+        "phase 1: line of action: the family -1 from l = 10.44 mm must end before l = 5.58564 mm",
+    ),
+    (
+        SEGMENTS,
+        "phase=[{start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 0.01}]",
+        3,
+        "must end before l = 0.0364695 mm, where its pressure angle comes to 0 deg",
+    ),
+    (
+        POLE,
+        "phase=[{family = -1, first_pole_distance_mm = -1, last_pole_distance_mm = 1}]",
+        2,
+        "phase.1.family: must be 1 without start_x_mm",
+    ),
+    (POLE, "phase=[{last_pole_distance_mm = 1}]", 2, "phase.1.first_pole_distance_mm: give this"),
+    (
+        POLE,
+        "phase=[{first_pole_distance_mm = 2, last_pole_distance_mm = 1}]",
+        2,
+        "phase.1.last_pole_distance_mm: must be above the first, 2 (got 1)",
+    ),
+    (POLE, "phase=[{start_x_mm = 9, last_pole_distance_mm = 1}]", 2, "phase.1.start_y_mm: a point"),
+    (
+        POLE,
+        "phase=[{start_x_mm = 9, start_y_mm = -2, last_pole_distance_mm = 1}]",
+        2,
+        "phase.1.start_y_mm: must have the sign of start_x_mm, 9 (got -2)",
+    ),
+    (
+        POLE,
+        "phase=[{start_x_mm = 9, start_y_mm = 2, last_pole_distance_mm = -1}]",
+        2,
+        "phase.1.last_pole_distance_mm: must be on the side of the start, 9.21954",
+    ),
+    (
+        POLE,
+        "phase=[{first_pole_distance_mm = 1, start_x_mm = 9, start_y_mm = 2, last_pole_distance_mm = 1}]",
+        2,
+        "phase.1.first_pole_distance_mm: start_x_mm gives the start",
+    ),
     (POLE, "phase=[]", 2, "phase: "),
     (POLE, "stress.contact_stress_MPa=[500, -1]", 2, "stress.contact_stress_MPa: must be above 0"),
     (POLE, "stress.contact_stress_MPa=[]", 2, "stress.contact_stress_MPa: must be above 0"),
     (POLE, "stress.contact_stress_MPa=[500, 400]", 2, "stress.pole_distance_mm: several stresses"),
     (POLE, "stress.pole_distance_mm=[0, 1]", 2, "must have one entry for each stress, 1 (got 2)"),
     (POLE, "stress={contact_stress_MPa = [5, 6], pole_distance_mm = [1, 0]}", 2, "must ascend (got 1, 0)"),
-    (POLE, "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, 9]}", 2,
-     "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to 9)"),
-    (POLE, "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, -1]}", 2,
-     "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to -1)"),
+    (
+        POLE,
+        "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, 9]}",
+        2,
+        "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to 9)",
+    ),
+    (
+        POLE,
+        "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, -1]}",
+        2,
+        "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to -1)",
+    ),
     (POLE, "load.face_width_mm=-1", 2, "load.face_width_mm: "),
     (POLE, "load={pinion_speed_rpm = 1}", 2, "load.pinion_torque_N_m: give pinion_torque_N_m and"),
     (POLE, "load.load_per_width_N_per_mm=60", 2, "load.pinion_torque_N_m: load_per_width"),
@@ -149,7 +181,7 @@ FAULTS = [
     (POLE, "field.directions_deg=[90]", 2, "field.directions_deg: must be between -90 and 90"),
     (POLE, "involute.pressure_angle_deg=90", 2, "involute.pressure_angle_deg: "),
     (POLE, "gears.teeth=20", 2, "gears.teeth: unknown key"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("case", "setting", "code", "message"), FAULTS)
@@ -209,10 +241,14 @@ BASE = {
     ],
     "involute": {"pressure_angle_deg": 20},
     "field": {
-        "x_from_mm": 0, "x_to_mm": 10, "y_from_mm": 0, "y_to_mm": 5, "field_nodes": 11,
+        "x_from_mm": 0,
+        "x_to_mm": 10,
+        "y_from_mm": 0,
+        "y_to_mm": 5,
+        "field_nodes": 11,
         "directions_deg": 15,
     },
-}  # fmt: skip
+}
 
 CHANGES = {
     "title": "other",
@@ -329,10 +365,7 @@ def test_pictures():
     pair = loaded_pair(tables)
     sheet = synthesis_sheet(tables, pair, phases(pair, tables))
     plane, profiles = sheet.figures()["line_of_action"].axes
-    assert [line.get_label() for line in plane.lines[::3]][:2] == [
-        "phase 1, family +1",
-        "phase 2, family -1",
-    ]
+    assert [line.get_label() for line in plane.lines[::3]][:2] == ["phase 1, family +1", "phase 2, family -1"]
     assert len(profiles.lines) == 4
     sheet.figures()["field_directions"].savefig(io.BytesIO(), format="svg")
     drawn = sheet.figures()["field_small_radii"].axes[0].lines[-1]

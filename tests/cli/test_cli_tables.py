@@ -27,12 +27,28 @@ def objects(schema):
 
 
 OPTIONAL = (
-    "chain_life_hours", "sprocket_life_hours", "service", "km", "tonnes", "days", "date", "grid",
-    "solve_for", "pinion_fatigue_life_hours", "wheel_fatigue_life_hours",
-    "sprocket_fatigue_life_hours", "governing_life", "governing_life_hours",
-    "governing_life_hours_at_least", "chain_life_hours_at_least", "sprocket_life_hours_at_least",
-    "chains_run", "service_at_least", "overloaded", "ratings",
-)  # fmt: skip
+    "chain_life_hours",
+    "sprocket_life_hours",
+    "service",
+    "km",
+    "tonnes",
+    "days",
+    "date",
+    "grid",
+    "solve_for",
+    "pinion_fatigue_life_hours",
+    "wheel_fatigue_life_hours",
+    "sprocket_fatigue_life_hours",
+    "governing_life",
+    "governing_life_hours",
+    "governing_life_hours_at_least",
+    "chain_life_hours_at_least",
+    "sprocket_life_hours_at_least",
+    "chains_run",
+    "service_at_least",
+    "overloaded",
+    "ratings",
+)
 
 
 def test_result_schema_is_closed_and_described(cli):

@@ -19,9 +19,7 @@ def installed(monkeypatch):
 
 @pytest.mark.parametrize("missing", ["nicegui", "plotly", "jinja2"])
 def test_missing_extra(cli, monkeypatch, drive, missing):
-    monkeypatch.setattr(
-        importlib.util, "find_spec", lambda name: None if name == missing else FOUND
-    )
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == missing else FOUND)
     done = cli("ui", drive())
     assert (done.code, done.out) == (2, "")
     assert "pip install 'wearsim[ui]'" in done.err and missing in done.err

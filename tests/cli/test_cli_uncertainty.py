@@ -86,9 +86,7 @@ def test_text_tells_the_same(cli, case):
 
 def test_seed(cli, case):
     path = case(SCATTER % 0.5)
-    hours = [
-        answer(cli, path, "--seed", seed, "--samples", 64)[1]["p10_hours"] for seed in (1, 1, 2)
-    ]
+    hours = [answer(cli, path, "--seed", seed, "--samples", 64)[1]["p10_hours"] for seed in (1, 1, 2)]
     assert hours[0] == hours[1] != hours[2]
 
 
@@ -102,9 +100,7 @@ def test_beyond_the_horizon_only_a_bound_is_known(cli, case):
     assert found["p50_hours_at_least"] is None
     assert found["convergence"][-1]["p90_hours"] is None  # as in the table on screen
     assert any("beyond run.horizon_hours are only bounds" in text for text in found["warnings"])
-    text = cli(
-        "uncertainty", path, "--samples", 64, "--set", f"run.horizon_hours={middle * 1.2!r}"
-    ).out
+    text = cli("uncertainty", path, "--samples", 64, "--set", f"run.horizon_hours={middle * 1.2!r}").out
     assert re.search(r"^P90 +> ", text, flags=re.MULTILINE)
 
 
@@ -149,8 +145,13 @@ def test_folder(cli, case, tmp_path):
     assert first.code == 0
     pictures = {f"{name}.{kind}" for name in ("lives", "convergence") for kind in ("png", "svg")}
     assert {entry.name for entry in out.iterdir()} == {
-        *pictures, "cases.csv", "convergence.csv", "summary.md", "study.json", "shards",
-    }  # fmt: skip
+        *pictures,
+        "cases.csv",
+        "convergence.csv",
+        "summary.md",
+        "study.json",
+        "shards",
+    }
     assert cli("uncertainty", path, "--samples", 64, "--out", out).out == first.out
     assert cli("uncertainty", path, "--samples", 65, "--out", out).code == 2
 
@@ -159,34 +160,19 @@ def test_folder(cli, case, tmp_path):
     ("table", "message"),
     [
         ('"load.tension_N" = {distribution = "lognormal"}', "lognormal needs this key"),
-        (
-            '"load.tension_N" = {distribution = "uniform", low = 2.0, high = 1.0}',
-            "must be above low",
-        ),
-        (
-            '"load.tension_N" = {distribution = "normal", sigma_ln = 1.0}',
-            "does not belong to normal",
-        ),
+        ('"load.tension_N" = {distribution = "uniform", low = 2.0, high = 1.0}', "must be above low"),
+        ('"load.tension_N" = {distribution = "normal", sigma_ln = 1.0}', "does not belong to normal"),
         ('"load.tension_N" = {distribution = "cauchy"}', "must be 'lognormal'"),
         ('"load.tensions_N" = {distribution = "lognormal", sigma_ln = 1.0}', "is not in the case"),
-        (
-            '"sprocket.teeth" = {distribution = "lognormal", sigma_ln = 1.0}',
-            "number with a fraction",
-        ),
+        ('"sprocket.teeth" = {distribution = "lognormal", sigma_ln = 1.0}', "number with a fraction"),
         ('"sprocket.profile" = {distribution = "lognormal", sigma_ln = 1.0}', "it is 'evolute'"),
         (
             '"load.tension_N" = {distribution = "normal", standard_deviation = 1.0}\n'
             'load.tension_N = {distribution = "normal", standard_deviation = 2.0}',
             "load.tension_N is given twice",
         ),
-        (
-            '"load.tension_N" = {distribution = "lognormal", sigma_ln = 1, median = "5 N"}',
-            "must be a",
-        ),
-        (
-            '"run.horizon_hours" = {distribution = "uniform", low = 1.0, high = 2.0}',
-            "cannot scatter",
-        ),
+        ('"load.tension_N" = {distribution = "lognormal", sigma_ln = 1, median = "5 N"}', "must be a"),
+        ('"run.horizon_hours" = {distribution = "uniform", low = 1.0, high = 2.0}', "cannot scatter"),
         (
             '"load.tension_N" = {distribution = "triangular", low = 1.0, high = 2.0}',
             "mode must lie from 1 to 2",
@@ -208,12 +194,12 @@ def test_other_commands_take_the_table(cli, case):
 
 def test_joints_of_a_wrap_scatter_too(cli, case):
     path = case()
-    text = path.read_text().replace('profile = "evolute"\nevolute_offset_mm = 5.6\nnodes = 51', 'profile = "iso606"\nnodes = 101')  # fmt: skip  # noqa: E501
+    text = path.read_text().replace(
+        'profile = "evolute"\nevolute_offset_mm = 5.6\nnodes = 51', 'profile = "iso606"\nnodes = 101'
+    )
     path.write_text(text + "[mechanism]\nphases = 1\n[run]\nlife_tolerance = 0.1\n")
     _, found = answer(cli, path, "--samples", 4)
-    assert set(found["inputs"]) == {
-        "wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N",
-    }  # fmt: skip
+    assert set(found["inputs"]) == {"wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N"}
     assert found["p10_hours"] < found["p50_hours"]
 
 

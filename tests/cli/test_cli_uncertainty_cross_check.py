@@ -102,8 +102,7 @@ def test_missing_library_is_named_before_the_study(cli, case, tmp_path, monkeypa
 
     missing = {"reliability"}
     monkeypatch.setattr(
-        "importlib.util.find_spec",
-        lambda name, *more: None if name in missing else find_spec(name, *more),
+        "importlib.util.find_spec", lambda name, *more: None if name in missing else find_spec(name, *more)
     )
     done = cli("uncertainty", case, "--cross-check", "--out", tmp_path / "out")
     assert (done.code, done.out) == (2, "")

@@ -16,9 +16,14 @@ def test_text(cli):
     assert lines[0] == "Wave gear, ratio 100, 800 N m"
     assert max(map(len, lines)) <= 100
     assert [line.split()[0] for line in lines[3:10]] == [
-        "pressure", "crushing", "torsion", "tooth_wear", "flank_pressure", "rim_bending",
+        "pressure",
+        "crushing",
+        "torsion",
+        "tooth_wear",
+        "flank_pressure",
+        "rim_bending",
         "rim_endurance",
-    ]  # fmt: skip
+    ]
     assert (
         "pressure: 246 mm NOT reproduced (113.9 mm); takes allowable_pressure_MPa = 6.449, not 60-65\n"
         in done.out
@@ -38,8 +43,12 @@ def test_json_and_files_agree(cli, tmp_path):
     assert list(found)[:3] == ["schema_version", "case", "title"]
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {
-        "result.json", "methods.csv", "elasticities.csv", "wave_drive.png", "wave_drive.svg",
-    }  # fmt: skip
+        "result.json",
+        "methods.csv",
+        "elasticities.csv",
+        "wave_drive.png",
+        "wave_drive.svg",
+    }
     with (out / "methods.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [list(row) for row in rows] == [list(method) for method in found["methods"]]

@@ -361,9 +361,7 @@ def test_screen_json_and_workbook_agree(cli, case, drive, tmp_path, name, settin
     found, answer = json.loads(line), rows(read(book)["Answer"])
     shown = [name for name in found if isinstance(found[name], int | float | str)]
     assert {name: answer[name][1] for name in shown if name not in ("schema_version", "title")} == {
-        name: pytest.approx(found[name], rel=1e-15)
-        if isinstance(found[name], float)
-        else found[name]
+        name: pytest.approx(found[name], rel=1e-15) if isinstance(found[name], float) else found[name]
         for name in shown
         if name not in ("schema_version", "title")
     }

@@ -37,9 +37,7 @@ def test_every_set_says_what_it_cannot_show(file):
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_a_set_with_failures_says_so(file):
     heading, text = WRITER["section"](file.stem)
-    passed, failed = re.search(
-        rf"^\| {re.escape(heading)} \| (\d+) \| (\d+) \|$", PAGE, re.M
-    ).groups()
+    passed, failed = re.search(rf"^\| {re.escape(heading)} \| (\d+) \| (\d+) \|$", PAGE, re.M).groups()
     rows = PAGE.partition(f"## {heading}\n")[2].partition("\n## ")[0]
     assert (rows.count("| passed |"), rows.count("| **failed** |")) == (int(passed), int(failed))
     assert ("What fails:" in text) == (int(failed) > 0)
@@ -49,9 +47,7 @@ def test_every_table_of_data_says_where_it_comes_from():
     tables = sorted((ROOT / "tests" / "validation" / "data").glob("*.csv"))
     assert tables
     for table in tables:
-        comments = [
-            line for line in table.read_text(encoding="utf-8").splitlines() if line.startswith("#")
-        ]
+        comments = [line for line in table.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
         assert any(line.startswith("# From: ") for line in comments), table.name
         assert any("carried over" in line or "licence MIT" in line for line in comments), table.name
 

@@ -44,9 +44,7 @@ def test_numbers(value, digits, printed):
     assert WRITER["number"](value, digits) == printed
 
 
-@pytest.mark.parametrize(
-    ("tolerance", "digits"), [(0.29, 3), (0.05, 4), (5e-3, 5), (1e-4, 6), (1e-14, 6)]
-)
+@pytest.mark.parametrize(("tolerance", "digits"), [(0.29, 3), (0.05, 4), (5e-3, 5), (1e-4, 6), (1e-14, 6)])
 def test_digits_show_a_hundredth_of_the_tolerance(tolerance, digits):
     assert WRITER["digits_for"](tolerance) == digits
 

@@ -53,9 +53,7 @@ def run_python(text: str, page: str) -> str:
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_every_command_answers_as_printed(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_command_answers_as_printed(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     answer, checked = "", 0
     for language, text in blocks((DOCS / f"{name}.md").read_text("utf-8")):

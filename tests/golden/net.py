@@ -38,11 +38,15 @@ STUDIES = {
     "solve": ("life", "16b-20t-oiled.toml", "--require-hours", "3000", "--solve-for", "sprocket.teeth"),
     "verify": ("life", "16b-20t-oiled.toml", "--verify-grid"),
     "per-cycle": (
-        "life", "16b-20t-oiled.toml", "--set", "stop.critical_depth_mm=0.0001",
-        "--set", "run.method=per_cycle",
+        "life",
+        "16b-20t-oiled.toml",
+        "--set",
+        "stop.critical_depth_mm=0.0001",
+        "--set",
+        "run.method=per_cycle",
     ),
     "compare": ("compare", "16b-20t-oiled.toml", "10a-20t-drip.toml"),
-}  # fmt: skip
+}
 WITHOUT_FOLDER = ("loads", "remaining", "sweep", "uncertainty", "sensitivity", "optimise")
 """Commands that take no ``--out``, or write no more there than their answer says."""
 
@@ -60,9 +64,7 @@ LAST_DIGITS, ROUNDING = 1e-6, 1e-12
 FEW_DIGITS = {"numerical_error": 0.05}
 """The same of columns that are differences of lives nearly alike."""
 
-WRAPS = [
-    path.stem for path in sorted(CASES.glob("*.toml")) if 'kind = "wrap"' in path.read_text("utf-8")
-]
+WRAPS = [path.stem for path in sorted(CASES.glob("*.toml")) if 'kind = "wrap"' in path.read_text("utf-8")]
 
 
 class Row(NamedTuple):

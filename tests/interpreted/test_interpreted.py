@@ -161,10 +161,18 @@ def both():
 
 
 NAMES = (
-    "archard", "power, advance", "drozdov", "slip_ratio", "sliding_distance_mm",
-    "prescribed argument", "strand argument", "offset form", "wrap", "wrap, roller aloft",
+    "archard",
+    "power, advance",
+    "drozdov",
+    "slip_ratio",
+    "sliding_distance_mm",
+    "prescribed argument",
+    "strand argument",
+    "offset form",
+    "wrap",
+    "wrap, roller aloft",
     "wrap, friction",
-)  # fmt: skip
+)
 
 
 def test_modes_differ(both):

@@ -31,13 +31,9 @@ Build = Callable[..., Mechanism]
 """Of nodes, and of factors on all lengths, on the load and on the sliding."""
 
 
-def on_strand(
-    profile: Profile, strand: Strand, length: float, load: float, slip: float
-) -> Mechanism:
+def on_strand(profile: Profile, strand: Strand, length: float, load: float, slip: float) -> Mechanism:
     return StrandMechanism(
-        strand=Strand(
-            length * strand.centrode_radius, length * strand.roller_radius, length * strand.offset
-        ),
+        strand=Strand(length * strand.centrode_radius, length * strand.roller_radius, length * strand.offset),
         profile=Profile(length * profile.x, length * profile.y),
         contact_end=length * 4.0,
         contact_start=length * 30.67,
@@ -84,9 +80,7 @@ def slip_ratio(nodes: int, length: float = 1.0, load: float = 1.0, slip: float =
     return prescribed(Kind.TRAVELLING, nodes, length, load, slip)
 
 
-def sliding_distance(
-    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
-) -> Mechanism:
+def sliding_distance(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
     return prescribed(Kind.LOCAL, nodes, length, load, slip)
 
 
@@ -122,9 +116,8 @@ def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) 
         pitch_angle=0.25 * np.pi,
         wrap_angle=0.225 * np.pi,
         chain=WrapChain(pitch, radius, 0.5 * radius, 5e7 / length, alternating=False),
-        pull=Pull(load * 1e6, load * 0.9e6, driver=True, friction_roller_tooth=0.0,
-                  friction_roller_bush=0.0),
-    )  # fmt: skip
+        pull=Pull(load * 1e6, load * 0.9e6, driver=True, friction_roller_tooth=0.0, friction_roller_bush=0.0),
+    )
     return Wrapped(
         WrapContact(
             blocks=(WrapBlock(1.0, mechanism, pitch_time=0.1, wear_factor=1.0),),
@@ -186,15 +179,11 @@ def rigid_gears(nodes: int, length: float = 1.0, load: float = 1.0, slip: float 
     return gears(c14(10.0 * length), 0.0, nodes, length, load, slip)
 
 
-def elastic_gears(
-    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
-) -> Mechanism:
+def elastic_gears(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
     return gears(c14(10.0 * length), 1400.0, nodes, length, load, slip)
 
 
-def convex_concave(
-    nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
-) -> Mechanism:
+def convex_concave(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
     size = 10.0 * length
     pair = ConvexConcave(4.5 * size, 17, 34, np.radians(20.0), 10.0 * size, 9.0 * size, 4.5 * size)
     return gears(pair, 100.0, nodes, length, load, slip)

@@ -47,8 +47,7 @@ def test_prescribed_rows_backwards(tmp_path: Path, column: str, method: str, wit
     for name, table in (("run.csv", columns), ("mirror.csv", backwards)):
         mechanism = {"kind": "prescribed", "table_file": write(tmp_path / name, table)}
         case = wearsim.load_case(
-            {**TABLES, "mechanism": mechanism},
-            [f"run.method={method}", "wear.coefficient=1e-9"],
+            {**TABLES, "mechanism": mechanism}, [f"run.method={method}", "wear.coefficient=1e-9"]
         )
         results.append(wearsim.simulate(case))
     first, mirror = results

@@ -73,9 +73,7 @@ def test_pressure_and_axis_follow_their_closed_forms(solve):
 
 def test_load_is_carried(solve):
     mesh = solve(BASE, 8)
-    assert 2.0 * np.trapezoid(mesh.pressure, mesh.place) == pytest.approx(
-        BASE.load_per_width, rel=1e-6
-    )
+    assert 2.0 * np.trapezoid(mesh.pressure, mesh.place) == pytest.approx(BASE.load_per_width, rel=1e-6)
 
 
 def test_what_is_left_of_the_error_is_that_of_bodies_of_some_size(solve):

@@ -58,9 +58,7 @@ def test_steps_keep_to_a_tenth_of_the_tolerance(lives: ModuleType, cases: list[A
     assert not wrong, "\n".join(wrong)
 
 
-def test_error_of_the_steps_is_not_above_the_one_stated(
-    lives: ModuleType, cases: list[Any]
-) -> None:
+def test_error_of_the_steps_is_not_above_the_one_stated(lives: ModuleType, cases: list[Any]) -> None:
     wrong = [told(case) for case in cases if case.steps > case.stated + lives.ROUNDING]
     assert not wrong, "\n".join(wrong)
 

@@ -16,11 +16,7 @@ CASES = Path(wearsim.__file__).parents[1] / "cases"
 
 @pytest.mark.parametrize(
     ("name", "states"),
-    [
-        ("16b-20t-oiled", ("new", "worn")),
-        ("convex-concave-17t-mild", ("new",)),
-        ("a40-19t-rating", ("new",)),
-    ],
+    [("16b-20t-oiled", ("new", "worn")), ("convex-concave-17t-mild", ("new",)), ("a40-19t-rating", ("new",))],
 )
 def test_volume_is_area_times_width(tmp_path, name, states):
     build123d = pytest.importorskip("build123d", reason="build123d is not installed")
@@ -29,8 +25,6 @@ def test_volume_is_area_times_width(tmp_path, name, states):
     path = tmp_path / "wheel.step"
     path.write_bytes(step_bytes(shapes, states))
     solids = build123d.import_step(path).solids()
-    expected = [
-        shape.chains(state)[0].outline.area * shape.width for shape in shapes for state in states
-    ]
+    expected = [shape.chains(state)[0].outline.area * shape.width for shape in shapes for state in states]
     assert all(one.is_valid for one in solids)
     assert [one.volume for one in solids] == pytest.approx(expected, rel=1e-6)

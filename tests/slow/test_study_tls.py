@@ -80,11 +80,25 @@ def scheduler(place, tls):
     with (place / "cluster.log").open("w") as log:
         running = [
             subprocess.Popen(
-                [DASK, "scheduler", "--host", "127.0.0.1", "--protocol", "tls", "--port", "0",
-                 "--no-dashboard", "--scheduler-file", str(file), *tls],
-                stdout=log, stderr=log, **common,
+                [
+                    DASK,
+                    "scheduler",
+                    "--host",
+                    "127.0.0.1",
+                    "--protocol",
+                    "tls",
+                    "--port",
+                    "0",
+                    "--no-dashboard",
+                    "--scheduler-file",
+                    str(file),
+                    *tls,
+                ],
+                stdout=log,
+                stderr=log,
+                **common,
             )
-        ]  # fmt: skip
+        ]
         try:
             end = time.monotonic() + 60
             while not file.exists():
@@ -92,11 +106,24 @@ def scheduler(place, tls):
                 time.sleep(0.02)
             running.append(
                 subprocess.Popen(
-                    [DASK, "worker", "--scheduler-file", str(file), "--nthreads", "1",
-                     "--no-dashboard", "--no-nanny", "--local-directory", str(place), *tls],
-                    stdout=log, stderr=log, **common,
+                    [
+                        DASK,
+                        "worker",
+                        "--scheduler-file",
+                        str(file),
+                        "--nthreads",
+                        "1",
+                        "--no-dashboard",
+                        "--no-nanny",
+                        "--local-directory",
+                        str(place),
+                        *tls,
+                    ],
+                    stdout=log,
+                    stderr=log,
+                    **common,
                 )
-            )  # fmt: skip
+            )
             yield file
         finally:
             for process in running:

@@ -47,15 +47,20 @@ def study(tmp_path_factory):
 
 def command(folder, out, *options):
     return [
-        WEARSIM, "uncertainty", str(folder / "case.toml"), "--samples", str(SAMPLES), "-q",
-        "--out", str(folder / out), *map(str, options),
-    ]  # fmt: skip
+        WEARSIM,
+        "uncertainty",
+        str(folder / "case.toml"),
+        "--samples",
+        str(SAMPLES),
+        "-q",
+        "--out",
+        str(folder / out),
+        *map(str, options),
+    ]
 
 
 def run(folder, out, *options):
-    return subprocess.run(
-        command(folder, out, *options), capture_output=True, text=True, timeout=300
-    )
+    return subprocess.run(command(folder, out, *options), capture_output=True, text=True, timeout=300)
 
 
 def table(folder, out):
@@ -92,20 +97,45 @@ def cluster(tmp_path):
     environment = {**os.environ, "DASK_TEMPORARY_DIRECTORY": str(tmp_path)}
     processes = [
         subprocess.Popen(
-            [DASK, "scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
-             "--scheduler-file", str(place)],
-            stdout=log, stderr=log, env=environment, cwd=tmp_path,
+            [
+                DASK,
+                "scheduler",
+                "--host",
+                "127.0.0.1",
+                "--port",
+                "0",
+                "--no-dashboard",
+                "--scheduler-file",
+                str(place),
+            ],
+            stdout=log,
+            stderr=log,
+            env=environment,
+            cwd=tmp_path,
         )
-    ]  # fmt: skip
+    ]
     wait_for(place.exists)
     processes += [
         subprocess.Popen(
-            [DASK, "worker", "--scheduler-file", str(place), "--nthreads", "1", "--no-dashboard",
-             "--no-nanny", "--local-directory", str(tmp_path)],
-            stdout=log, stderr=log, env=environment, cwd=tmp_path,
+            [
+                DASK,
+                "worker",
+                "--scheduler-file",
+                str(place),
+                "--nthreads",
+                "1",
+                "--no-dashboard",
+                "--no-nanny",
+                "--local-directory",
+                str(tmp_path),
+            ],
+            stdout=log,
+            stderr=log,
+            env=environment,
+            cwd=tmp_path,
         )
         for _ in range(2)
-    ]  # fmt: skip
+    ]
     yield place, processes[1:]
     for process in processes:
         process.kill()
@@ -145,9 +175,7 @@ def test_killed_study_goes_on(study):
 def test_process_that_is_killed_is_replaced(study):
     process = start(study, "orphan", "--jobs", 2)
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-    workers = [
-        pid for pid in children if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
-    ]
+    workers = [pid for pid in children if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
     os.kill(int(workers[0]), signal.SIGKILL)
     _, text = process.communicate(timeout=300)
     assert process.returncode == 0, text

@@ -54,9 +54,7 @@ def test_errors_of_both_ends_that_cancel_on_one_grid_are_seen_on_another() -> No
         (1e-3 * (1 + 1e-6), 1e-3, "numerical error 0.001000001 exceeds the tolerance 0.001"),
     ],
 )
-def test_error_beyond_its_tolerance_is_printed_as_more(
-    error: float, tolerance: float, expected: str
-) -> None:
+def test_error_beyond_its_tolerance_is_printed_as_more(error: float, tolerance: float, expected: str) -> None:
     assert exceeds(error, tolerance) == expected
 
 

@@ -24,9 +24,13 @@ LAW, LIMIT = archard(STEP / SIGMA), (depth_criterion(DEPTH),)
 
 
 def contact(
-    nodes: int = 41, load: float = LOAD, path: float = 1.0, ripple: float = 0.0,
-    curvature: float = 0.0, kind: Kind = Kind.LOCAL,
-) -> Contact:  # fmt: skip
+    nodes: int = 41,
+    load: float = LOAD,
+    path: float = 1.0,
+    ripple: float = 0.0,
+    curvature: float = 0.0,
+    kind: Kind = Kind.LOCAL,
+) -> Contact:
     arc = np.linspace(0.0, 4.0, nodes)
     return PrescribedMechanism(
         kind=kind,
@@ -93,9 +97,7 @@ def test_fine_grids_are_stable() -> None:
     assert lives == pytest.approx([lives[-1]] * 3, rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("given", "match"), [(contact(path=0.0), "slide"), (contact(load=0.0), "touch")]
-)
+@pytest.mark.parametrize(("given", "match"), [(contact(path=0.0), "slide"), (contact(load=0.0), "touch")])
 def test_no_slip_or_no_load_is_an_error(given: Contact, match: str) -> None:
     with pytest.raises(ContactError, match=f"cycle 0.*{match}"):
         run_advance(given, LAW, LIMIT, 1e9, 1e-3)

@@ -7,13 +7,7 @@ import pytest
 from scipy.stats import norm
 
 from wearsim.errors import ContactError
-from wearsim.study.calibrate.least_squares import (
-    Interval,
-    Problem,
-    fit,
-    profile_interval,
-    stated_at,
-)
+from wearsim.study.calibrate.least_squares import Interval, Problem, fit, profile_interval, stated_at
 
 Z = norm.ppf(0.95)
 WIDE = np.full(2, -50.0), np.full(2, 50.0)

@@ -107,9 +107,7 @@ def test_default_depth_is_a_tenth_of_the_tooth_at_the_pitch_line(load):
     ("rate", "warns"), [("1e-16", True), ("1e-14", False), ("9e-7", False), ("1e-5", True)]
 )
 def test_wear_rate_that_looks_a_thousand_times_off(load, rate, warns):
-    text = MINIMAL.replace(
-        'condition = "hardened, oiled"', f"specific_wear_rate_mm2_per_N = {rate}"
-    )
+    text = MINIMAL.replace('condition = "hardened, oiled"', f"specific_wear_rate_mm2_per_N = {rate}")
     assert any("factor of 1000" in text for text in load(text).warnings) is warns
 
 
@@ -151,9 +149,7 @@ def test_joints_take_the_state_of_the_teeth_and_say_from_where(load, condition, 
 
 
 def test_joints_without_a_condition_are_well_lubricated_and_say_so(load):
-    case = load(
-        WRAPPED.replace('condition = "hardened, oiled"', "specific_wear_rate_mm2_per_N = 1e-8")
-    )
+    case = load(WRAPPED.replace('condition = "hardened, oiled"', "specific_wear_rate_mm2_per_N = 1e-8"))
     assert case.drive.joint.coefficient == 1.2e-10
     assert "as in 'hardened, oiled', none is named" in joint_text(case)
 
@@ -164,11 +160,7 @@ def test_joints_without_a_condition_are_well_lubricated_and_say_so(load):
         ("hardened, dry", 1.2e-10, "is a rate of lubricated joints: remove it, which takes 7e-09,"),
         ("soil-contaminated", 9.9e-10, "joints in that state have 1e-09 to 1e-07 mm2/N"),
         ("hardened, oiled", 7e-9, "is a rate of dry or contaminated joints: remove it"),
-        (
-            "normalised, greased",
-            1.01e-9,
-            "the teeth are lubricated, and joints in that state have 9e-11",
-        ),
+        ("normalised, greased", 1.01e-9, "the teeth are lubricated, and joints in that state have 9e-11"),
         ("hardened, dry", 1e-9, None),
         ("soil-contaminated", 1e-6, None),
         ("hardened, oiled", 1e-9, None),

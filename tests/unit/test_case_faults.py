@@ -113,8 +113,7 @@ def test_all_faults_of_all_tables_in_the_order_of_their_lines(faults):
         ),
         (
             "drive.toml:16",
-            "run.method: must be 'advance' or 'per_cycle' (got 'advanced'); "
-            "did you mean 'advance'?",
+            "run.method: must be 'advance' or 'per_cycle' (got 'advanced'); did you mean 'advance'?",
         ),
         ("drive.toml:18", "unheard: unknown table"),
         ("drive.toml", "format_version: this key is required and missing"),
@@ -141,18 +140,16 @@ def test_no_fault_follows_from_another(faults):
 
 
 FATIGUE_FAULTS = {
-    "treatment = 'nitrided'\nhardness_HRC = 60": {
-        "fatigue.sprocket.contact_limit_MPa": "needs this key",
-    },
+    "treatment = 'nitrided'\nhardness_HRC = 60": {"fatigue.sprocket.contact_limit_MPa": "needs this key"},
     "treatment = 'improved'\nhardness_HB = 300\nhardness_HRC = 30": {
-        "fatigue.sprocket.hardness_HB": "exactly one of hardness_HB and hardness_HRC (got both)",
+        "fatigue.sprocket.hardness_HB": "exactly one of hardness_HB and hardness_HRC (got both)"
     },
     "treatment = 'nitrided'": {
         "fatigue.sprocket.hardness_HB": "(got none)",
         "fatigue.sprocket.contact_limit_MPa": "needs this key",
     },
     "treatment = 'carburized'\nhardness_HRC = 60": {
-        "fatigue.sprocket.treatment": "did you mean 'carburised'",
+        "fatigue.sprocket.treatment": "did you mean 'carburised'"
     },
 }
 
@@ -198,9 +195,7 @@ def test_empty_file_names_every_required_part(faults):
 
 
 def test_keys_where_tables_belong(faults):
-    text = (
-        'format_version = 1\nchain = 5\nsprocket = "x"\nload = []\nwear = 2020-01-01\nrun = true\n'
-    )
+    text = 'format_version = 1\nchain = 5\nsprocket = "x"\nload = []\nwear = 2020-01-01\nrun = true\n'
     assert [line.split(" (got")[0] for line in faults(text)] == [
         f"drive.toml:{number}: {name}: must be a table"
         for number, name in enumerate(("chain", "sprocket", "load", "wear", "run"), start=2)
@@ -245,12 +240,7 @@ def test_no_file(tmp_path, name, reason):
 
 CONFLICTS = [
     (("[chain]", "[chain]\npitch_mm = 25.4"), "3", "chain.pitch_mm", "remove one of both"),
-    (
-        ('designation = "16B-1"', "pitch_mm = 25.4"),
-        "3",
-        "chain.roller_diameter_mm",
-        "(missing: rol",
-    ),
+    (('designation = "16B-1"', "pitch_mm = 25.4"), "3", "chain.roller_diameter_mm", "(missing: rol"),
     (
         ('designation = "16B-1"', "pitch_mm = 9\nroller_diameter_mm = 9\ninner_width_mm = 9"),
         "4",
@@ -268,44 +258,19 @@ CONFLICTS = [
         "wear.condition",
         "remove it or specific_wear_rate_mm2_per_N",
     ),
-    (
-        ("[wear]", "[run]\ncycles_per_update = 2\n[wear]"),
-        "11",
-        "run.cycles_per_update",
-        "per_cycle",
-    ),
+    (("[wear]", "[run]\ncycles_per_update = 2\n[wear]"), "11", "run.cycles_per_update", "per_cycle"),
     (
         ("[wear]", "[material.roller]\nname = 'steel'\npoissons_ratio = 0.3\n[wear]"),
         "12",
         "material.roller.poissons_ratio",
         "remove one of both",
     ),
-    (
-        ("[wear]", "[material.roller]\nname = 'steal'\n[wear]"),
-        "11",
-        "material.roller.name",
-        "'steel'",
-    ),
+    (("[wear]", "[material.roller]\nname = 'steal'\n[wear]"), "11", "material.roller.name", "'steel'"),
     (("teeth = 20", "teeth = 20\nface_width_mm = 18"), "6", "sprocket.face_width_mm", "17.02 mm"),
-    (
-        ("teeth = 20", "teeth = 20\ncontact_start_mm = 20"),
-        "6",
-        "sprocket.contact_start_mm",
-        "ratio",
-    ),
-    (
-        ("teeth = 20", "teeth = 20\nevolute_offset_mm = 2"),
-        "6",
-        "sprocket.evolute_offset_mm",
-        "exit",
-    ),
+    (("teeth = 20", "teeth = 20\ncontact_start_mm = 20"), "6", "sprocket.contact_start_mm", "ratio"),
+    (("teeth = 20", "teeth = 20\nevolute_offset_mm = 2"), "6", "sprocket.evolute_offset_mm", "exit"),
     (("teeth = 20", "teeth = 20\npoints_file = 'a'"), "6", "sprocket.points_file", "'points'"),
-    (
-        ("teeth = 20", "teeth = 20\nengaged_every = 0"),
-        "6",
-        "sprocket.engaged_every",
-        "at least|great",
-    ),
+    (("teeth = 20", "teeth = 20\nengaged_every = 0"), "6", "sprocket.engaged_every", "at least|great"),
     (("[wear]", "[mechanism]\nkind = 'prescribed'\n[wear]"), "11", "mechanism.table_file", "needs"),
     (("[wear]", "[stop]\nmin_tip_land_mm = 60\n[wear]"), "11", "stop.min_tip_land_mm", "below"),
     (("[wear]", "[run]\nlife_tolerance = 1\n[wear]"), "11", "run.life_tolerance", "less"),
@@ -347,8 +312,7 @@ class TestOverrides:
         path = tmp_path / "drive.toml"
         path.write_text(MINIMAL)
         case = load_case(
-            path,
-            ["sprocket.teeth=25", "chain.designation = 12B-1", 'load.power_kW="2 kW"', "title=a b"],
+            path, ["sprocket.teeth=25", "chain.designation = 12B-1", 'load.power_kW="2 kW"', "title=a b"]
         )
         assert case.inputs["sprocket"]["teeth"] == 25
         assert case.drive.chain.pitch == 19.05
@@ -357,18 +321,11 @@ class TestOverrides:
 
     def test_faults_point_at_the_override(self, faults):
         lines = faults(
-            changed(("profile", "profil")),
-            "sprocket.teeth=3",
-            "load.power_kw=3",
-            "chain.designation=16X",
+            changed(("profile", "profil")), "sprocket.teeth=3", "load.power_kw=3", "chain.designation=16X"
         )
         places = [line.split(": ")[0] for line in lines]
         assert places[:2] == ["drive.toml:5", "drive.toml:6"]
-        assert set(places[2:]) == {
-            "--set sprocket.teeth",
-            "--set load.power_kw",
-            "--set chain.designation",
-        }
+        assert set(places[2:]) == {"--set sprocket.teeth", "--set load.power_kw", "--set chain.designation"}
 
     def test_override_of_a_whole_table(self, faults):
         (line,) = faults(MINIMAL, "chain={pitch_mm=25.4}")

@@ -114,9 +114,7 @@ def pitch_radius(teeth: float) -> float:
 @pytest.mark.parametrize("kind", ["csv", "dxf"])
 @pytest.mark.parametrize("teeth", [18, 20])
 @pytest.mark.parametrize("form", ["min", "max"])
-def test_gap_of_a_tooth_more_or_less_is_refused(
-    tmp_path: Path, kind: str, teeth: int, form: Any
-) -> None:
+def test_gap_of_a_tooth_more_or_less_is_refused(tmp_path: Path, kind: str, teeth: int, form: Any) -> None:
     points = points_of(iso606_gap(PITCH, ROLLER, teeth, form))
     seat = pitch_radius(teeth) - (gap_form(form, ROLLER, teeth).seat_radius - 0.5 * ROLLER)
     with pytest.raises(wearsim.CaseError) as raised:
@@ -202,9 +200,7 @@ def test_drawing_in_metres_is_refused_at_once(tmp_path: Path) -> None:
     file = tmp_path / "gap.dxf"
     draw(file, points_of(iso606_gap(PITCH, ROLLER, 19), 31), units=6)
     sprocket = {"teeth": 19, "profile": "dxf", "dxf_file": str(file)}
-    with pytest.raises(
-        wearsim.CaseError, match=r"bottom of the gap .* lies 342\d\d mm .*\$INSUNITS"
-    ):
+    with pytest.raises(wearsim.CaseError, match=r"bottom of the gap .* lies 342\d\d mm .*\$INSUNITS"):
         wearsim.load_case(CASE | {"sprocket": sprocket})
 
 

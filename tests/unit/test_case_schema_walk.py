@@ -78,12 +78,7 @@ WRAP = {
     "stop": {"critical_depth_mm": 0.05},
     "run": {"horizon_hours": 100, "life_tolerance": 0.1},
 }
-LAYERS = {
-    "case_depth_mm": 0.02,
-    "core_factor": 4.0,
-    "running_in_factor": 2.0,
-    "running_in_distance_mm": 20.0,
-}
+LAYERS = {"case_depth_mm": 0.02, "core_factor": 4.0, "running_in_factor": 2.0, "running_in_distance_mm": 20.0}
 OWN_CHAIN = {
     "pitch_mm": 12.7,
     "roller_diameter_mm": 8.51,
@@ -97,14 +92,9 @@ BASES = {
     "strand": STRAND,
     "wrap": WRAP,
     "own wrap": edited(
-        WRAP,
-        chain=OWN_CHAIN,
-        drive={"mate_teeth": 20, "links": 60},
-        load={"power_kW": 0.4, "speed_rpm": 200},
+        WRAP, chain=OWN_CHAIN, drive={"mate_teeth": 20, "links": 60}, load={"power_kW": 0.4, "speed_rpm": 200}
     ),
-    "distance": edited(
-        WRAP, drive={"mate_teeth": 20, "centre_distance_mm": 270, "slack_tension_N": 30}
-    ),
+    "distance": edited(WRAP, drive={"mate_teeth": 20, "centre_distance_mm": 270, "slack_tension_N": 30}),
     "layers": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, **LAYERS}),
     "wrap layers": edited(WRAP, wear={**WRAP["wear"], **LAYERS, "case_depth_mm": 0.002}),
     "gost": edited(WRAP, sprocket={"teeth": 13, "profile": "gost591", "nodes": 101}),
@@ -119,18 +109,10 @@ BASES = {
             "nodes": 101,
         },
     ),
-    "max form": edited(
-        WRAP, sprocket={"teeth": 13, "profile": "iso606", "form": "max", "nodes": 101}
-    ),
+    "max form": edited(WRAP, sprocket={"teeth": 13, "profile": "iso606", "form": "max", "nodes": 101}),
     "drawing": edited(
         WRAP,
-        sprocket={
-            "teeth": 13,
-            "profile": "dxf",
-            "dxf_file": "gap.dxf",
-            "dxf_layer": "first",
-            "nodes": 101,
-        },
+        sprocket={"teeth": 13, "profile": "dxf", "dxf_file": "gap.dxf", "dxf_layer": "first", "nodes": 101},
     ),
     "catalogue": edited(STRAND, sprocket={"teeth": 20, "profile": "evolute", "nodes": 61}),
     "crawler": edited(
@@ -157,9 +139,7 @@ BASES = {
     "power drive": edited(STRAND, load={"power_kW": 3, "speed_rpm": 100}),
     "torque drive": edited(STRAND, load={"torque_N_m": 300, "speed_rpm": 100}),
     "archard": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, "band_factor": 2}),
-    "power law": edited(
-        STRAND, wear={"law": "power", "coefficient": 1e-14, "pressure_exponent": 2.0}
-    ),
+    "power law": edited(STRAND, wear={"law": "power", "coefficient": 1e-14, "pressure_exponent": 2.0}),
     "drozdov": edited(
         STRAND,
         wear={
@@ -259,14 +239,8 @@ CHANGES = {
         ("strand", "points", "sprocket.points_file"),
     ],
     "sprocket.engaged_every": [("crawler", 1)],
-    "sprocket.points_file": [
-        ("points", "other.csv"),
-        ("strand", "points.csv", "sprocket.points_file"),
-    ],
-    "sprocket.points_noise_mm": [
-        ("points", 3e-4),
-        ("strand", 1e-4, "sprocket.points_noise_mm"),
-    ],
+    "sprocket.points_file": [("points", "other.csv"), ("strand", "points.csv", "sprocket.points_file")],
+    "sprocket.points_noise_mm": [("points", 3e-4), ("strand", 1e-4, "sprocket.points_noise_mm")],
     "sprocket.face_width_mm": [("strand", 16.0), ("points", 16.0)],
     "sprocket.evolute_offset_mm": [("strand", 5.6), ("points", 5.45)],
     "sprocket.contact_start_mm": [("strand", 30.6), ("points", 30.5)],
@@ -289,14 +263,8 @@ CHANGES = {
     "load.torque_N_m": [("torque drive", 301), ("strand", 3, "load.torque_N_m")],
     "load.speed_rpm": [("strand", 101), ("power drive", 101), ("prescribed", 101)],
     "wear.law": [("strand", "power", "wear.condition")],
-    "wear.condition": [
-        ("strand", "soil-contaminated"),
-        ("archard", "hardened, dry", "wear.condition"),
-    ],
-    "wear.specific_wear_rate_mm2_per_N": [
-        ("archard", 2e-10),
-        ("strand", 1e-10, "wear.condition"),
-    ],
+    "wear.condition": [("strand", "soil-contaminated"), ("archard", "hardened, dry", "wear.condition")],
+    "wear.specific_wear_rate_mm2_per_N": [("archard", 2e-10), ("strand", 1e-10, "wear.condition")],
     "wear.coefficient": [("power law", 2e-14), ("drozdov", 2e-6)],
     "wear.pressure_exponent": [
         ("power law", 2.01),
@@ -304,42 +272,21 @@ CHANGES = {
         ("archard", 1.0, "wear.pressure_exponent"),
     ],
     "wear.hardness_MPa": [("drozdov", 4100), ("power law", 4000, "wear.hardness_MPa")],
-    "wear.reference_speed_mm_per_s": [
-        ("drozdov", 310),
-        ("power law", 300, "wear.reference_speed_mm_per_s"),
-    ],
+    "wear.reference_speed_mm_per_s": [("drozdov", 310), ("power law", 300, "wear.reference_speed_mm_per_s")],
     "wear.speed_exponent": [("drozdov", -0.2), ("power law", 0.1, "wear.speed_exponent")],
     "wear.band_factor": [("archard", 2.5), ("strand", 2.5), ("power law", 2.5), ("drozdov", 2.5)],
     "stop.critical_depth_mm": [("strand", 0.06), ("prescribed", 0.06)],
-    "stop.min_tip_land_mm": [
-        ("tip land", 9.08),
-        ("prescribed", 1.0, "stop.min_tip_land_mm"),
-    ],
+    "stop.min_tip_land_mm": [("tip land", 9.08), ("prescribed", 1.0, "stop.min_tip_land_mm")],
     "chain.pin_diameter_mm": [
         ("own wrap", 4.4),
         ("wrap", 4.4, "chain.pin_diameter_mm"),
         ("own chain", 4.4, "chain.pin_diameter_mm"),
     ],
-    "chain.bush_diameter_mm": [
-        ("wrap", 6.0),
-        ("own wrap", 9.0, "chain.bush_diameter_mm"),
-    ],
-    "chain.bearing_area_mm2": [
-        ("own wrap", 50.0),
-        ("wrap", 50.0, "chain.bearing_area_mm2"),
-    ],
-    "chain.mass_kg_per_m": [
-        ("own wrap", 0.71),
-        ("wrap", 0.71, "chain.mass_kg_per_m"),
-    ],
-    "sprocket.role": [
-        ("wrap", "driven"),
-        ("strand", "driven", "sprocket.role"),
-    ],
-    "sprocket.form": [
-        ("wrap", "max"),
-        ("gost", "max", "sprocket.form"),
-    ],
+    "chain.bush_diameter_mm": [("wrap", 6.0), ("own wrap", 9.0, "chain.bush_diameter_mm")],
+    "chain.bearing_area_mm2": [("own wrap", 50.0), ("wrap", 50.0, "chain.bearing_area_mm2")],
+    "chain.mass_kg_per_m": [("own wrap", 0.71), ("wrap", 0.71, "chain.mass_kg_per_m")],
+    "sprocket.role": [("wrap", "driven"), ("strand", "driven", "sprocket.role")],
+    "sprocket.form": [("wrap", "max"), ("gost", "max", "sprocket.form")],
     "sprocket.seat_radius_mm": [
         ("between forms", 4.4),
         ("between forms", 4.6, "sprocket.seat_radius_mm"),
@@ -356,89 +303,37 @@ CHANGES = {
         ("between forms", 134.0, "sprocket.seating_angle_deg"),
         ("max form", 120.0, "sprocket.seating_angle_deg"),
     ],
-    "sprocket.displaced": [
-        ("gost", True),
-        ("wrap", True, "sprocket.displaced"),
-    ],
+    "sprocket.displaced": [("gost", True), ("wrap", True, "sprocket.displaced")],
     "sprocket.seat_centre": [
         ("wrap", "root_diameter"),
         ("gost", "root_diameter"),
         ("strand", "root_diameter", "sprocket.seat_centre"),
     ],
-    "sprocket.tip_diameter_mm": [
-        ("wrap", 57.0),
-        ("drawing", 57.0, "sprocket.tip_diameter_mm"),
-    ],
-    "sprocket.dxf_file": [
-        ("drawing", "other.dxf"),
-        ("wrap", "gap.dxf", "sprocket.dxf_file"),
-    ],
-    "sprocket.dxf_layer": [
-        ("drawing", "second"),
-        ("drawing", "third", "sprocket.dxf_file"),
-    ],
-    "drive.mate_teeth": [
-        ("wrap", 21),
-        ("strand", 21, "drive.mate_teeth"),
-    ],
-    "drive.links": [
-        ("wrap", 62),
-        ("wrap", 61, "drive.links"),
-        ("distance", 60, "drive.centre_distance_mm"),
-    ],
-    "drive.centre_distance_mm": [
-        ("distance", 300),
-        ("distance", 20, "drive.centre_distance_mm"),
-    ],
-    "drive.slack_tension_N": [
-        ("wrap", 31),
-        ("wrap", 0.01, "drive.slack_tension_N"),
-    ],
-    "drive.sag_percent": [
-        ("own wrap", 1.9),
-        ("wrap", 2, "drive.sag_percent"),
-    ],
+    "sprocket.tip_diameter_mm": [("wrap", 57.0), ("drawing", 57.0, "sprocket.tip_diameter_mm")],
+    "sprocket.dxf_file": [("drawing", "other.dxf"), ("wrap", "gap.dxf", "sprocket.dxf_file")],
+    "sprocket.dxf_layer": [("drawing", "second"), ("drawing", "third", "sprocket.dxf_file")],
+    "drive.mate_teeth": [("wrap", 21), ("strand", 21, "drive.mate_teeth")],
+    "drive.links": [("wrap", 62), ("wrap", 61, "drive.links"), ("distance", 60, "drive.centre_distance_mm")],
+    "drive.centre_distance_mm": [("distance", 300), ("distance", 20, "drive.centre_distance_mm")],
+    "drive.slack_tension_N": [("wrap", 31), ("wrap", 0.01, "drive.slack_tension_N")],
+    "drive.sag_percent": [("own wrap", 1.9), ("wrap", 2, "drive.sag_percent")],
     "drive.inclination_deg": [
         ("own wrap", 30),
         ("own wrap", 90, "drive.inclination_deg"),
         ("wrap", 30, "drive.inclination_deg"),
     ],
-    "drive.link_stiffness_N_per_mm": [
-        ("wrap", 4e4),
-    ],
-    "mechanism.phases": [
-        ("wrap", 3),
-        ("strand", 3, "mechanism.phases"),
-    ],
-    "mechanism.friction_roller_tooth": [
-        ("wrap", 0.02),
-        ("strand", 0.02, "mechanism.friction_roller_tooth"),
-    ],
-    "mechanism.friction_roller_bush": [
-        ("wrap", 0.02),
-        ("strand", 0.02, "mechanism.friction_roller_bush"),
-    ],
+    "drive.link_stiffness_N_per_mm": [("wrap", 4e4)],
+    "mechanism.phases": [("wrap", 3), ("strand", 3, "mechanism.phases")],
+    "mechanism.friction_roller_tooth": [("wrap", 0.02), ("strand", 0.02, "mechanism.friction_roller_tooth")],
+    "mechanism.friction_roller_bush": [("wrap", 0.02), ("strand", 0.02, "mechanism.friction_roller_bush")],
     "joint.specific_wear_rate_mm2_per_N": [
         ("wrap", 1.1e-9),
         ("strand", 1e-9, "joint.specific_wear_rate_mm2_per_N"),
     ],
-    "joint.pitch": [
-        ("wrap", "uniform"),
-    ],
-    "stop.elongation_percent": [
-        ("wrap", 0.01),
-        ("strand", 1.0, "stop.elongation_percent"),
-    ],
-    "wear.case_depth_mm": [
-        ("layers", 0.03),
-        ("wrap layers", 0.001),
-        ("strand", 0.03, "wear.core_factor"),
-    ],
-    "wear.core_factor": [
-        ("layers", 3.0),
-        ("wrap layers", 3.0),
-        ("strand", 3.0, "wear.case_depth_mm"),
-    ],
+    "joint.pitch": [("wrap", "uniform")],
+    "stop.elongation_percent": [("wrap", 0.01), ("strand", 1.0, "stop.elongation_percent")],
+    "wear.case_depth_mm": [("layers", 0.03), ("wrap layers", 0.001), ("strand", 0.03, "wear.core_factor")],
+    "wear.core_factor": [("layers", 3.0), ("wrap layers", 3.0), ("strand", 3.0, "wear.case_depth_mm")],
     "wear.running_in_factor": [
         ("layers", 3.0),
         ("wrap layers", 3.0),
@@ -449,29 +344,20 @@ CHANGES = {
         ("wrap layers", 30.0),
         ("strand", 3.0, "wear.running_in_factor"),
     ],
-    "stop.case_depth_mm": [
-        ("strand", 0.02),
-        ("wrap", 0.001),
-    ],
+    "stop.case_depth_mm": [("strand", 0.02), ("wrap", 0.001)],
     "stop.min_tooth_thickness_mm": [
         ("strand", 7.57),
         ("prescribed", 1.0, "stop.min_tooth_thickness_mm"),
         ("wrap", 50.0, "stop.min_tooth_thickness_mm"),
     ],
-    "stop.over_pins_change_mm": [
-        ("wrap", 0.0001),
-        ("strand", 0.1, "stop.over_pins_change_mm"),
-    ],
+    "stop.over_pins_change_mm": [("wrap", 0.0001), ("strand", 0.1, "stop.over_pins_change_mm")],
     "stop.min_slack_tension_N": [
         ("wrap", 2.0),
         ("wrap", 30.1, "stop.min_slack_tension_N"),
         ("wrap", 1e-6, "stop.min_slack_tension_N"),
         ("strand", 1.0, "stop.min_slack_tension_N"),
     ],
-    "wear.roller_wear_ratio": [
-        ("wrap", 0.5),
-        ("strand", 0.5, "wear.roller_wear_ratio"),
-    ],
+    "wear.roller_wear_ratio": [("wrap", 0.5), ("strand", 0.5, "wear.roller_wear_ratio")],
     "run.method": [("per cycle", "advance", "run.cycles_per_update"), ("archard", "per_cycle")],
     "run.cycles_per_update": [("per cycle", 2), ("strand", 2, "run.cycles_per_update")],
     "run.life_tolerance": [("strand", 1e-5)],
@@ -481,10 +367,7 @@ CHANGES = {
 
 CHANGES |= {
     "duty.share_of_time": [("duty", 0.5000005), ("duty of cycles", 0.5, "duty.1.share_of_cycles")],
-    "duty.share_of_cycles": [
-        ("duty of cycles", 0.5000005),
-        ("duty", 0.5, "duty.1.share_of_cycles"),
-    ],
+    "duty.share_of_cycles": [("duty of cycles", 0.5000005), ("duty", 0.5, "duty.1.share_of_cycles")],
     "duty.tension_N": [("duty", 5001), ("duty of cycles", 5000, "duty.1.power_kW")],
     "duty.power_kW": [("duty of cycles", 2.01), ("duty", 2, "duty.1.power_kW")],
     "duty.torque_N_m": [("duty torque", 301), ("duty", 300, "duty.1.torque_N_m")],
@@ -603,12 +486,8 @@ def with_value(base, key, value):
     return changed
 
 
-EFFECTS = [
-    (key, *change) for key, changes in CHANGES.items() for change in changes if len(change) < 3
-]
-ERRORS = [
-    (key, *change) for key, changes in CHANGES.items() for change in changes if len(change) > 2
-]
+EFFECTS = [(key, *change) for key, changes in CHANGES.items() for change in changes if len(change) < 3]
+ERRORS = [(key, *change) for key, changes in CHANGES.items() for change in changes if len(change) > 2]
 
 
 def same(one, other):
@@ -630,9 +509,7 @@ def test_key_is_refused_by_name(run, key, base, value, named):
     assert key.rpartition(".")[2] in str(caught.value) or str(value) in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("key", "value"), [("title", "other"), ("sprocket.back_flank", "mirrored")]
-)
+@pytest.mark.parametrize(("key", "value"), [("title", "other"), ("sprocket.back_flank", "mirrored")])
 def test_key_without_effect(run, key, value):
     assert key in WITHOUT_EFFECT
     assert same(run(STRAND), run(with_value(STRAND, key, value)))

@@ -20,13 +20,16 @@ OILED = CASES / "16b-20t-oiled.toml"
 GEARS = {
     "format_version": 1,
     "gear": {
-        "pinion_teeth": 16, "wheel_teeth": 24, "module_mm": 4.5, "face_width_mm": 14,
+        "pinion_teeth": 16,
+        "wheel_teeth": 24,
+        "module_mm": 4.5,
+        "face_width_mm": 14,
         "pressure_angle_deg": 20,
     },
     "load": {"torque_N_m": 200, "speed_rpm": 100},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
     "stop": {"critical_depth_mm": 0.05},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(
@@ -63,14 +66,10 @@ def test_titles_of_chains_and_gears_of_ones_own():
     ("settings", "title"),
     [
         ([], "Evolute sprocket, 16B chain, 20 teeth"),
-        (
-            ["sprocket.teeth=25"],
-            "Evolute sprocket, 16B chain, 20 teeth, with sprocket.teeth = 25",
-        ),
+        (["sprocket.teeth=25"], "Evolute sprocket, 16B chain, 20 teeth, with sprocket.teeth = 25"),
         (
             ["load.speed_rpm=90", "wear.condition=hardened, dry", "sprocket.teeth=20"],
-            "Evolute sprocket, 16B chain, 20 teeth, with load.speed_rpm = 90, "
-            "wear.condition = hardened, dry",
+            "Evolute sprocket, 16B chain, 20 teeth, with load.speed_rpm = 90, wear.condition = hardened, dry",
         ),
         (["title=Mine", "sprocket.teeth=25"], "Mine"),
     ],
@@ -94,9 +93,7 @@ def test_page_tells_what_is_not_in_the_file():
 
 def test_designs_of_a_study_tell_their_values(tmp_path):
     tables = tomllib.loads(OILED.read_text(encoding="utf-8"))
-    save_designs(
-        tmp_path, {"01.toml": "design 1"}, Design("a", tables, {}, ("sprocket.teeth",), ((25,),))
-    )
+    save_designs(tmp_path, {"01.toml": "design 1"}, Design("a", tables, {}, ("sprocket.teeth",), ((25,),)))
     found = load_case(tmp_path / "01.toml")
     assert found.title == "Evolute sprocket, 16B chain, 20 teeth, with sprocket.teeth = 25"
 

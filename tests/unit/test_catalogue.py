@@ -53,8 +53,7 @@ def test_gost_names_with_strands():
 
 
 @pytest.mark.parametrize(
-    ("designation", "factor"),
-    [("08B-1", 0.93), ("06B-1", 0.93), ("10B-1", 0.95), ("16B-1", 0.95)],
+    ("designation", "factor"), [("08B-1", 0.93), ("06B-1", 0.93), ("10B-1", 0.95), ("16B-1", 0.95)]
 )
 def test_face_width_of_a_single_chain(designation, factor):
     """ISO 606 rim width b_f1: 0.93 b1 up to p = 12.7 mm, 0.95 b1 above."""
@@ -63,8 +62,7 @@ def test_face_width_of_a_single_chain(designation, factor):
 
 
 @pytest.mark.parametrize(
-    ("designation", "width"),
-    [("2ПР-12,7-31,8", 2 * 0.91 * 7.75), ("3ПР-25,4-171", 3 * 0.93 * 15.88)],
+    ("designation", "width"), [("2ПР-12,7-31,8", 2 * 0.91 * 7.75), ("3ПР-25,4-171", 3 * 0.93 * 15.88)]
 )
 def test_face_width_of_several_strands(designation, width):
     """ISO 606 for multiple chains: 0.91 b1 up to p = 12.7 mm, 0.93 b1 above, a strand each."""
@@ -122,10 +120,7 @@ def test_case_tells_of_the_doubtful_numbers_of_its_chain():
         for text in load_case(tables).assumptions
     )
     tables["chain"]["designation"] = "20B"
-    assert (
-        told.format("20B-1") + "pin_diameter_mm, found in one table only"
-        in load_case(tables).assumptions
-    )
+    assert told.format("20B-1") + "pin_diameter_mm, found in one table only" in load_case(tables).assumptions
     tables["chain"]["designation"] = "16B"
     assert not any("note of the catalogue" in text for text in load_case(tables).assumptions)
 
@@ -152,11 +147,7 @@ JOINTS = {
 def test_joint_and_mass(designation):
     """0 stands for what the table does not know."""
     chain, (pin, area, mass, transverse) = chains()[designation], JOINTS[designation]
-    assert (chain.pin_diameter, chain.bearing_area, chain.transverse_pitch) == (
-        pin,
-        area,
-        transverse,
-    )
+    assert (chain.pin_diameter, chain.bearing_area, chain.transverse_pitch) == (pin, area, transverse)
     assert chain.mass_per_length / KG_PER_M == pytest.approx(mass, rel=1e-12)
 
 
@@ -205,9 +196,7 @@ def test_note_of_the_single_row_is_kept():
     assert chains()["05B-2"].note.startswith("tensile_kN 4.4 in ISO 606, 5.0 in DIN 8187")
 
 
-@pytest.mark.parametrize(
-    "name", ["081-2", "085-2", "ANSI 41-2", "ПР-12,7-18,2-2", "2ПР-25,4-114-2"]
-)
+@pytest.mark.parametrize("name", ["081-2", "085-2", "ANSI 41-2", "ПР-12,7-18,2-2", "2ПР-25,4-114-2"])
 def test_no_strands_without_a_transverse_pitch_or_a_row_of_their_own(name):
     assert name not in chains()
 
@@ -220,13 +209,7 @@ def test_gost_suffix_is_no_count_of_strands():
 
 def test_bearing_area_is_pin_diameter_times_inner_link_width():
     """b2 of ISO 606 [mm]; the area is d2 b2 to rounding."""
-    for name, width in {
-        "08B": 11.30,
-        "10B": 13.28,
-        "12B": 15.62,
-        "16B": 25.45,
-        "16A": 22.60,
-    }.items():
+    for name, width in {"08B": 11.30, "10B": 13.28, "12B": 15.62, "16B": 25.45, "16A": 22.60}.items():
         chain = chains()[name]
         assert chain.bearing_area == pytest.approx(chain.pin_diameter * width, rel=2e-3)
 
@@ -244,10 +227,7 @@ def test_notes_are_kept():
 
 
 def test_materials():
-    assert (materials()["steel"].youngs_modulus, materials()["steel"].poissons_ratio) == (
-        2.1e5,
-        0.3,
-    )
+    assert (materials()["steel"].youngs_modulus, materials()["steel"].poissons_ratio) == (2.1e5, 0.3)
     assert all(-1.0 < material.poissons_ratio < 0.5 for material in materials().values())
 
 
@@ -316,21 +296,7 @@ def test_designation_as_people_type_it(typed, name):
 
 
 @pytest.mark.parametrize(
-    "typed",
-    [
-        "40",
-        "8B",
-        "08",
-        "08-1",
-        "0851",
-        "ANSI 402",
-        "ANSI 4-1",
-        "ПР-12.71-8.2",
-        "#08B",
-        "#",
-        "-",
-        "",
-    ],
+    "typed", ["40", "8B", "08", "08-1", "0851", "ANSI 402", "ANSI 4-1", "ПР-12.71-8.2", "#08B", "#", "-", ""]
 )
 def test_designation_that_could_be_another(typed):
     """Digits on both sides of a hyphen, and a number without its series, are not guessed at."""

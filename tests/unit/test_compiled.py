@@ -93,11 +93,7 @@ def test_edited_helper_changes_the_answer_and_cold_starts_share_the_cache(packag
     kernels, cache = package / "wearsim" / "kernels", str(tmp_path / "cache")
     (kernels / "scaled.py").write_text(HELPER, encoding="utf-8")
     edit(kernels / "wear.py", "depth[j] = factor\n", "depth[j] = scaled(factor)\n")
-    edit(
-        kernels / "wear.py",
-        "import math\n",
-        "import math\n\nfrom wearsim.kernels.scaled import scaled\n",
-    )
+    edit(kernels / "wear.py", "import math\n", "import math\n\nfrom wearsim.kernels.scaled import scaled\n")
     run = partial(life, package, NUMBA_CACHE_DIR=cache)
     (before, folder), again = at_once(run, run)
     assert (before, folder) == again
@@ -135,9 +131,7 @@ def test_read_only_install_runs_without_a_home(read_only, tmp_path):
     temporary.mkdir()
     (cycles, folder), (cycles_without, none) = at_once(
         partial(life, package, **settings, TMPDIR=str(temporary)),
-        partial(
-            life, package, script=NO_TEMPORARY_FOLDER, **{**settings, "NUMBA_CACHE_DIR": os.devnull}
-        ),
+        partial(life, package, script=NO_TEMPORARY_FOLDER, **{**settings, "NUMBA_CACHE_DIR": os.devnull}),
     )
     assert folder.parent == temporary / f"wearsim-{os.getuid()}"
     assert stat.S_IMODE(folder.parent.stat().st_mode) == 0o700

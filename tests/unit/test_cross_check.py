@@ -16,9 +16,34 @@ from wearsim.study.uncertainty.percentiles import fits
 # Escobar, Statistical Methods for Reliability Data (1998), table C.2. Their chapter 8 gives the maxima.
 FAILED = [6700, 9120, 12200, 13150, 14300, 17520, 20100, 20900, 22700, 26510, 27490]
 RUNNING = [
-    6950, 7820, 8790, 9660, 9820, 11310, 11690, 11850, 11880, 12140, 12870, 13330, 13470, 14040,
-    17540, 17890, 18450, 18960, 18980, 19410, 20100, 20150, 20320, 23490, 27410, 27890, 28100,
-]  # fmt: skip
+    6950,
+    7820,
+    8790,
+    9660,
+    9820,
+    11310,
+    11690,
+    11850,
+    11880,
+    12140,
+    12870,
+    13330,
+    13470,
+    14040,
+    17540,
+    17890,
+    18450,
+    18960,
+    18980,
+    19410,
+    20100,
+    20150,
+    20320,
+    23490,
+    27410,
+    27890,
+    28100,
+]
 ABSORBERS = np.array([*FAILED, *RUNNING], float)
 BROKEN = np.arange(38) < 11
 
@@ -53,10 +78,12 @@ def test_maximum_and_bounds_by_the_likelihood_written_out(name):
     best = optimize.minimize(cost, (10.0, -1.0), method="Nelder-Mead", options=options).x
     a, b = 1e-3 * np.eye(2)
     curvature = [
-        [(cost(best + p + q) - cost(best + p - q) - cost(best - p + q) + cost(best - p - q)) / 4e-6
-         for p in (a, b)]
+        [
+            (cost(best + p + q) - cost(best + p - q) - cost(best - p + q) + cost(best - p - q)) / 4e-6
+            for p in (a, b)
+        ]
         for q in (a, b)
-    ]  # fmt: skip
+    ]
     deviation = 1.959964 * np.sqrt(np.diag(np.linalg.inv(curvature)))
     found = by_name(ABSORBERS, BROKEN)[name]
     ends = [np.exp(best[0] + sign * deviation[0]) for sign in (0.0, -1.0, 1.0)]

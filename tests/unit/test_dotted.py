@@ -31,16 +31,23 @@ def test_a_table_whose_keys_are_misspelt_is_still_a_value():
 @pytest.mark.parametrize(
     ("table", "told"),
     [
-        ({"uncertainty": {"load.power_kW": {"distributio": "normal"}}},
-         ["uncertainty.load.power_kW.distribution: this key is required and missing",
-          "uncertainty.load.power_kW.distributio: unknown key"]),
-        ({"optimise": {"parameters": {"load.power_kW": {"low": 1.0, "hihg": 2.0}}}},
-         ["optimise.parameters.load.power_kW.high: this key is required and missing",
-          "optimise.parameters.load.power_kW.hihg: unknown key"]),
-        ({"optimise": {"parameters": {"load.power_kW": [1.0]}}},
-         ["optimise.parameters.load.power_kW: "]),
+        (
+            {"uncertainty": {"load.power_kW": {"distributio": "normal"}}},
+            [
+                "uncertainty.load.power_kW.distribution: this key is required and missing",
+                "uncertainty.load.power_kW.distributio: unknown key",
+            ],
+        ),
+        (
+            {"optimise": {"parameters": {"load.power_kW": {"low": 1.0, "hihg": 2.0}}}},
+            [
+                "optimise.parameters.load.power_kW.high: this key is required and missing",
+                "optimise.parameters.load.power_kW.hihg: unknown key",
+            ],
+        ),
+        ({"optimise": {"parameters": {"load.power_kW": [1.0]}}}, ["optimise.parameters.load.power_kW: "]),
     ],
-)  # fmt: skip
+)
 def test_faults_name_the_key_and_nothing_of_the_library(table, told):
     with pytest.raises(CaseError) as caught:
         wearsim.load_case({**CASE, **table})

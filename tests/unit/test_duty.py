@@ -66,9 +66,7 @@ def faults(case):
 def table(case):
     """Shares, tensions, speeds and factors of the blocks of a case."""
     drive = case.drive
-    return [
-        (block.share, block.tension, block.speed_rpm, block.wear_factor) for block in drive.blocks
-    ]
+    return [(block.share, block.tension, block.speed_rpm, block.wear_factor) for block in drive.blocks]
 
 
 class TestShares:
@@ -128,9 +126,7 @@ def test_equal_blocks_keep_the_factors_of_teeth_and_joints(case):
 
 def test_power_and_torque_of_a_block_are_those_of_load(case):
     """P/(omega R) with R = 20 p/(2 pi): 3 kW at 100 rpm pull 3543.3 N, 280 N m pull 3463.2 N."""
-    found = case(
-        blocks((0.5, 3, 100), load="power_kW") + blocks((0.5, 280, 100), load="torque_N_m")
-    )
+    found = case(blocks((0.5, 3, 100), load="power_kW") + blocks((0.5, 280, 100), load="torque_N_m"))
     pulls = [3e6 / (100 / 60 * 20 * 25.4), 280e3 / (20 * 25.4 / (2 * np.pi))]
     assert [row[1] for row in table(found)] == pytest.approx(pulls, rel=1e-12)
     assert found.drive.pull == max(row[1] for row in table(found))
@@ -266,11 +262,7 @@ class TestLog:
 
     def test_the_smallest_joins_the_nearest(self):
         """10 turns of 1000 N go to 1100 N, not to 3000 N."""
-        given = [
-            LogBlock(60.0, 60.0, 1100.0),
-            LogBlock(60.0, 60.0, 3000.0),
-            LogBlock(10.0, 10.0, 1000.0),
-        ]
+        given = [LogBlock(60.0, 60.0, 1100.0), LogBlock(60.0, 60.0, 3000.0), LogBlock(10.0, 10.0, 1000.0)]
         low, high = merged(given, 2)
         assert high == given[1]
         assert low == LogBlock(70.0, 70.0, pytest.approx((66e3 + 10e3) / 70))
@@ -288,9 +280,7 @@ class TestLog:
         assert [tension, speed] == pytest.approx([4321.0, 97.3], rel=1e-14)
 
     def test_on_a_wrap_blocks_are_few_and_idling_takes_the_slack_tension(self, case):
-        rows = [
-            f"{i},{0 if i % 4 == 0 else 1000 + 40 * (i % 50)},{60 + i % 37}" for i in range(400)
-        ]
+        rows = [f"{i},{0 if i % 4 == 0 else 1000 + 40 * (i % 50)},{60 + i % 37}" for i in range(400)]
         found = case(self.KEYS, log_text(*rows), [*CUT, f"drive={DRIVE}"])
         assert len(table(found)) == 12
         tensions = [row[1] for row in table(found)]
@@ -309,39 +299,19 @@ class TestFaults:
     @pytest.mark.parametrize(
         ("more", "line", "words"),
         [
-            (
-                blocks((0.5, 5000, 100), (0.49, 3000, 100)),
-                0,
-                "duty: share_of_time .* sum to 1 .*0.99",
-            ),
+            (blocks((0.5, 5000, 100), (0.49, 3000, 100)), 0, "duty: share_of_time .* sum to 1 .*0.99"),
             (
                 blocks((0.5, 5000, 100)) + blocks((0.5, 3000, 100), share="share_of_cycles"),
                 5,
                 r"duty.2.share_of_cycles: .*same share, block 1 has share_of_time",
             ),
             (GOOD + "share_of_cycles = 0.5\n", 8, "duty.2.share_of_cycles: give exactly one of"),
-            (
-                GOOD + "power_kW = 5\n",
-                8,
-                r"duty.2.power_kW: give exactly one of .*tension_N, power_kW\)",
-            ),
+            (GOOD + "power_kW = 5\n", 8, r"duty.2.power_kW: give exactly one of .*tension_N, power_kW\)"),
             (GOOD.replace("tension_N = 3000\n", ""), 4, r"duty.2.tension_N: .*\(got none\)"),
-            (
-                GOOD.replace("= 3000", "= -3000"),
-                6,
-                r"duty.2.tension_N: .*greater than 0 \(got -3000",
-            ),
-            (
-                GOOD.replace("time = 0.5", "time = -0.5", 1),
-                1,
-                "duty.1.share_of_time: .*greater than 0",
-            ),
+            (GOOD.replace("= 3000", "= -3000"), 6, r"duty.2.tension_N: .*greater than 0 \(got -3000"),
+            (GOOD.replace("time = 0.5", "time = -0.5", 1), 1, "duty.1.share_of_time: .*greater than 0"),
             (GOOD.replace("time = 0.5", "time = 1.5", 1), 1, "duty.1.share_of_time: .*less than"),
-            (
-                GOOD.replace("rpm = 100", "rpm = 0", 1),
-                3,
-                r"duty.1.speed_rpm: .*or equal to 0\.000001",
-            ),
+            (GOOD.replace("rpm = 100", "rpm = 0", 1), 3, r"duty.1.speed_rpm: .*or equal to 0\.000001"),
             (GOOD.replace("speed_rpm = 100\n", "", 1), 0, "duty.1.speed_rpm: this key is required"),
             (GOOD + "wear_factor = 0\n", 8, "duty.2.wear_factor: .*greater than 0"),
             (
@@ -362,9 +332,7 @@ class TestFaults:
         assert found == FIRST + line
 
     def test_all_in_one_pass(self, faults):
-        more = (
-            GOOD.replace("= 3000", "= -3000").replace("rpm = 100", "rpm = 0", 1) + "[stop]\nx = 1\n"
-        )
+        more = GOOD.replace("= 3000", "= -3000").replace("rpm = 100", "rpm = 0", 1) + "[stop]\nx = 1\n"
         assert [line - FIRST for line, _ in faults(more)] == [3, 6, 9]
 
     @pytest.mark.parametrize(
@@ -388,22 +356,14 @@ class TestFaults:
             ("[load]\ntension_N = 5000\n", 1, "load.speed_rpm: this key is required and missing"),
             ("[load]\nspeed_rpm = 5\n", 1, "load.tension_N: give exactly one of"),
             ('[load]\nregime = "I"\nspeed_rpm = 5\n', 1, "load.tension_N: give exactly one of"),
-            (
-                '[load]\ntension_N = 5000\nspeed_rpm = 5\nregime = "VI"\n',
-                3,
-                "load.regime: must be '0', 'I'",
-            ),
+            ('[load]\ntension_N = 5000\nspeed_rpm = 5\nregime = "VI"\n', 3, "load.regime: must be '0', 'I'"),
             (
                 "[load]\ntension_N = 5000\nspeed_rpm = 5\nduty_bins = [4, 4]\n",
                 3,
                 "load.duty_bins: belongs to duty_file",
             ),
             *(
-                (
-                    f'[load]\nduty_file = "log.csv"\nduty_bins = {bins}\n',
-                    2,
-                    "load.duty_bins: must be two",
-                )
+                (f'[load]\nduty_file = "log.csv"\nduty_bins = {bins}\n', 2, "load.duty_bins: must be two")
                 for bins in ("[20]", "[0, 8]", "[1.0, 8]", "20", "[101, 8]", "[true, 8]")
             ),
         ],
@@ -423,15 +383,9 @@ class TestFaults:
                 log_text(*(f"{i},1000,60" for i in range(5)), "100,1000,60"),
                 "log.csv:7: time_s jumps by 96, the usual step is 1",
             ),
-            (
-                log_text("0,1000,60", "1,-5,60", "2,1,60"),
-                "log.csv:3: tension_N must not be negative",
-            ),
+            (log_text("0,1000,60", "1,-5,60", "2,1,60"), "log.csv:3: tension_N must not be negative"),
             (log_text("0,1000,60", "1,5,0", "2,1,60"), "log.csv:3: speed_rpm must be above 0"),
-            (
-                log_text("0,1000,60", "1,,60", "2,1,60"),
-                "log.csv:3: tension_N must be a finite number",
-            ),
+            (log_text("0,1000,60", "1,,60", "2,1,60"), "log.csv:3: tension_N must be a finite number"),
             (log_text("0,1000,60", "1,1000", "2,1,60"), "log.csv:3: needs 3 values, has 2"),
             (log_text("0,1e9,60", "1,1000,60"), "log.csv:2: tension_N must stay below .* tensile"),
             (log_text("0,0,60", "1,0,60"), "log.csv: tension_N must be above 0 in some row"),
@@ -440,10 +394,7 @@ class TestFaults:
                 log_text("0,1,1,1", "1,1,1,1", head="time_s,tension_N,speed_rpm,torque"),
                 "log.csv:1: unknown column 'torque'",
             ),
-            (
-                log_text("0,1", "1,1", head="time_s,tension_N"),
-                "log.csv:1: column 'speed_rpm' is missing",
-            ),
+            (log_text("0,1", "1,1", head="time_s,tension_N"), "log.csv:1: column 'speed_rpm' is missing"),
         ],
     )
     def test_of_a_log(self, faults, log, words):
@@ -472,10 +423,7 @@ class TestFaults:
         more = blocks((0.5, 5000, 100), (0.5, 900, 100))
         ((line, message),) = faults(more, overrides=[*CUT, f"drive={DRIVE}"])
         assert line == FIRST + 6
-        assert (
-            "duty.2.tension_N: the tight strand must pull more than the slack one, 1000 N"
-            in message
-        )
+        assert "duty.2.tension_N: the tight strand must pull more than the slack one, 1000 N" in message
 
     def test_of_a_log_that_never_pulls(self, faults):
         log = log_text("0,900,60", "1,900,60")

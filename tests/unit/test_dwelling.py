@@ -87,9 +87,7 @@ def unworn(profile):
     half = 0.5 * np.diff(profile.arc_length)
     spacing[1:] += half
     spacing[:-1] += half
-    return np.array(
-        [profile.x, profile.y, profile.normal_x, profile.normal_y, profile.curvature, spacing]
-    )
+    return np.array([profile.x, profile.y, profile.normal_x, profile.normal_y, profile.curvature, spacing])
 
 
 @pytest.mark.parametrize("convex", [False, True])
@@ -146,9 +144,13 @@ def test_first_step_is_small_whatever_the_law():
     for law in (LAW, drozdov(1e-9, 1.0, 2000.0, 100.0, 0.8), drozdov(1e-6, 2.0, 2000.0, 1.0, -1.0)):
         once = iter([True])
         run = run_dwelling(
-            Seat(count=1e-3), law, (depth_criterion(1e-4),), 1e15, 0,
+            Seat(count=1e-3),
+            law,
+            (depth_criterion(1e-4),),
+            1e15,
+            0,
             watch=lambda part, once=once: next(once, False),
-        )  # fmt: skip
+        )
         assert run.updates == 1
         first = run.depth[-1].max()
         assert 0.0 < first < 4e-5 * 1e-4
@@ -225,9 +227,7 @@ def test_a_run_begun_worn_goes_on():
     first = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0)
     start = Start(first.all_depth[-1], ChainWear(float(first.elongation[-1])), 1)
     second = run_dwelling(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0, start=start)
-    np.testing.assert_allclose(
-        second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max()
-    )
+    np.testing.assert_allclose(second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max())
     assert second.elongation[-1] == pytest.approx(whole.elongation[-1], rel=1e-12)
 
 
@@ -356,9 +356,7 @@ def test_engagement_of_a_worn_outline():
 
 
 def test_engagement_without_load():
-    met = Seat(load=0.0).engage(
-        *(np.array(v) for v in (Seat().profile.x, Seat().profile.y)), np.zeros(151)
-    )
+    met = Seat(load=0.0).engage(*(np.array(v) for v in (Seat().profile.x, Seat().profile.y)), np.zeros(151))
     assert not met.load_per_width.any() and not met.slip.any() and not met.per_cycle.any()
 
 

@@ -74,9 +74,7 @@ def test_difference_between_gaps_is_reported(drawing: Drawing, save: Save) -> No
     assert f"differ by at most {0.5 * math.sin(side):.2g} mm in shape" in notes[-1]
 
 
-def test_duplicates_short_edges_and_other_kinds_are_passed_over(
-    drawing: Drawing, save: Save
-) -> None:
+def test_duplicates_short_edges_and_other_kinds_are_passed_over(drawing: Drawing, save: Save) -> None:
     space = drawing.modelspace()
     corners = star()
     for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
@@ -189,9 +187,7 @@ def test_damaged_files_are_refused(tmp_path: Path) -> None:
 def test_damaged_file_is_repaired(drawing: Drawing, save: Save) -> None:
     drawing.modelspace().add_lwpolyline(star(), close=True)
     path = save(drawing)
-    text = path.read_text().replace(
-        "  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES", "  0\nSECTION\n  2\nENTITIES"
-    )
+    text = path.read_text().replace("  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES", "  0\nSECTION\n  2\nENTITIES")
     path.write_text(text)
     points, notes = outline_from_dxf(path, TEETH)
     assert points.shape[0] > 100

@@ -20,10 +20,8 @@ BASE = {
     },
     "load": {"power_kW": 2000, "pinion_speed_rpm": 200},
     "misalignment": {"fixed_misalignment_um": 50, "varying_misalignment_um": 30, "crown_um": 10},
-    "running_in": {
-        "specific_wear_rate_mm2_per_N": 1e-11, "slip_ratio": 0.3, "time_hours": 1000,
-    },
-}  # fmt: skip
+    "running_in": {"specific_wear_rate_mm2_per_N": 1e-11, "slip_ratio": 0.3, "time_hours": 1000},
+}
 
 CHANGES = {
     "title": "another",

@@ -70,9 +70,7 @@ def test_arc_crossings() -> None:
     assert arc.length_to_circle(2.0) == 0.0
     assert arc.length_to_circle(4.0) == pytest.approx(math.pi)
     assert arc.length_to_circle(1.9) == arc.length_to_circle(4.1) == math.inf
-    assert arc.length_to_ray(math.atan2(1.0, 3.0)) == pytest.approx(
-        QUARTER - 2.0 * math.atan2(1.0, 3.0)
-    )
+    assert arc.length_to_ray(math.atan2(1.0, 3.0)) == pytest.approx(QUARTER - 2.0 * math.atan2(1.0, 3.0))
     assert arc.length_to_ray(0.5) == math.inf
     assert arc.shortened(QUARTER).end == pytest.approx((1.0, 3.0))
 
@@ -235,9 +233,17 @@ def test_smaller_flank_radius_is_the_smaller() -> None:
 
 @pytest.mark.parametrize(
     ("ratio", "factor"),
-    [(1.41, 0.480), (1.5, 0.480), (1.5001, 0.532), (1.6, 0.532), (1.7, 0.555), (1.8, 0.575),
-     (1.81, 0.565), (2.0, 0.565)],
-)  # fmt: skip
+    [
+        (1.41, 0.480),
+        (1.5, 0.480),
+        (1.5001, 0.532),
+        (1.6, 0.532),
+        (1.7, 0.555),
+        (1.8, 0.575),
+        (1.81, 0.565),
+        (2.0, 0.565),
+    ],
+)
 def test_gost_tooth_height_by_ratio(ratio: float, factor: float) -> None:
     """Upper ends belong to their interval, whatever t/D rounds to."""
     for roller in (3.0, 6.35, 7.7, 10.0, 15.88):

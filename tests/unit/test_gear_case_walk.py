@@ -38,20 +38,29 @@ GEARS: dict[str, Any] = {
     "format_version": 1,
     "title": "gears",
     "gear": {
-        "pinion_teeth": 16, "wheel_teeth": 24, "module_mm": 4.5, "pinion_shift": 0.1817,
-        "wheel_shift": 0.1715, "face_width_mm": 14, "nodes": 61,
+        "pinion_teeth": 16,
+        "wheel_teeth": 24,
+        "module_mm": 4.5,
+        "pinion_shift": 0.1817,
+        "wheel_shift": 0.1715,
+        "face_width_mm": 14,
+        "nodes": 61,
     },
     "load": {"torque_N_m": 200, "speed_rpm": 100},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
     "stop": {"critical_depth_mm": 0.005},
     "run": {"horizon_hours": 1e6},
-}  # fmt: skip
+}
 STEEL = {"treatment": "carburised", "hardness_HRC": 60.0}
 POWER = {"law": "power", "coefficient": 1e-13, "pressure_exponent": 2.0}
 DROZDOV = {
-    "law": "drozdov", "coefficient": 1e-8, "pressure_exponent": 2.0, "hardness_MPa": 6000,
-    "reference_speed_mm_per_s": 100, "speed_exponent": 0.2,
-}  # fmt: skip
+    "law": "drozdov",
+    "coefficient": 1e-8,
+    "pressure_exponent": 2.0,
+    "hardness_MPa": 6000,
+    "reference_speed_mm_per_s": 100,
+    "speed_exponent": 0.2,
+}
 
 
 def with_keys(tables: dict[str, Any], *settings: tuple[str, Any]) -> dict[str, Any]:
@@ -71,15 +80,26 @@ def edited(*settings: tuple[str, Any], **tables: dict[str, Any]) -> dict[str, An
 
 
 CONVEX = {
-    "profile": "convex_concave", "pinion_teeth": 17, "wheel_teeth": 34, "module_mm": 4.5,
-    "face_width_mm": 45, "head_arc_radius_mm": 10.0, "nodes": 61,
-}  # fmt: skip
+    "profile": "convex_concave",
+    "pinion_teeth": 17,
+    "wheel_teeth": 34,
+    "module_mm": 4.5,
+    "face_width_mm": 45,
+    "head_arc_radius_mm": 10.0,
+    "nodes": 61,
+}
 STRESS = {
-    "profile": "prescribed_stress", "pinion_teeth": 36, "wheel_teeth": 54, "module_mm": 3.0,
-    "face_width_mm": 76, "contact_stress_MPa": [460.0, 450.0, 460.0],
-    "stress_pole_distance_mm": [-9.0, 0.0, 9.0], "first_pole_distance_mm": -7.0,
-    "last_pole_distance_mm": 7.0, "nodes": 61,
-}  # fmt: skip
+    "profile": "prescribed_stress",
+    "pinion_teeth": 36,
+    "wheel_teeth": 54,
+    "module_mm": 3.0,
+    "face_width_mm": 76,
+    "contact_stress_MPa": [460.0, 450.0, 460.0],
+    "stress_pole_distance_mm": [-9.0, 0.0, 9.0],
+    "first_pole_distance_mm": -7.0,
+    "last_pole_distance_mm": 7.0,
+    "nodes": 61,
+}
 BASES = {
     "convex": edited(gear=CONVEX),
     "stress": edited(gear=STRESS, load={"torque_N_m": 240, "speed_rpm": 100}),
@@ -87,18 +107,17 @@ BASES = {
     "power": edited(wear=POWER),
     "drozdov": edited(wear=DROZDOV),
     "rigid": edited(("mechanism.load_sharing", "rigid")),
-    "running in": edited(
-        ("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)
-    ),
+    "running in": edited(("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)),
     "fatigue": edited(fatigue={"pinion": STEEL, "wheel": STEEL}),
     "per cycle": edited(
-        ("run.method", "per_cycle"), ("run.cycles_per_update", 100),
+        ("run.method", "per_cycle"),
+        ("run.cycles_per_update", 100),
         ("wear.specific_wear_rate_mm2_per_N", 1e-9),
     ),
-}  # fmt: skip
+}
 """A life of each law, sharing and method."""
 
-# fmt: off
+
 CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "gear.profile": [
         ("archard", "convex_concave", "gear.head_arc_radius_mm"),
@@ -129,10 +148,7 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
         ("stress", 1.0, "gear.first_pole_distance_mm"),
         ("stress", -1.0, "gear"),
     ],
-    "gear.last_pole_distance_mm": [
-        ("stress", 7.5),
-        ("stress", -7.5, "gear.last_pole_distance_mm"),
-    ],
+    "gear.last_pole_distance_mm": [("stress", 7.5), ("stress", -7.5, "gear.last_pole_distance_mm")],
     "gear.pinion_teeth": [
         ("convex", 18),
         ("stress", 35),
@@ -172,10 +188,7 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "wear.case_depth_mm": [("archard", 0.01, "wear.case_depth_mm")],
     "wear.core_factor": [("archard", 2.0, "wear.core_factor")],
     "wear.roller_wear_ratio": [("archard", 0.5, "wear.roller_wear_ratio")],
-    "wear.running_in_factor": [
-        ("running in", 2.0),
-        ("archard", 2.0, "wear.running_in_distance_mm"),
-    ],
+    "wear.running_in_factor": [("running in", 2.0), ("archard", 2.0, "wear.running_in_distance_mm")],
     "wear.running_in_distance_mm": [("running in", 5000.0)],
     "wear.band_factor": [("archard", 2.0)],
     "wear.wheel_wear_ratio": [("archard", 3.0), ("archard", 0.0, "wear.wheel_wear_ratio")],
@@ -187,7 +200,6 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "run.life_tolerance": [("archard", 1e-5)],
     "run.horizon_hours": [("archard", 1.0)],
 }
-# fmt: on
 
 
 CHANGES |= {

@@ -30,9 +30,7 @@ def life(tables: dict[str, Any], *settings: str) -> wearsim.WearResult:
     return wearsim.simulate(wearsim.load_case(tables, settings))
 
 
-@pytest.mark.parametrize(
-    "name", ["fzg-c14-16t-mild", "convex-concave-17t-mild", "constant-stress-36t-mild"]
-)
+@pytest.mark.parametrize("name", ["fzg-c14-16t-mild", "convex-concave-17t-mild", "constant-stress-36t-mild"])
 def test_the_limit_of_the_wheel_is_said_in_words(name: str) -> None:
     case = wearsim.load_case(CASES / f"{name}.toml", ["stop.wheel_critical_depth_mm=0.005"])
     result = wearsim.simulate(case)
@@ -41,11 +39,17 @@ def test_the_limit_of_the_wheel_is_said_in_words(name: str) -> None:
 
 
 ROUGH: dict[str, Any] = {
-    "profile": "prescribed_stress", "pinion_teeth": 36, "wheel_teeth": 54, "module_mm": 3,
-    "face_width_mm": 76, "contact_stress_MPa": [1500, 1100, 1500],
-    "stress_pole_distance_mm": [-7.5, 0, 7.5], "first_pole_distance_mm": -7,
-    "last_pole_distance_mm": 7, "nodes": 401,
-}  # fmt: skip
+    "profile": "prescribed_stress",
+    "pinion_teeth": 36,
+    "wheel_teeth": 54,
+    "module_mm": 3,
+    "face_width_mm": 76,
+    "contact_stress_MPa": [1500, 1100, 1500],
+    "stress_pole_distance_mm": [-7.5, 0, 7.5],
+    "first_pole_distance_mm": -7,
+    "last_pole_distance_mm": 7,
+    "nodes": 401,
+}
 
 
 def test_fatigue_looks_at_the_highest_stress_not_only_at_the_pole() -> None:
@@ -81,24 +85,56 @@ def test_pointed_involutes_are_refused(settings: list[str], message: str) -> Non
 
 LIGHT = (
     (
-        {"pinion_teeth": 14, "wheel_teeth": 90, "module_mm": 3.64, "face_width_mm": 30.6,
-         "pressure_angle_deg": 26.954, "pinion_shift": -0.065, "wheel_shift": 0.375},
-        38.817, 0.05289, 1.262, 3810.0,
+        {
+            "pinion_teeth": 14,
+            "wheel_teeth": 90,
+            "module_mm": 3.64,
+            "face_width_mm": 30.6,
+            "pressure_angle_deg": 26.954,
+            "pinion_shift": -0.065,
+            "wheel_shift": 0.375,
+        },
+        38.817,
+        0.05289,
+        1.262,
+        3810.0,
     ),
     (
-        {"profile": "prescribed_stress", "pinion_teeth": 36, "wheel_teeth": 95, "module_mm": 5.22,
-         "face_width_mm": 65.4, "first_pole_distance_mm": -10.5356,
-         "last_pole_distance_mm": 5.7158, "contact_stress_MPa": [329.545, 278.333, 235.44],
-         "stress_pole_distance_mm": [-10.6409, 0, 5.7729]},
-        373.86, 0.07169, 0.587, 7953.0,
+        {
+            "profile": "prescribed_stress",
+            "pinion_teeth": 36,
+            "wheel_teeth": 95,
+            "module_mm": 5.22,
+            "face_width_mm": 65.4,
+            "first_pole_distance_mm": -10.5356,
+            "last_pole_distance_mm": 5.7158,
+            "contact_stress_MPa": [329.545, 278.333, 235.44],
+            "stress_pole_distance_mm": [-10.6409, 0, 5.7729],
+        },
+        373.86,
+        0.07169,
+        0.587,
+        7953.0,
     ),
     (
-        {"profile": "convex_concave", "pinion_teeth": 11, "wheel_teeth": 72, "module_mm": 4.45,
-         "face_width_mm": 29.7, "pole_angle_deg": 14.177, "head_arc_radius_mm": 20.452,
-         "foot_arc_radius_mm": 14.929, "addendum_ratio": 1.193, "nodes": 401},
-        17.052, 0.13697, 0.379, 23645.0,
+        {
+            "profile": "convex_concave",
+            "pinion_teeth": 11,
+            "wheel_teeth": 72,
+            "module_mm": 4.45,
+            "face_width_mm": 29.7,
+            "pole_angle_deg": 14.177,
+            "head_arc_radius_mm": 20.452,
+            "foot_arc_radius_mm": 14.929,
+            "addendum_ratio": 1.193,
+            "nodes": 401,
+        },
+        17.052,
+        0.13697,
+        0.379,
+        23645.0,
     ),
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("case", LIGHT, ids=["involute", "prescribed", "convex-concave"])
@@ -111,17 +147,37 @@ def test_corners_of_tips_carry_load_however_deep_the_wear(case: tuple[Any, ...])
 
 BESIDE_A_KINK = (
     (
-        {"profile": "prescribed_stress", "pinion_teeth": 41, "wheel_teeth": 51, "module_mm": 6.09,
-         "face_width_mm": 51.8, "first_pole_distance_mm": -11.5353,
-         "last_pole_distance_mm": 12.4090, "contact_stress_MPa": 254.1777},
-        210.402, 0.04474, 3.111, 2930.5,
+        {
+            "profile": "prescribed_stress",
+            "pinion_teeth": 41,
+            "wheel_teeth": 51,
+            "module_mm": 6.09,
+            "face_width_mm": 51.8,
+            "first_pole_distance_mm": -11.5353,
+            "last_pole_distance_mm": 12.4090,
+            "contact_stress_MPa": 254.1777,
+        },
+        210.402,
+        0.04474,
+        3.111,
+        2930.5,
     ),
     (
-        {"pinion_teeth": 12, "wheel_teeth": 51, "module_mm": 7.4, "face_width_mm": 93.2,
-         "pressure_angle_deg": 26.509, "pinion_shift": 0.026, "wheel_shift": -0.13},
-        208.119, 0.03168, 1.112, 1825.6,
+        {
+            "pinion_teeth": 12,
+            "wheel_teeth": 51,
+            "module_mm": 7.4,
+            "face_width_mm": 93.2,
+            "pressure_angle_deg": 26.509,
+            "pinion_shift": 0.026,
+            "wheel_shift": -0.13,
+        },
+        208.119,
+        0.03168,
+        1.112,
+        1825.6,
     ),
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("case", BESIDE_A_KINK, ids=["prescribed", "involute"])
@@ -134,9 +190,13 @@ def test_error_of_a_maximum_beside_a_kink_is_stated(case: tuple[Any, ...]) -> No
 
 def test_a_third_pair_is_warned_of() -> None:
     gear = {
-        "pinion_teeth": 30, "wheel_teeth": 45, "module_mm": 4.5, "face_width_mm": 14,
-        "pinion_tip_radius_mm": 72.9, "wheel_tip_radius_mm": 106.6,
-    }  # fmt: skip
+        "pinion_teeth": 30,
+        "wheel_teeth": 45,
+        "module_mm": 4.5,
+        "face_width_mm": 14,
+        "pinion_tip_radius_mm": 72.9,
+        "wheel_tip_radius_mm": 106.6,
+    }
     text = "a third pair of teeth comes to bear"
     assert text in " ".join(life(gears(gear, 1500.0, 0.05, 1.0)).warnings)
     assert text not in " ".join(wearsim.load_case(FZG, ["load.torque_N_m=2000"]).warnings)
@@ -144,8 +204,14 @@ def test_a_third_pair_is_warned_of() -> None:
 
 def test_an_absurd_stress_is_refused() -> None:
     with pytest.raises(wearsim.CaseError):
-        life(gears({**ROUGH, "contact_stress_MPa": 1e9, "stress_pole_distance_mm": None} | {
-            "nodes": 201}, 240.0, 0.05, 1.0))  # fmt: skip
+        life(
+            gears(
+                {**ROUGH, "contact_stress_MPa": 1e9, "stress_pole_distance_mm": None} | {"nodes": 201},
+                240.0,
+                0.05,
+                1.0,
+            )
+        )
 
 
 def test_numbers_beyond_reason_are_named() -> None:
@@ -163,9 +229,7 @@ def test_width_of_a_tip_is_that_of_its_arc() -> None:
     flank = high.mesh(401).flank
     angle = math.atan2(flank.x[-1], flank.y[-1])
     pitch = math.atan2(*(float(v) for v in at_radius(flank, 30.0)))
-    assert high.tip_width(0) == pytest.approx(
-        2.0 * 33.0 * (math.pi / 40.0 - abs(angle - pitch)), rel=1e-5
-    )
+    assert high.tip_width(0) == pytest.approx(2.0 * 33.0 * (math.pi / 40.0 - abs(angle - pitch)), rel=1e-5)
 
 
 def at_radius(flank: Any, radius: float) -> tuple[float, float]:

@@ -112,9 +112,7 @@ def test_a_refined_flank_without_a_life_is_passed_over() -> None:
     found, asked = settled(lives, 1e-4)
     assert asked[-2:] == ["level 1", "level 2"] and found.run.life == 1.001
     assert found.level == 2 and found.error == pytest.approx(
-        1.75
-        * SAFETY
-        * sum(abs(LIVES[name] / 1.001 - 1.0) * 0.05 / (h - 0.05) for name, h in SPACINGS),
+        1.75 * SAFETY * sum(abs(LIVES[name] / 1.001 - 1.0) * 0.05 / (h - 0.05) for name, h in SPACINGS),
         rel=1e-9,
     )
 

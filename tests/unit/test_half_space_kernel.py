@@ -46,9 +46,7 @@ def test_coefficients_are_those_of_constant_pressure_cells():
     half_space.influence_coefficients(MODULUS, coefficients)
     nodes, weights = np.polynomial.legendre.leggauss(20)
     scale = -2.0 / (np.pi * MODULUS)
-    expected = [
-        scale * 0.5 * np.sum(weights * np.log((lag + 0.5 * nodes) / n)) for lag in range(1, n)
-    ]
+    expected = [scale * 0.5 * np.sum(weights * np.log((lag + 0.5 * nodes) / n)) for lag in range(1, n)]
     np.testing.assert_allclose(coefficients[n:], expected, rtol=1e-12)
     np.testing.assert_array_equal(coefficients[: n - 1], coefficients[:-n:-1])
     assert coefficients[n - 1] == pytest.approx(scale * (np.log(0.5 / n) - 1.0), rel=1e-14)

@@ -15,12 +15,7 @@ from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 BASE = {
     "format_version": 1,
     "title": "pair",
-    "contact": {
-        "torque_N_m": 240,
-        "gear_ratio": 1.5,
-        "face_width_mm": 76,
-        "pinion_pitch_diameter_mm": 108,
-    },
+    "contact": {"torque_N_m": 240, "gear_ratio": 1.5, "face_width_mm": 76, "pinion_pitch_diameter_mm": 108},
     "teeth": {"pinion_teeth": 36, "wheel_teeth": 54, "module_mm": 3},
     "combinations": {},
     "published": {

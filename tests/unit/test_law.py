@@ -91,8 +91,7 @@ def test_diffusion_exponent_is_the_slope_of_the_depth(kind: Kind, m: float) -> N
     """d(ln depth)/d(ln 1/rho_H) by a central difference at given slip."""
     step = 1e-5
     low, high = (
-        depth(power(1e-9, m), kind, 120.0, 0.4, 1.0, 0.11 * (1.0 + sign * step))[1]
-        for sign in (-1.0, 1.0)
+        depth(power(1e-9, m), kind, 120.0, 0.4, 1.0, 0.11 * (1.0 + sign * step))[1] for sign in (-1.0, 1.0)
     )
     slope = (math.log(high) - math.log(low)) / (2.0 * step)
     assert slope == pytest.approx(power(1e-9, m).diffusion(kind, 0.0), abs=1e-8)

@@ -77,9 +77,7 @@ def without_counts(monkeypatch):
 
 
 def policy(plan, percent, turned=False):
-    (found,) = (
-        p for p in plan.policies if p.turned == turned and math.isclose(100 * p.replace_at, percent)
-    )
+    (found,) = (p for p in plan.policies if p.turned == turned and math.isclose(100 * p.replace_at, percent))
     return found
 
 
@@ -104,8 +102,7 @@ def test_cost_by_hand(prices, cost):
 
 
 @pytest.mark.parametrize(
-    ("hours", "chains", "used", "stops"),
-    [(2500.0, 3, 0.5, 3), (3000.0, 3, 1.0, 3), (400.0, 1, 0.4, 1)],
+    ("hours", "chains", "used", "stops"), [(2500.0, 3, 0.5, 3), (3000.0, 3, 1.0, 3), (400.0, 1, 0.4, 1)]
 )
 def test_chains_and_stops_by_hand(hours, chains, used, stops):
     """Chains of 1000 h each; the last one goes with the sprocket, in the same stop."""
@@ -148,9 +145,16 @@ def test_counts_around_the_drive(plan):
     """gcd(18, 120) = 6 and gcd(20, 120) = 20 by hand: even, so one kind of link for life."""
     classes = {(c.meetings.teeth, c.meetings.links): c.meetings.classes for c in plan.counts}
     assert classes == {
-        (18, 118): 2, (18, 120): 6, (18, 122): 2, (19, 118): 1, (19, 120): 1, (19, 122): 1,
-        (20, 118): 2, (20, 120): 20, (20, 122): 2,
-    }  # fmt: skip
+        (18, 118): 2,
+        (18, 120): 6,
+        (18, 122): 2,
+        (19, 118): 1,
+        (19, 120): 1,
+        (19, 122): 1,
+        (20, 118): 2,
+        (20, 120): 20,
+        (20, 122): 2,
+    }
     run = {(c.meetings.teeth, c.meetings.links): c.lives for c in plan.counts if c.lives}
     assert set(run) == {(19, 120), (19, 122), (20, 120), (20, 122)}
     assert run[19, 120]["sprocket"] == policy(plan, 3).sprocket

@@ -18,10 +18,7 @@ from wearsim.report.answer import findings
 CASES = Path(__file__).parents[2] / "cases"
 STRAND, WRAP, TABLE, POINTS = (
     CASES / f"{name}.toml"
-    for name in (
-        *("16b-20t-oiled", "a40-19t-rating", "hertz-arc-prescribed"),
-        "beet-harvester-18t-soil",
-    )
+    for name in (*("16b-20t-oiled", "a40-19t-rating", "hertz-arc-prescribed"), "beet-harvester-18t-soil")
 )
 
 
@@ -165,9 +162,7 @@ def test_drawing_in_another_encoding_is_kept(tmp_path):
     """Bytes that are no UTF-8 come back from a saved run as they were."""
     from wearsim.export.formats import export
 
-    drawing = export(load_case(WRAP), None, ("new",), "dxf").replace(
-        b"ANSI", "Зуб ".encode("cp1251")
-    )
+    drawing = export(load_case(WRAP), None, ("new",), "dxf").replace(b"ANSI", "Зуб ".encode("cp1251"))
     (tmp_path / "wheel.dxf").write_bytes(drawing)
     text = WRAP.read_text().replace('"ansi_b29"', '"dxf"\ndxf_file = "wheel.dxf"')
     (tmp_path / "case.toml").write_text(text)

@@ -151,9 +151,7 @@ def test_offset_form_is_the_general_loop(law: Law, kind: Kind) -> None:
 def test_last_update_ends_on_the_limit(cycles_per_update: int) -> None:
     """N = depth / I, not the next whole update."""
     step = 3.7e-6
-    run = run_per_cycle(
-        flat(), archard(step / SIGMA), (depth_criterion(DEPTH),), 1e6, cycles_per_update
-    )
+    run = run_per_cycle(flat(), archard(step / SIGMA), (depth_criterion(DEPTH),), 1e6, cycles_per_update)
     assert run.met is not None
     assert run.met.name == "critical_depth_mm"
     assert run.cycles[-1] == pytest.approx(DEPTH / step, rel=1e-9)
@@ -192,9 +190,7 @@ def test_snapshots_are_some_and_increase() -> None:
     assert (run.depth[0] == 0.0).all()
 
 
-@pytest.mark.parametrize(
-    ("contact", "match"), [(flat(path=0.0), "slide"), (flat(load=0.0), "touch")]
-)
+@pytest.mark.parametrize(("contact", "match"), [(flat(path=0.0), "slide"), (flat(load=0.0), "touch")])
 def test_no_slip_or_no_load_is_an_error(contact: Contact, match: str) -> None:
     with pytest.raises(ContactError, match=match):
         run_per_cycle(contact, archard(1e-9), (depth_criterion(DEPTH),), 1e6, 1)

@@ -74,7 +74,7 @@ def test_no_fit_of_equal_lives():
         ({"distribution": "normal", "standard_deviation": 1, "low": 0}, 0.0, 1.6448536),
     ],
     ids=lambda part: str(part)[:60],
-)  # fmt: skip
+)
 def test_ninth_decile(table, value, exact):
     law = quantile(Distribution(**table), value)
     assert law(np.array([0.9]))[0] == pytest.approx(exact, rel=1e-6)

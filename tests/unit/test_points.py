@@ -21,9 +21,7 @@ def circle(count: int) -> np.ndarray:
 
 def test_exact_points_give_back_radius_and_ends() -> None:
     flank = flank_from_points(*circle(60), noise=0.0, nodes=101)
-    np.testing.assert_allclose(
-        np.hypot(flank.x - CENTRE[0], flank.y - CENTRE[1]), RADIUS, rtol=1e-9
-    )
+    np.testing.assert_allclose(np.hypot(flank.x - CENTRE[0], flank.y - CENTRE[1]), RADIUS, rtol=1e-9)
     np.testing.assert_allclose(flank.curvature[1:-1], -1.0 / RADIUS, rtol=1e-5)
     np.testing.assert_allclose([flank.x[0], flank.y[0]], circle(60)[:, 0], atol=1e-12)
     np.testing.assert_allclose(np.diff(flank.arc_length), RADIUS * 0.42 / 100, rtol=1e-4)

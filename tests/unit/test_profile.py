@@ -22,9 +22,7 @@ def wavy(nodes: int) -> Profile:
 def test_arc_length_of_a_circle() -> None:
     profile = arc(20.0, 0.2, 1.4, 41)
     assert profile.arc_length[0] == 0.0
-    np.testing.assert_allclose(
-        profile.arc_length, 20.0 * np.linspace(0.0, 1.2, 41), rtol=1e-7, atol=0.0
-    )
+    np.testing.assert_allclose(profile.arc_length, 20.0 * np.linspace(0.0, 1.2, 41), rtol=1e-7, atol=0.0)
 
 
 def test_arc_length_of_a_line() -> None:

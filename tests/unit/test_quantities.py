@@ -71,9 +71,13 @@ def tables_in(annotation):
 
 
 HERTZ_CHECK_FEM = {
-    "meshes", "unknowns", "peak_pressure_error_percent", "half_width_error_percent",
-    "surface_error_percent", "from_middle_mm",
-}  # fmt: skip
+    "meshes",
+    "unknowns",
+    "peak_pressure_error_percent",
+    "half_width_error_percent",
+    "surface_error_percent",
+    "from_middle_mm",
+}
 """Columns of ``hertz-check --fem``, which takes scikit-fem."""
 
 
@@ -87,9 +91,7 @@ def input_keys(model):
 
 
 def all_input_keys():
-    return {
-        key for model in (CaseTables, *map(tables_of, OTHER_FILES)) for key in input_keys(model)
-    }
+    return {key for model in (CaseTables, *map(tables_of, OTHER_FILES)) for key in input_keys(model)}
 
 
 def keys_below(content):

@@ -6,13 +6,7 @@ import wearsim
 from wearsim.chain.selection import Finding, RatedDrive, assess
 from wearsim.errors import CaseError
 from wearsim.report.rating import drive_notes
-from wearsim.simulation.chain_rating import (
-    rated_drive,
-    rating,
-    rating_warnings,
-    rules_without_limit,
-    warning,
-)
+from wearsim.simulation.chain_rating import rated_drive, rating, rating_warnings, rules_without_limit, warning
 
 WRAP = {
     "format_version": 1,
@@ -53,9 +47,7 @@ def test_power_of_other_loads(load):
     """P = T omega = (T_t - T_s) v."""
     tables = {**WRAP, "load": load, "drive": {**WRAP["drive"], "slack_tension_N": 200.0}}
     found = wearsim.load_case(tables)
-    assert rated_drive(found, found.drive, found.drive.heaviest).power == pytest.approx(
-        30.0, rel=1e-12
-    )
+    assert rated_drive(found, found.drive, found.drive.heaviest).power == pytest.approx(30.0, rel=1e-12)
 
 
 def test_no_41_is_the_light_chain():

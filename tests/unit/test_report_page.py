@@ -43,13 +43,11 @@ WRAP = {
 }
 GEARS = {
     "format_version": 1,
-    "gear": {
-        "pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61,
-    },
+    "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61},
     "load": {"torque_N_m": 100, "speed_rpm": 1450},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
     "stop": {"critical_depth_mm": 0.02},
-}  # fmt: skip
+}
 
 
 def points(path):
@@ -245,11 +243,7 @@ def test_legends_name_every_drive_once(strand, gears):
     traces = along_chart([strand, gears], ["first", "gears"]).figure.traces
     roles = {trace["name"]: trace["meta"]["role"] for trace in traces}
     assert roles["first"] == "series-1" and roles["gears"] == roles["gears, wheel"] == "series-2"
-    assert shown([strand, gears, strand], ["first", "gears", "third"]) == [
-        "first",
-        "gears",
-        "third",
-    ]
+    assert shown([strand, gears, strand], ["first", "gears", "third"]) == ["first", "gears", "third"]
     assert shown([gears], ["gears"]) == ["pinion", "wheel"]
     assert shown([strand], ["x"]) == []
 
@@ -268,8 +262,13 @@ def test_plotly_knows_all_that_charts_say(strand, wrap, gears):
 
 def test_names_of_pages_are_safe_and_different():
     assert page_names(["../x", "x", "X", "index", "привод", ""]) == [
-        "_x", "x", "X-2", "index-2", "привод", "drive",
-    ]  # fmt: skip
+        "_x",
+        "x",
+        "X-2",
+        "index-2",
+        "привод",
+        "drive",
+    ]
 
 
 def palette():

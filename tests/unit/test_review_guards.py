@@ -73,9 +73,7 @@ def test_flank_that_is_turned_over_is_refused(tmp_path: Path) -> None:
         "sliding_distance_mm": np.full(41, 0.5),
     }
     wear, stop = {"specific_wear_rate_mm2_per_N": 1e-10}, {"critical_depth_mm": 2.0}
-    case = wearsim.load_case(
-        table(tmp_path, columns, wear=wear, stop=stop, run={"horizon_hours": 1e9})
-    )
+    case = wearsim.load_case(table(tmp_path, columns, wear=wear, stop=stop, run={"horizon_hours": 1e9}))
     with pytest.raises(ConvergenceError, match="beyond its centre of curvature"):
         wearsim.simulate(case)
     [found] = simulate_many([case])
@@ -158,8 +156,7 @@ def test_grids_are_compared_at_the_same_time(tmp_path: Path) -> None:
         "sliding_distance_mm": np.full(41, 0.5),
     }
     wear = {"law": "power", "coefficient": 1e-12, "pressure_exponent": 2.0}
-    tables = table(tmp_path, columns, wear=wear, stop={"critical_depth_mm": 0.02},
-                   run={"horizon_hours": 1e9})  # fmt: skip
+    tables = table(tmp_path, columns, wear=wear, stop={"critical_depth_mm": 0.02}, run={"horizon_hours": 1e9})
     case = wearsim.load_case(tables)
     whole = verify_grid(case)
     hours = 0.998 * whole.values[0] / 6000.0

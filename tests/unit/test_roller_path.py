@@ -63,9 +63,7 @@ def test_nodes_lie_on_the_exact_arcs(form, nodes):
 def test_normals_point_from_the_touched_place_to_the_centre():
     gap = FORMS["ISO max"]
     outline = gap.outline(601)
-    worn = roller_path(outline, gap.roller_radius, 301).worn(
-        np.array(outline.x), np.array(outline.y)
-    )
+    worn = roller_path(outline, gap.roller_radius, 301).worn(np.array(outline.x), np.array(outline.y))
     points = np.arange(outline.x.size)
     x, y = (np.interp(worn.touched, points, values) for values in (outline.x, outline.y))
     centre = np.array([x, y]) + gap.roller_radius * worn.locus[2:]
@@ -155,9 +153,7 @@ def test_worn_flank_moves_the_line_by_the_depth():
 def test_places_and_nodes_are_inverse():
     gap = FORMS["ISO min"]
     outline = gap.outline(301)
-    line = roller_path(outline, gap.roller_radius, 151).worn(
-        np.array(outline.x), np.array(outline.y)
-    )
+    line = roller_path(outline, gap.roller_radius, 151).worn(np.array(outline.x), np.array(outline.y))
     node = np.linspace(0.0, line.place.size - 1.0, 37)
     assert line.node_of(line.node_place(node)) == pytest.approx(node, abs=1e-9)
     assert line.node_place(np.array([0.0]))[0] == 0.0

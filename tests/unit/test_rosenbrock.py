@@ -10,16 +10,7 @@ import pytest
 from wearsim.contact.engagement import Kind
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.kernels.hertz_wear import flank_rate
-from wearsim.kernels.rosenbrock import (
-    ERROR,
-    GAMMA,
-    RIGHT,
-    STAGES,
-    STATE,
-    WORK_ROWS,
-    slope_rate,
-    wear_rows,
-)
+from wearsim.kernels.rosenbrock import ERROR, GAMMA, RIGHT, STAGES, STATE, WORK_ROWS, slope_rate, wear_rows
 from wearsim.kernels.steps import STATE_ROWS, between
 from wearsim.kernels.tridiagonal import factorise, solve
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism

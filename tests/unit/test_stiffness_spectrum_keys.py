@@ -25,10 +25,7 @@ PAIRS = {
 BASES = {
     "pairs": PAIRS,
     "torque": {**PAIRS, "statics": {"pinion_torque_N_m": 60, **RADII}},
-    "double": {
-        **PAIRS,
-        "spectrum": {"model": "double_sum", "series_harmonics": 300, "tooth_harmonics": 1},
-    },
+    "double": {**PAIRS, "spectrum": {"model": "double_sum", "series_harmonics": 300, "tooth_harmonics": 1}},
 }
 
 # Key: (base, another value) for a change of what is shown, (base, value, fault) for an error.
@@ -74,10 +71,7 @@ CHANGES = {
     "statics.youngs_modulus_MPa": [("pairs", 2e5)],
     "statics.poissons_ratio": [("pairs", 0.25), ("pairs", 0.5, "less than 0.5")],
     "statics.energy_exponent": [("pairs", 2.0), ("pairs", 1.0, "greater than or equal to 1.5")],
-    "statics.formula": [
-        ("torque", "printed"),
-        ("pairs", "printed", "belongs to pinion_torque_N_m"),
-    ],
+    "statics.formula": [("torque", "printed"), ("pairs", "printed", "belongs to pinion_torque_N_m")],
 }
 
 

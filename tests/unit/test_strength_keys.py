@@ -19,9 +19,7 @@ from wearsim.quantities import quantities
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
 
 BASES = {
-    name: load_calculation(FOLDER / f"strength-{name}.toml", StrengthTables).model_dump(
-        exclude_unset=True
-    )
+    name: load_calculation(FOLDER / f"strength-{name}.toml", StrengthTables).model_dump(exclude_unset=True)
     for name in ("a-improved", "b-carburised")
 }
 BASES["years"] = copy.deepcopy(BASES["a-improved"])
@@ -228,7 +226,7 @@ def test_names_are_quantities(base):
         ("a-improved", "overload.overload_ratio", 20, "pinion: the bending stress in an overload"),
         ("a-improved", "wheel", {"treatment": "improved", "hardness_HB": 250}, "cannot be judged"),
     ],
-)  # fmt: skip
+)
 def test_warnings(base, key, value, words):
     assert any(words in text for text in shown(changed(base, key, value))[2])
 

@@ -139,9 +139,7 @@ def test_seat_clears_the_roller() -> None:
     distance = np.hypot(shape.seat[:, 0], shape.seat[:, 1] - STRAND.height)
     assert distance.min() >= 7.94 - 1e-3
     np.testing.assert_allclose(shape.seat[0], [shape.flank.x[0], shape.flank.y[0]], atol=1e-9)
-    np.testing.assert_allclose(
-        shape.seat[-1], [shape.back_flank.x[-1], shape.back_flank.y[-1]], atol=1e-9
-    )
+    np.testing.assert_allclose(shape.seat[-1], [shape.back_flank.x[-1], shape.back_flank.y[-1]], atol=1e-9)
 
 
 def test_roller_never_enters_the_wheel() -> None:

@@ -100,7 +100,5 @@ def test_pit_that_conforms_is_found() -> None:
 
 
 def test_vanished_contact_is_an_error() -> None:
-    with pytest.raises(
-        ContactError, match=r"cycle 3, deepest 0 mm from the root: the roller must touch"
-    ):
+    with pytest.raises(ContactError, match=r"cycle 3, deepest 0 mm from the root: the roller must touch"):
         touch(contact(load=0.0), np.zeros(NODES), 3.0)

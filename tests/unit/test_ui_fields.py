@@ -9,9 +9,7 @@ from wearsim.page.fields import form_fields, table_meaning
 from wearsim.quantities import quantities
 
 
-@pytest.mark.parametrize(
-    ("data", "model"), [({"duty": [{}]}, CaseTables), ({"gear": {}}, GearTables)]
-)
+@pytest.mark.parametrize(("data", "model"), [({"duty": [{}]}, CaseTables), ({"gear": {}}, GearTables)])
 def test_every_key_has_one_field_with_unit_and_meaning(data, model):
     fields = [field for table in form_fields(data).values() for field in table]
     keys = [key.replace("[]", ".1") for key, _ in schema_fields(model)]

@@ -83,16 +83,12 @@ def test_what_cannot_be_read_or_written(tmp_path):
         new_file(tmp_path / "folder.toml").saved("a = 1\n")
 
 
-@pytest.mark.parametrize(
-    ("name", "found"), [("b", "b.toml"), (" b.toml ", "b.toml"), ("ä b", "ä b.toml")]
-)
+@pytest.mark.parametrize(("name", "found"), [("b", "b.toml"), (" b.toml ", "b.toml"), ("ä b", "ä b.toml")])
 def test_names_in_the_folder(tmp_path, name, found):
     assert named_beside(tmp_path / "a.toml", name) == tmp_path / found
 
 
-@pytest.mark.parametrize(
-    "name", ["", " ", ".", "..", ".toml", "a/b", "../b", "a\\b", "c:b", "a\0", "/b"]
-)
+@pytest.mark.parametrize("name", ["", " ", ".", "..", ".toml", "a/b", "../b", "a\\b", "c:b", "a\0", "/b"])
 def test_names_of_elsewhere_are_refused(tmp_path, name):
     with pytest.raises(OutputError, match="must be the name of a file"):
         named_beside(tmp_path / "a.toml", name)

@@ -52,11 +52,22 @@ def test_own_hosts_are_answered(host):
 @pytest.mark.parametrize(
     "host",
     [
-        None, "", "127.0.0.1", "localhost", "127.0.0.1:1", "evil.example", f"evil.example:{PORT}",
-        f"127.0.0.1.evil.example:{PORT}", f"{OWN}.evil.example", f"localhost:{PORT}0", f"0.0.0.0:{PORT}",
-        f"x@{OWN}", f"{OWN}/", f"{OWN}, evil.example",
+        None,
+        "",
+        "127.0.0.1",
+        "localhost",
+        "127.0.0.1:1",
+        "evil.example",
+        f"evil.example:{PORT}",
+        f"127.0.0.1.evil.example:{PORT}",
+        f"{OWN}.evil.example",
+        f"localhost:{PORT}0",
+        f"0.0.0.0:{PORT}",
+        f"x@{OWN}",
+        f"{OWN}/",
+        f"{OWN}, evil.example",
     ],
-)  # fmt: skip
+)
 def test_foreign_hosts_are_refused(host):
     assert not answered(host=host)
 
@@ -64,10 +75,18 @@ def test_foreign_hosts_are_refused(host):
 @pytest.mark.parametrize(
     "origin",
     [
-        "", "null", "http://evil.example", f"http://evil.example:{PORT}", f"https://{OWN}", "http://127.0.0.1",
-        "http://127.0.0.1:1", f"http://{OWN}.evil.example", f"file://{OWN}", OWN,
+        "",
+        "null",
+        "http://evil.example",
+        f"http://evil.example:{PORT}",
+        f"https://{OWN}",
+        "http://127.0.0.1",
+        "http://127.0.0.1:1",
+        f"http://{OWN}.evil.example",
+        f"file://{OWN}",
+        OWN,
     ],
-)  # fmt: skip
+)
 def test_foreign_origins_are_refused(origin):
     assert not answered(origin=origin)
 

@@ -34,14 +34,26 @@ def test_a_changed_value_keeps_everything_else():
 @pytest.mark.parametrize(
     ("typed", "is_text", "value"),
     [
-        ("3", False, 3), (" 3 ", False, 3), ("3", True, "3"), (".5", False, 0.5), ("1e3", False, 1e3),
-        ("3 kW", False, "3 kW"), ("true", False, True), ("[1, 2]", False, [1, 2]),
+        ("3", False, 3),
+        (" 3 ", False, 3),
+        ("3", True, "3"),
+        (".5", False, 0.5),
+        ("1e3", False, 1e3),
+        ("3 kW", False, "3 kW"),
+        ("true", False, True),
+        ("[1, 2]", False, [1, 2]),
         ("1 # x", False, "1 # x"),
-        ('"a"', False, "a"), ('"a"', True, '"a"'), ("a\"b\\'<x>", True, "a\"b\\'<x>"),
-        ("'''", False, "'''"), ("\x00\x1b", True, "\x00\x1b"), ("1\nb = 2", False, "1\nb = 2"),
-        ("inf", False, float("inf")), ("=", False, "="), ("[", False, "["),
+        ('"a"', False, "a"),
+        ('"a"', True, '"a"'),
+        ("a\"b\\'<x>", True, "a\"b\\'<x>"),
+        ("'''", False, "'''"),
+        ("\x00\x1b", True, "\x00\x1b"),
+        ("1\nb = 2", False, "1\nb = 2"),
+        ("inf", False, float("inf")),
+        ("=", False, "="),
+        ("[", False, "["),
     ],
-)  # fmt: skip
+)
 def test_what_is_typed_becomes_a_toml_value_or_a_string(typed, is_text, value):
     edited = with_value(TEXT, "load.power_kW", typed, is_text)
     assert tomllib.loads(edited)["load"]["power_kW"] == value
@@ -50,12 +62,7 @@ def test_what_is_typed_becomes_a_toml_value_or_a_string(typed, is_text, value):
 
 def test_what_is_shown_gives_the_same_value_when_typed():
     values = shown_values(TEXT)
-    assert values == {
-        "title": "A",
-        "load.power_kW": "3.50",
-        "duty.1.speed_rpm": "1",
-        "duty.2.speed_rpm": "2",
-    }
+    assert values == {"title": "A", "load.power_kW": "3.50", "duty.1.speed_rpm": "1", "duty.2.speed_rpm": "2"}
     for key, shown in values.items():
         edited = with_value(TEXT, key, shown, is_text=key == "title")
         assert tomllib.loads(edited) == tomllib.loads(TEXT)
@@ -64,10 +71,13 @@ def test_what_is_shown_gives_the_same_value_when_typed():
 @pytest.mark.parametrize(
     "key",
     [
-        "load.speed_rpm", "stop.critical_depth_mm", "material.sprocket.name",
-        "fatigue.sprocket.hardness_HB", "format_version",
+        "load.speed_rpm",
+        "stop.critical_depth_mm",
+        "material.sprocket.name",
+        "fatigue.sprocket.hardness_HB",
+        "format_version",
     ],
-)  # fmt: skip
+)
 @pytest.mark.parametrize("text", [TEXT, "", new_case("16B-1", 20, "strand"), "a = {b = 1}\n"])
 def test_a_missing_key_is_added_with_its_tables_and_removed_with_them(text, key):
     edited = with_value(text, key, "7")

@@ -11,11 +11,7 @@ from wearsim.input.calculation_file import load_calculation
 BASE = {
     "format_version": 1,
     "title": "drive",
-    "wave_drive": {
-        "gear_ratio": 120,
-        "output_torque_N_m": 800,
-        "generator_speed_rpm": 1500,
-    },
+    "wave_drive": {"gear_ratio": 120, "output_torque_N_m": 800, "generator_speed_rpm": 1500},
     "generator_bearing": {"bearing_constant": 10},
 }
 
@@ -51,11 +47,17 @@ CHANGES = {
     **{
         f"{method}.published_diameter_mm": 150
         for method in (
-            "pressure", "crushing", "torsion", "tooth_wear", "flank_pressure", "rim_bending",
-            "rim_endurance", "generator_bearing",
+            "pressure",
+            "crushing",
+            "torsion",
+            "tooth_wear",
+            "flank_pressure",
+            "rim_bending",
+            "rim_endurance",
+            "generator_bearing",
         )
     },
-}  # fmt: skip
+}
 
 
 def sheet(tables):

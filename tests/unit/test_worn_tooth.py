@@ -51,8 +51,7 @@ def test_lower_tip_bounds_the_circle_and_the_higher_one_the_land():
 
 
 @pytest.mark.parametrize(
-    ("form", "tip", "land"),
-    [("min", 72.1105, 2.526), ("max", 72.1105, 0.847), ("min", 76.4808, 0.488)],
+    ("form", "tip", "land"), [("min", 72.1105, 2.526), ("max", 72.1105, 0.847), ("min", 76.4808, 0.488)]
 )
 def test_printed_tip_lands_of_08b(form, tip, land):
     """Table of 08B z = 17; the thickness on the tip circle is the chord of the land."""

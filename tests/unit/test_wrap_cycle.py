@@ -77,8 +77,7 @@ def test_mate_touches_the_outline():
     table = table[:, table[kernels.EVENT_LOAD] > 0.0]
     for column in table.T:
         distance = np.hypot(
-            of.profile.x - column[kernels.EVENT_CENTRE_X],
-            of.profile.y - column[kernels.EVENT_CENTRE_Y],
+            of.profile.x - column[kernels.EVENT_CENTRE_X], of.profile.y - column[kernels.EVENT_CENTRE_Y]
         )
         assert distance.min() == pytest.approx(of.roller_radius, abs=2e-4)
         assert abs(int(distance.argmin()) - column[kernels.EVENT_TOUCHED]) < 60
@@ -102,9 +101,7 @@ def test_way_between_phases_and_over_the_pitch():
     """Every loaded event holds half the way from the phase before and half to the next one."""
     of = contact("joint.pitch='uniform'")
     of = replace(of, sliding=replace(of.sliding, fraction=0.0, path_fraction=1.0))
-    table = of.events(*unworn(of), ChainWear(0.02), of.memory()).reshape(
-        kernels.EVENT_ROWS, 4, of.most
-    )
+    table = of.events(*unworn(of), ChainWear(0.02), of.memory()).reshape(kernels.EVENT_ROWS, 4, of.most)
     centre = table[kernels.EVENT_CENTRE_X] + 1j * table[kernels.EVENT_CENTRE_Y]
     slip, load = table[kernels.EVENT_SLIP], table[kernels.EVENT_LOAD]
     # One roller on its whole way: positions 0, 1, 2 ... in the phases 1 to 4 of each.
@@ -124,9 +121,7 @@ def test_way_between_phases_and_over_the_pitch():
 def test_rollers_roll_up_the_flank_or_slide(frictions, path_fraction):
     """They roll where mu_tooth r > mu_bush r_bush; then xi of the way is slid."""
     tooth, bush = frictions
-    of = contact(
-        f"mechanism.friction_roller_tooth={tooth}", f"mechanism.friction_roller_bush={bush}"
-    )
+    of = contact(f"mechanism.friction_roller_tooth={tooth}", f"mechanism.friction_roller_bush={bush}")
     assert (of.sliding.fraction, of.sliding.path_fraction) == (0.1, path_fraction)
 
 
@@ -140,9 +135,7 @@ def test_coarsened_keeps_ends_and_loads(nodes):
         assert (values[0], values[-1]) == (fewer[0], fewer[-1])
     assert coarse.phases == 3 * of.phases // 4
     same = replace(coarse, phases=of.phases)
-    load, fewer = (
-        c.events(*unworn(c), ChainWear(0.01), c.memory())[kernels.EVENT_LOAD] for c in (of, same)
-    )
+    load, fewer = (c.events(*unworn(c), ChainWear(0.01), c.memory())[kernels.EVENT_LOAD] for c in (of, same))
     np.testing.assert_allclose(fewer, load, rtol=0.0, atol=0.02 * load.max())
 
 
@@ -167,9 +160,7 @@ def test_two_halves_of_the_duty_are_the_whole():
     of = contact()
     (block,) = of.blocks
     halves = replace(of, blocks=(replace(block, share=0.25), replace(block, share=0.75)))
-    runs = [
-        run_dwelling(c, archard(1e-9), (depth_criterion(0.02),), 1e12, 0, 1e5) for c in (of, halves)
-    ]
+    runs = [run_dwelling(c, archard(1e-9), (depth_criterion(0.02),), 1e12, 0, 1e5) for c in (of, halves)]
     assert runs[1].cycles[-1] == pytest.approx(runs[0].cycles[-1], rel=0.01)
 
 

@@ -18,11 +18,7 @@ from wearsim.simulation.wrap_mechanism import wrap_mechanism
 HERE = Path(__file__).parent
 CASES = HERE.parents[1] / "cases"
 COARSE = ("sprocket.nodes=51", "mechanism.phases=4", "run.life_tolerance=0.1")
-CHAIN_ONLY = (
-    "mechanism.phases=2",
-    "wear.specific_wear_rate_mm2_per_N=1e-14",
-    "stop.elongation_percent=10",
-)
+CHAIN_ONLY = ("mechanism.phases=2", "wear.specific_wear_rate_mm2_per_N=1e-14", "stop.elongation_percent=10")
 JOINT = "joint.specific_wear_rate_mm2_per_N"
 
 
@@ -83,9 +79,7 @@ def grown(wrap_run: Callable[..., WearResult]) -> Callable[..., Growth]:
 def span() -> Callable[..., float]:
     """Return the length over pitches of the bicycle's chain, its first link given, from pin to pin."""
 
-    def length(
-        pitches: int, elongation: float, first: str = "inner", pattern: str = "alternating"
-    ) -> float:
+    def length(pitches: int, elongation: float, first: str = "inner", pattern: str = "alternating") -> float:
         case = wearsim.load_case(CASES / "bicycle-17t-road.toml", [f"joint.pitch={pattern}"])
         assert isinstance(case.drive, WrapDrive)
         inner, outer = wrap_mechanism(case, case.drive).chain.pitches(elongation)
@@ -107,9 +101,7 @@ class Commuter:
 
 @pytest.fixture(scope="session")
 def commuter(
-    data: Callable[[str], pd.DataFrame],
-    grown: Callable[..., Growth],
-    span: Callable[..., float],
+    data: Callable[[str], pd.DataFrame], grown: Callable[..., Growth], span: Callable[..., float]
 ) -> Commuter:
     """Return one first length and one coefficient for two chains, by a straight line through both.
 

@@ -36,9 +36,7 @@ CYCLES = (100, 200, 500)
 @pytest.fixture(scope="module")
 def wear(data):
     table = data("metal_wear")
-    return table.assign(
-        log=np.log(table.wear_um), load=np.log(table.load_g), run=np.log(table.cycles)
-    )
+    return table.assign(log=np.log(table.wear_um), load=np.log(table.load_g), run=np.log(table.cycles))
 
 
 def fitted(table):
@@ -154,8 +152,7 @@ def test_scatter_stays_with_the_specimen(wear, measured):
     """Scatter by the reading would leave the two halves uncorrelated, above 0.5 once in ten times."""
     off = wear.log - wear.groupby(["load_g", "cycles"]).log.transform("mean")
     early, late = (
-        off[part].groupby(wear.specimen[part]).mean()
-        for part in (wear.cycles <= 50, wear.cycles > 50)
+        off[part].groupby(wear.specimen[part]).mean() for part in (wear.cycles <= 50, wear.cycles > 50)
     )
     measured(
         "correlation of a specimen's mean offset up to 50 cycles with that beyond",

@@ -66,9 +66,7 @@ def depth_at(even_contact):
 
 @pytest.mark.parametrize("material", MATERIALS)
 def test_late_slope(tests_of, depth_at, measured, material):
-    low, high = (
-        float(tests_of(material, load).late_slope_um_per_m.iloc[0]) for load in (LOW, HIGH)
-    )
+    low, high = (float(tests_of(material, load).late_slope_um_per_m.iloc[0]) for load in (LOW, HIGH))
     measured(
         f"{material}: late slope at 98.1 N",
         float(depth_at(HIGH, low / LOW, [100.0])[0] / 100.0),

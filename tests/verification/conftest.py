@@ -31,8 +31,7 @@ REFERENCE: dict[str, Any] = {
         "contact_end_mm": 4.0,
     },
     "material": {
-        body: {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3}
-        for body in ("sprocket", "roller")
+        body: {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3} for body in ("sprocket", "roller")
     },
     "load": {"tension_N": 5000, "speed_rpm": 100},
     "stop": {"critical_depth_mm": 0.2},

@@ -27,21 +27,10 @@ def archard_law(rate: float) -> dict[str, object]:
     return {"law": "archard", "specific_wear_rate_mm2_per_N": rate}
 
 
-def depth_per_cycle(
-    load: np.ndarray, slip: np.ndarray, relative: np.ndarray, rate: float
-) -> np.ndarray:
+def depth_per_cycle(load: np.ndarray, slip: np.ndarray, relative: np.ndarray, rate: float) -> np.ndarray:
     """Depth of one passage of a travelling contact, from the engine's kernel."""
     speed, pressure, depth = np.zeros(load.size), np.empty(load.size), np.empty(load.size)
-    wear_depth(
-        load,
-        slip,
-        speed,
-        relative,
-        MODULUS,
-        archard(rate).numbers(Kind.TRAVELLING),
-        pressure,
-        depth,
-    )
+    wear_depth(load, slip, speed, relative, MODULUS, archard(rate).numbers(Kind.TRAVELLING), pressure, depth)
     return depth
 
 
@@ -51,9 +40,7 @@ def last_depths(result: wearsim.WearResult) -> np.ndarray:
 
 
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
-def test_b2_block_on_flat(
-    validated: Callable[..., None], prescribed: CaseMaker, method: str
-) -> None:
+def test_b2_block_on_flat(validated: Callable[..., None], prescribed: CaseMaker, method: str) -> None:
     """A flat of 10 x 10 mm under 1 MPa everywhere, slid over 100 mm a cycle."""
     roller_radius = 5.0
     case = prescribed(
@@ -139,10 +126,7 @@ def test_b8iii_per_cycle(reference: CaseMaker) -> None:
     life = wearsim.simulate(reference(1, "run.method=per_cycle")).cycles
     quarter = wearsim.simulate(
         reference(
-            1,
-            "run.method=per_cycle",
-            "run.cycles_per_update=4",
-            "wear.specific_wear_rate_mm2_per_N=2.5e-9",
+            1, "run.method=per_cycle", "run.cycles_per_update=4", "wear.specific_wear_rate_mm2_per_N=2.5e-9"
         )
     ).cycles
     assert quarter == pytest.approx(4.0 * life, rel=1e-9)

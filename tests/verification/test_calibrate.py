@@ -29,10 +29,7 @@ STRAND = {
     "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
     "stop": {"critical_depth_mm": 0.1},
 }
-POWER = {
-    **STRAND,
-    "wear": {"law": "power", "coefficient": 1.2e-9, "pressure_exponent": 0.7},
-}
+POWER = {**STRAND, "wear": {"law": "power", "coefficient": 1.2e-9, "pressure_exponent": 0.7}}
 WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
@@ -108,11 +105,16 @@ class Bench:
 def depths(model, places, parts, error, rng):
     """Readings of depths with errors."""
     return [
-        (part * model.hours, "depth_mm",
-         model.depth_at(part, place, 1) + rng.normal(0.0, error), error, place)
+        (
+            part * model.hours,
+            "depth_mm",
+            model.depth_at(part, place, 1) + rng.normal(0.0, error),
+            error,
+            place,
+        )
         for place in places
         for part in parts
-    ]  # fmt: skip
+    ]
 
 
 def inside(interval, truth):
@@ -142,8 +144,7 @@ def test_intervals_of_the_coefficient_and_of_the_life_hold_nine_of_ten(tmp_path,
 def test_intervals_of_two_values_hold_nine_of_ten(tmp_path, once, error):
     truth, rng = course(POWER), np.random.default_rng(12)
     bench = Bench(
-        tmp_path,
-        {**STRAND, "wear": {**POWER["wear"], "coefficient": 1e-9, "pressure_exponent": 1.0}},
+        tmp_path, {**STRAND, "wear": {**POWER["wear"], "coefficient": 1e-9, "pressure_exponent": 1.0}}
     )
     options, held = Options(shapes=("wear.pressure_exponent",)), np.zeros(3)
     for _ in range(REPEATS):
@@ -164,9 +165,7 @@ def scan(model, part, error, rng, turn, shift):
     places = np.linspace(0.02, 0.98, 300) * model.chords[-1]
     columns = (new.x, new.y, new.normal_x, new.normal_y)
     x, y, normal_x, normal_y = (np.interp(places, model.chords, one) for one in columns)
-    off = rng.normal(0.0, error, places.size) - np.interp(
-        places, model.chords, model.recess(part, 1)
-    )
+    off = rng.normal(0.0, error, places.size) - np.interp(places, model.chords, model.recess(part, 1))
     x, y = x + off * normal_x, y + off * normal_y
     c, s = np.cos(turn), np.sin(turn)
     return Profile(c * x - s * y + shift[0], s * x + c * y + shift[1])
@@ -196,9 +195,7 @@ def test_elongations_have_the_closed_form_of_a_line_through_zero(tmp_path):
     bench = Bench(tmp_path, WRAP)
     hours, error = np.array([50.0, 90.0, 140.0]), np.array([0.05, 0.05, 0.1])
     values = np.array([0.51, 0.84, 1.45])
-    rows = [
-        (h, "elongation_percent", v, e, None) for h, v, e in zip(hours, values, error, strict=True)
-    ]
+    rows = [(h, "elongation_percent", v, e, None) for h, v, e in zip(hours, values, error, strict=True)]
     found = bench.fit(rows)
     (value,), (part,) = found.values, found.parts
     weight = np.sum((hours / error) ** 2)
@@ -210,21 +207,25 @@ def test_elongations_have_the_closed_form_of_a_line_through_zero(tmp_path):
     assert part.interval.high == pytest.approx(limit / (slope - spread), rel=1e-4)
     assert part.remaining == pytest.approx(limit / slope - 140.0, rel=1e-5)
     assert value.value / part.life**-1 == pytest.approx(
-        value.given * wearsim.simulate(wearsim.load_case(copy.deepcopy(WRAP))).parts["chain"].hours,
-        rel=1e-5,
+        value.given * wearsim.simulate(wearsim.load_case(copy.deepcopy(WRAP))).parts["chain"].hours, rel=1e-5
     )
     assert found.runs == 0
 
 
 @pytest.mark.slow
 def test_teeth_and_chain_of_a_wrap_are_told_apart(tmp_path):
-    truth = {**WRAP, "wear": {"specific_wear_rate_mm2_per_N": 1.4e-9},
-             "joint": {"specific_wear_rate_mm2_per_N": 1e-8}}  # fmt: skip
+    truth = {
+        **WRAP,
+        "wear": {"specific_wear_rate_mm2_per_N": 1.4e-9},
+        "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
+    }
     result = wearsim.simulate(wearsim.load_case(copy.deepcopy(truth)))
     model = courses.Course(result)
     chain = result.parts["chain"].hours
-    rows = [(part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 0.0005, None)
-            for part in (0.4, 0.8)]  # fmt: skip
+    rows = [
+        (part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 0.0005, None)
+        for part in (0.4, 0.8)
+    ]
     rows += [(part * chain, "elongation_percent", part * 3.0, 0.02, None) for part in (0.3, 0.6)]
     found = Bench(tmp_path, WRAP).fit(rows)
     teeth, joints = found.values
@@ -262,8 +263,10 @@ def test_slip_and_coefficient_cannot_be_told_apart_but_the_life_is_known(tmp_pat
     bench = Bench(tmp_path, STRAND)
     alone = bench.fit(rows)
     both = bench.fit(rows, Options(shapes=("mechanism.roller_slip_fraction",)))
-    assert any("cannot tell wear.specific_wear_rate_mm2_per_N and mechanism.roller_slip_fraction "
-               "apart" in text for text in both.warnings)  # fmt: skip
+    assert any(
+        "cannot tell wear.specific_wear_rate_mm2_per_N and mechanism.roller_slip_fraction apart" in text
+        for text in both.warnings
+    )
     assert not alone.warnings
     assert not both.values[1].interval.known
     # The slip is at most 1, so that the coefficient is at least that of the fit with 1.
@@ -322,8 +325,10 @@ def test_told_life_is_that_of_the_case_that_was_fitted(tmp_path):
     truth = {**WRAP, "joint": {"specific_wear_rate_mm2_per_N": 4.5e-8}}
     result = wearsim.simulate(wearsim.load_case(copy.deepcopy(truth)))
     model = courses.Course(result)
-    rows = [(part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 1e-4, None)
-            for part in (0.4, 0.8)]  # fmt: skip
+    rows = [
+        (part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 1e-4, None)
+        for part in (0.4, 0.8)
+    ]
     rows.append((0.5 * result.parts["chain"].hours, "elongation_percent", 1.5, 1e-3, None))
     found = Bench(tmp_path, WRAP).fit(rows)
     assert found.values[0].value == pytest.approx(1e-9, rel=0.01)

@@ -51,9 +51,7 @@ def wrap(*settings: str) -> WearResult:
 
 @pytest.mark.parametrize(("factor", "cycles"), [(1.0, 5.0), (3.0, 100.0), (20.0, 1e6)])
 @pytest.mark.parametrize("run", [0.0, 1.0, 50.0, 1e3, 1e7])
-def test_running_in_is_the_integral_of_its_coefficient(
-    factor: float, cycles: float, run: float
-) -> None:
+def test_running_in_is_the_integral_of_its_coefficient(factor: float, cycles: float, run: float) -> None:
     warp = RunningIn(factor, cycles)
     excess, _ = quad(lambda n: math.exp(-n / cycles), 0.0, min(run, 40 * cycles), limit=200)
     worn = warp.constant_cycles(run)
@@ -92,9 +90,7 @@ def test_running_in_does_not_follow_the_density_of_the_rows(tmp_path: Path) -> N
         settings = ("wear.running_in_factor=3", f"wear.running_in_distance_mm={way!r}")
         run = wearsim.simulate(wearsim.load_case(tables, settings))
         warp = RunningIn(3.0, plain.cycles)
-        assert run.cycles == pytest.approx(
-            warp.running_cycles(np.array([plain.cycles]))[0], rel=1e-3
-        )
+        assert run.cycles == pytest.approx(warp.running_cycles(np.array([plain.cycles]))[0], rel=1e-3)
         lives.append(run.cycles)
     assert lives[1] == pytest.approx(lives[0], rel=2e-3)
 
@@ -284,9 +280,7 @@ def test_life_ends_where_the_slack_tension_needed_reaches_its_limit() -> None:
 
 
 def test_what_a_new_drive_needs_cannot_be_the_limit() -> None:
-    with pytest.raises(
-        CaseError, match=r"min_slack_tension_N: must be above what a new drive needs"
-    ):
+    with pytest.raises(CaseError, match=r"min_slack_tension_N: must be above what a new drive needs"):
         wrap(*MARGIN, "stop.min_slack_tension_N=0.01")
 
 

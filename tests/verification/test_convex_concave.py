@@ -70,11 +70,7 @@ def test_points_of_the_head(line):
 
 @pytest.mark.parametrize(
     ("degrees", "x", "y"),
-    [
-        (21, 0.04801680, 38.37644115),
-        (25, 0.34521302, 39.01713980),
-        (30, 1.01357754, 40.08662486),
-    ],
+    [(21, 0.04801680, 38.37644115), (25, 0.34521302, 39.01713980), (30, 1.01357754, 40.08662486)],
 )
 def test_points_at_whole_degrees(validated, degrees, x, y):
     quantity, points = f"point of the head at {degrees} deg", HEAD.points(math.radians(degrees))
@@ -91,9 +87,7 @@ def test_functions_take_arrays():
         assert function(alpha) == pytest.approx([float(function(a)) for a in alpha], abs=0)
 
 
-@pytest.mark.parametrize(
-    ("degrees", "phi"), [(25, 0.0493468431), (35, 0.1531840741), (45, 0.2652438749)]
-)
+@pytest.mark.parametrize(("degrees", "phi"), [(25, 0.0493468431), (35, 0.1531840741), (45, 0.2652438749)])
 def test_roll_angle(degrees, phi):
     assert HEAD.roll_angle(math.radians(degrees)) == pytest.approx(phi, abs=5e-11)
     assert FOOT.roll_angle(math.radians(degrees)) == pytest.approx(-phi, abs=5e-11)
@@ -102,9 +96,7 @@ def test_roll_angle(degrees, phi):
 def test_tip(validated):
     alpha = HEAD.angle_at_radius(42.75)
     found, source = math.degrees(alpha), "independent program"
-    validated(
-        "pressure angle of the tip", found, 39.3188404973, 1e-11, source, "deg", absolute=True
-    )
+    validated("pressure angle of the tip", found, 39.3188404973, 1e-11, source, "deg", absolute=True)
     assert HEAD.path_coordinate(alpha) == pytest.approx(6.6164944738, abs=5e-11)
     assert HEAD.roll_angle(alpha) == pytest.approx(0.2004450626, abs=5e-11)
     # The chord of the tip is s = pi m / 2 at the pitch circle.
@@ -186,7 +178,7 @@ def chebyshev(points, start, end):
     return [
         np.polynomial.Chebyshev(np.polynomial.chebyshev.chebfit(nodes, values[:, i], 30), (start, end))
         for i in (0, 1)
-    ]  # fmt: skip
+    ]
 
 
 @flanks
@@ -218,14 +210,10 @@ def test_rack_does_not_depend_on_the_teeth():
         small, large = (Flank(r, 10.0, POLE, part) for r in (20.0, 2e6))
         assert small.rack_points(alpha) == pytest.approx(large.rack_points(alpha), abs=0)
         # A wheel of many teeth has the rack's curvature.
-        assert abs(large.curvature_radius(alpha)) == pytest.approx(
-            small.rack_radius(alpha), rel=1e-4
-        )
+        assert abs(large.curvature_radius(alpha)) == pytest.approx(small.rack_radius(alpha), rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("mate", "rho"), [(17, 6.5411352411), (34, 8.7215136548), (51, 9.8117028617)]
-)
+@pytest.mark.parametrize(("mate", "rho"), [(17, 6.5411352411), (34, 8.7215136548), (51, 9.8117028617)])
 def test_reduced_radius_in_the_pole_is_the_same_on_both_sides(validated, mate, rho):
     pair = ConvexConcave(4.5, 17, mate, POLE, 10.0, 10.0, 4.5)
     # For 51 teeth the reference prints 9.8117026617: the closed form below has another digit.
@@ -320,11 +308,10 @@ def test_roller_touches_both_flanks(gear, ratio):
     assert rest == pytest.approx(centre, abs=1e-10)
     nearest = [
         minimize_scalar(
-            lambda a, f=f: away(f, a), bounds=(f.pole_angle, end), method="bounded",
-            options={"xatol": 1e-9},
+            lambda a, f=f: away(f, a), bounds=(f.pole_angle, end), method="bounded", options={"xatol": 1e-9}
         ).fun
         for f, end in gear.flanks()
-    ]  # fmt: skip
+    ]
     assert min(*nearest, away(flank, found.alpha)) == pytest.approx(0.5 * diameter, abs=1e-8)
     across = 2.0 * found.centre_radius * (math.cos(theta) if gear.teeth % 2 else 1.0)
     assert found.over == pytest.approx(across + diameter, abs=1e-12)
@@ -390,10 +377,7 @@ def test_undercut_is_where_the_foot_turns_back():
     """Dr/dalpha = 0, by the distance itself; beyond it the sense of the flank is the other one."""
     flank = Flank(12.0, 60.0, POLE, "foot")
     found = minimize_scalar(
-        lambda a: float(flank.radius(a)),
-        bounds=(POLE, 1.2),
-        method="bounded",
-        options={"xatol": 1e-10},
+        lambda a: float(flank.radius(a)), bounds=(POLE, 1.2), method="bounded", options={"xatol": 1e-10}
     )
     assert flank.last_angle == pytest.approx(found.x, abs=1e-6)
     near = flank.last_angle + np.array([-1e-3, 0.0, 1e-3])
@@ -440,8 +424,10 @@ def test_wheel_is_the_envelope_of_the_pinion(validated, pair, which):
         touching = on_wheel(alpha, phi)
         away = minimize_scalar(
             lambda a, at=touching: math.hypot(*(zone.wheel.points(a) - at)) ** 2,
-            bounds=(alpha - 1e-3, alpha + 1e-3), method="bounded", options={"xatol": 1e-12},
-        )  # fmt: skip
+            bounds=(alpha - 1e-3, alpha + 1e-3),
+            method="bounded",
+            options={"xatol": 1e-12},
+        )
         assert math.sqrt(away.fun) < 1e-8
         points.append((touching, zone.wheel.points(alpha)))
     quantity, (envelope, found) = "points of the wheel", np.swapaxes(points, 0, 1)
@@ -472,9 +458,7 @@ def test_backlash_turns_the_flank():
 def test_thinner_teeth_let_the_roller_in(diameter):
     """DM/dj by the work of the roller's radial motion against both flanks."""
     step = 1e-5
-    gears = [
-        ConvexConcaveGear(34, 4.5, POLE, 10.0, 10.0, 4.5, thinning) for thinning in (0.0, step)
-    ]
+    gears = [ConvexConcaveGear(34, 4.5, POLE, 10.0, 10.0, 4.5, thinning) for thinning in (0.0, step)]
     thick, thin = (gear.over_rollers(diameter) for gear in gears)
     flank = getattr(gears[0], thick.part)
     # A flank that recedes by b cos(alpha) along its normal, which leans by beta against the gap.

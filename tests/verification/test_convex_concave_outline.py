@@ -52,9 +52,7 @@ def test_outline_is_a_gear(pair, root, clearance):
 @pytest.mark.parametrize(("root", "clearance"), ROOTS[:1])
 @pairs
 def test_flanks_lie_on_the_outline(pair, root, clearance):
-    for gear, points in zip(
-        (pair.pinion, pair.wheel), polygons(pair, root, clearance), strict=True
-    ):
+    for gear, points in zip((pair.pinion, pair.wheel), polygons(pair, root, clearance), strict=True):
         edge = shapely.LinearRing(points)
         for flank, end in gear.flanks():
             on = turned(flank.points(np.linspace(POLE, end, 61)), -gear.turn)
@@ -76,9 +74,7 @@ def test_fillet_goes_on_smoothly(pair, root, clearance):
     assert corner[~sharp].max() < 1e-4
 
 
-@pytest.mark.parametrize(
-    ("root", "clearance"), [("radial", None), ("fillet", None), ("fillet", 0.2)]
-)
+@pytest.mark.parametrize(("root", "clearance"), [("radial", None), ("fillet", None), ("fillet", 0.2)])
 @pytest.mark.parametrize("pair", [PAIR, LOOSE])
 def test_gears_run_free(pair, root, clearance):
     """Whole polygons, turned through a pitch with the flanks in contact, overlap nowhere."""
@@ -192,9 +188,7 @@ def test_solid_is_closed_and_holds_area_times_width(tmp_path, root, clearance):
     triangles = prism(points, 20.0)
     volume = np.einsum("ij,ij->i", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))
     assert volume.sum() / 6.0 == pytest.approx(20.0 * shapely.Polygon(points).area, rel=1e-9)
-    edges = Counter(
-        (tuple(one[i]), tuple(one[i - 2])) for one in triangles.tolist() for i in range(3)
-    )
+    edges = Counter((tuple(one[i]), tuple(one[i - 2])) for one in triangles.tolist() for i in range(3))
     assert set(edges.values()) == {1}
     assert {(b, a) for a, b in edges} == set(edges)
     path = tmp_path / "pinion.stl"

@@ -42,12 +42,7 @@ def test_turned_points_are_turned_back(tmp_path: Path, degrees: float) -> None:
     for name, points in (("straight", flank), ("turned", turned)):
         file = tmp_path / f"{name}.csv"
         np.savetxt(file, np.c_[points.x, points.y], delimiter=",", header="x_mm,y_mm", comments="")
-        sprocket = {
-            "teeth": 20,
-            "profile": "points",
-            "points_file": str(file),
-            "evolute_offset_mm": 5.5,
-        }
+        sprocket = {"teeth": 20, "profile": "points", "points_file": str(file), "evolute_offset_mm": 5.5}
         case = wearsim.load_case(CASE | {"sprocket": sprocket})
         lives.append(wearsim.simulate(case).life.cycles)
         assert any("turned by" in text for text in case.warnings) == (name == "turned")

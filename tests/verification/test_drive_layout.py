@@ -42,12 +42,8 @@ def radians_per_second(rpm: float) -> float:
     return 2.0 * math.pi * rpm / 60.0
 
 
-@pytest.mark.parametrize(
-    ("drive", "links", "digits"), [("A", 75.793, 3), ("B", 114.801, 3), ("D", 99.49, 2)]
-)
-def test_handbook_links(
-    validated: Callable[..., None], drive: str, links: float, digits: int
-) -> None:
+@pytest.mark.parametrize(("drive", "links", "digits"), [("A", 75.793, 3), ("B", 114.801, 3), ("D", 99.49, 2)])
+def test_handbook_links(validated: Callable[..., None], drive: str, links: float, digits: int) -> None:
     one, two, centre, _ = DRIVES[drive]
     quantity, source = f"links of drive {drive}", "printed answer of the handbook"
     found, within = handbook_links(one, two, centre), 0.5 * 10.0**-digits
@@ -91,18 +87,14 @@ def test_case_d_was_printed_with_misprints() -> None:
 @pytest.mark.parametrize("drive", DRIVES)
 def test_formulas_are_inverted_and_agree(drive: str) -> None:
     one, two, centre, links = DRIVES[drive]
-    assert handbook_links(one, two, handbook_centre(one, two, links)) == pytest.approx(
-        links, rel=1e-13
-    )
+    assert handbook_links(one, two, handbook_centre(one, two, links)) == pytest.approx(links, rel=1e-13)
     assert belt_links(one, two, belt_centre(one, two, links)) == pytest.approx(links, rel=1e-12)
     assert belt_links(two, one, centre) == pytest.approx(belt_links(one, two, centre), rel=1e-14)
     assert 0.0 < belt_links(one, two, centre) - handbook_links(one, two, centre) < 4.0e-3
 
 
 @pytest.mark.parametrize(("teeth", "short"), [((17, 34), 7.1e-3), ((9, 150), 5.9e-2)])
-def test_handbook_formula_is_short_by_what_its_docstring_says(
-    teeth: tuple[int, int], short: float
-) -> None:
+def test_handbook_formula_is_short_by_what_its_docstring_says(teeth: tuple[int, int], short: float) -> None:
     centre = 1.6 * (1 / math.sin(math.pi / teeth[1]) - 1 / math.sin(math.pi / teeth[0]))
     found = belt_links(*teeth, centre) - handbook_links(*teeth, centre)
     assert found == pytest.approx(short, rel=0.02)
@@ -114,9 +106,7 @@ def test_wished_centre_distance_gives_the_published_links(drive: str) -> None:
     layout = layout_with_centre(25.4, one, two, 25.4 * centre)
     assert layout.links == links
     assert not layout.needs_offset_link
-    assert layout.centre_distance / 25.4 == pytest.approx(
-        handbook_centre(one, two, links), rel=1e-14
-    )
+    assert layout.centre_distance / 25.4 == pytest.approx(handbook_centre(one, two, links), rel=1e-14)
 
 
 def test_case_b_was_rounded_down() -> None:
@@ -160,12 +150,7 @@ def test_driver_may_be_the_larger_sprocket() -> None:
 
 @pytest.mark.parametrize(
     ("pitch", "teeth", "rpm", "speed"),
-    [
-        (44.45, 17, 300, 3.778),
-        (15.875, 20, 1200, 6.35),
-        (25.4, 20, 750, 6.35),
-        (25.4, 27, 114, 1.303),
-    ],
+    [(44.45, 17, 300, 3.778), (15.875, 20, 1200, 6.35), (25.4, 20, 750, 6.35), (25.4, 27, 114, 1.303)],
 )
 def test_chain_speed(
     validated: Callable[..., None], pitch: float, teeth: int, rpm: float, speed: float
@@ -180,9 +165,7 @@ def test_chain_speed(
 @pytest.mark.parametrize(
     ("teeth", "diameter"), [(9, 2.9238), (17, 5.4422), (19, 6.0755), (25, 7.9787), (57, 18.1529)]
 )
-def test_pitch_diameter_of_unit_pitch(
-    validated: Callable[..., None], teeth: int, diameter: float
-) -> None:
+def test_pitch_diameter_of_unit_pitch(validated: Callable[..., None], teeth: int, diameter: float) -> None:
     """ISO 606, annex A."""
     quantity, found = f"pitch diameter over pitch, {teeth} teeth", pitch_diameter(1.0, teeth)
     shown = teeth == 17
@@ -224,9 +207,7 @@ def test_catenary(validated: Callable[..., None], sag: float) -> None:
     low, high = 1.0, 1.0e4
     for _ in range(100):
         middle = 0.5 * (low + high)
-        low, high = (
-            (middle, high) if middle * (math.cosh(0.5 / middle) - 1) > sag else (low, middle)
-        )
+        low, high = (middle, high) if middle * (math.cosh(0.5 / middle) - 1) > sag else (low, middle)
     mass, span = 2.6e-6, 800.0
     horizontal = low * mass * 9806.65 * span
     found = catenary_tension(mass, span, sag)
@@ -238,9 +219,7 @@ def test_catenary(validated: Callable[..., None], sag: float) -> None:
 def test_catenary_at_two_percent_and_on_a_slope() -> None:
     """6.25 q g a for 1 kg/m over 1 m; cos 60 deg = 1/2."""
     assert catenary_tension(1e-6, 1e3) == pytest.approx(6.25 * 9.80665, rel=1e-12)
-    assert catenary_tension(1e-6, 1e3, slope=math.pi / 3) == pytest.approx(
-        0.5 * 6.25 * 9.80665, rel=1e-12
-    )
+    assert catenary_tension(1e-6, 1e3, slope=math.pi / 3) == pytest.approx(0.5 * 6.25 * 9.80665, rel=1e-12)
 
 
 def test_tensions_of_case_b() -> None:
@@ -264,9 +243,7 @@ def test_tensions_of_case_b() -> None:
         (0.0, (19, 57), 120, "above 0"),
     ],
 )
-def test_links_that_cannot_be(
-    pitch: float, teeth: tuple[int, int], links: int, message: str
-) -> None:
+def test_links_that_cannot_be(pitch: float, teeth: tuple[int, int], links: int, message: str) -> None:
     with pytest.raises(GeometryError, match=message):
         layout_with_links(pitch, *teeth, links)
 

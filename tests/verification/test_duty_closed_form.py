@@ -237,9 +237,7 @@ class TestWrap:
             path = np.pi * chain.pin_diameter * (2 / 19)
             pressures = (tension + 40.0 + 2 * own) / chain.bearing_area
             growth += share * 1e-10 * pressures * path / 12.7 * 19 / duty_case.drive.layout.links
-        assert self.contact(duty=duty).elongation_per_cycle == pytest.approx(
-            growth, rel=1e-9, abs=0
-        )
+        assert self.contact(duty=duty).elongation_per_cycle == pytest.approx(growth, rel=1e-9, abs=0)
 
     def test_two_equal_blocks_are_one(self):
         half = block(0.5, 1300, 97.3)
@@ -262,8 +260,7 @@ class TestWrap:
         assert fast.hours == pytest.approx(slow.hours / 2, rel=1e-4)
 
     @pytest.mark.parametrize(
-        ("applies_to", "teeth", "joints"),
-        [("all", 2.0, 2.0), ("teeth", 2.0, 1.0), ("joints", 1.0, 2.0)],
+        ("applies_to", "teeth", "joints"), [("all", 2.0, 2.0), ("teeth", 2.0, 1.0), ("joints", 1.0, 2.0)]
     )
     def test_factor_on_every_block_is_one_on_the_coefficient(self, applies_to, teeth, joints):
         duty = [block(0.5, 1300, 80, 2.0), block(0.5, 600, 80, 2.0)]
@@ -285,8 +282,7 @@ class TestWrap:
 
 def test_twice_the_speed_on_a_strand_is_half_the_hours():
     slow, fast = (
-        strand("archard", duty=[block(0.5, 6000, speed), block(0.5, 3000, speed)]).life
-        for speed in (50, 100)
+        strand("archard", duty=[block(0.5, 6000, speed), block(0.5, 3000, speed)]).life for speed in (50, 100)
     )
     assert fast.cycles == pytest.approx(slow.cycles, rel=1e-12)
     assert fast.hours == pytest.approx(slow.hours / 2, rel=1e-12)

@@ -92,9 +92,7 @@ def half_width(run):
 
 def teeth(depth):
     """Share of the depth that alternates from point to point."""
-    return (
-        np.abs(depth[:-3] - 3.0 * depth[1:-2] + 3.0 * depth[2:-1] - depth[3:]).max() / depth.max()
-    )
+    return np.abs(depth[:-3] - 3.0 * depth[1:-2] + 3.0 * depth[2:-1] - depth[3:]).max() / depth.max()
 
 
 @pytest.mark.parametrize("sliding", [162.0, 324.0, 1000.0])
@@ -220,9 +218,7 @@ def test_highest_load_is_that_of_the_outline_as_it_is():
     assert pressure == pytest.approx(2.0 * q / (np.pi * hertz), rel=1e-3)
     assert speed == 10.0
     run = slid(162.0)
-    worn, _ = highest_load(
-        Resting((0.0, q, 1.0, 3.0, 0)), archard(k), Start(run.all_depth[-1], NEW_CHAIN, 1)
-    )
+    worn, _ = highest_load(Resting((0.0, q, 1.0, 3.0, 0)), archard(k), Start(run.all_depth[-1], NEW_CHAIN, 1))
     assert q / (2.4 * half_width(run)) < worn < 0.5 * pressure
 
 
@@ -234,6 +230,4 @@ def test_power_law_under_the_pressure_of_the_end():
     peak = 2.0 * q / (np.pi * hertz)
     pressure = peak * np.sqrt(np.maximum(1.0 - (run.x[0] / hertz) ** 2, 0.0))
     inside = np.abs(run.x[0]) < 0.9 * hertz
-    np.testing.assert_allclose(
-        run.depth[-1][inside], coefficient * pressure[inside] ** 2, rtol=5e-3
-    )
+    np.testing.assert_allclose(run.depth[-1][inside], coefficient * pressure[inside] ** 2, rtol=5e-3)

@@ -96,10 +96,7 @@ FORMS = [pytest.param(MINIMUM, id="min"), pytest.param(MAXIMUM, id="max")]
 
 def turned(point: np.ndarray, angle: float) -> tuple[float, float]:
     cosine, sine = math.cos(angle), math.sin(angle)
-    return (
-        float(cosine * point[0] - sine * point[1]),
-        float(sine * point[0] + cosine * point[1]),
-    )
+    return (float(cosine * point[0] - sine * point[1]), float(sine * point[0] + cosine * point[1]))
 
 
 def wheel_arcs(form: Arcs) -> list[tuple[tuple[float, float], float, float, float]]:
@@ -220,13 +217,9 @@ def test_polyline_of_chords_is_read_as_the_curve(
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("loose", [False, True], ids=["polyline", "lines"])
-def test_even_chords_of_a_whole_wheel(
-    form: Arcs, loose: bool, save: Callable[[Drawing], Path]
-) -> None:
+def test_even_chords_of_a_whole_wheel(form: Arcs, loose: bool, save: Callable[[Drawing], Path]) -> None:
     """Chords of 0.3 mm, up to 3e-3 mm inside the arcs."""
-    vertices = [
-        turned(point, 2.0 * math.pi * i / TEETH) for i in range(TEETH) for point in form.points(0.3)
-    ]
+    vertices = [turned(point, 2.0 * math.pi * i / TEETH) for i in range(TEETH) for point in form.points(0.3)]
     drawing = ezdxf.new(units=4)
     if loose:
         for a, b in zip(vertices, vertices[1:] + vertices[:1], strict=True):
@@ -249,9 +242,7 @@ def test_joints_are_found_in_few_exact_points(form: Arcs) -> None:
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("noise", "step"), [(0.0, 0.02), (1e-4, 0.02), (0.0, 0.1), (1e-4, 0.1)])
-def test_smooth_outline_keeps_the_joints_of_exact_points(
-    form: Arcs, noise: float, step: float
-) -> None:
+def test_smooth_outline_keeps_the_joints_of_exact_points(form: Arcs, noise: float, step: float) -> None:
     """The curvature jumps from -1/ri to 1/re; a smoothing spline without joints is 6e-4 off."""
     gap = gap_from_points(*form.points(step).T, noise, 401, 0.5 * ROLLER)
     assert form.error(np.column_stack([gap.x, gap.y])) < 2e-4

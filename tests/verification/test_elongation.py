@@ -28,10 +28,20 @@ CHAIN = {
 
 
 def load_case(
-    teeth: int, mate: int, links: int, role: str, tight: float, slack: float, rpm: float,
-    rate: float | None, elongation: float = 2.0, pitch: str = "alternating", horizon: float = 1e6,
-    condition: str | None = None, duty: list[dict[str, float | str]] | None = None,
-) -> wearsim.Case:  # fmt: skip
+    teeth: int,
+    mate: int,
+    links: int,
+    role: str,
+    tight: float,
+    slack: float,
+    rpm: float,
+    rate: float | None,
+    elongation: float = 2.0,
+    pitch: str = "alternating",
+    horizon: float = 1e6,
+    condition: str | None = None,
+    duty: list[dict[str, float | str]] | None = None,
+) -> wearsim.Case:
     joint = {} if rate is None else {"specific_wear_rate_mm2_per_N": rate}
     load = {"duty": duty} if duty else {"load": {"tension_N": tight, "speed_rpm": rpm}}
     wear = {"condition": condition} if condition else {"specific_wear_rate_mm2_per_N": 5e-11}
@@ -61,9 +71,8 @@ def chain_hours(case: wearsim.Case) -> float:
 
 
 def closed_form(
-    teeth: int, mate: int, links: int, tight: float, slack: float, rpm: float, rate: float,
-    elongation: float,
-) -> float:  # fmt: skip
+    teeth: int, mate: int, links: int, tight: float, slack: float, rpm: float, rate: float, elongation: float
+) -> float:
     """Hours by (4.1); n and z of the worn sprocket."""
     speed = PITCH * 1e-3 * teeth * rpm / 60.0
     centrifugal = MASS * speed**2
@@ -130,9 +139,7 @@ def test_chain_under_two_states_of_lubrication(
     ]
     hours = chain_hours(load_case(19, 57, 120, "driver", 0.0, 60.0, 0.0, 1e-10, duty=duty))
     alone = [closed_form(19, 57, 120, tight, 60.0, rpm, 1e-10, 2.0) for _, tight, rpm, _ in parts]
-    worn = [
-        part[0] * factor / life for part, factor, life in zip(parts, joints, alone, strict=True)
-    ]
+    worn = [part[0] * factor / life for part, factor, life in zip(parts, joints, alone, strict=True)]
     source, shown = "1/L = sum c_i w_i/L_i by hand", applies_to is None
     validated("hours of a chain, two states", hours, 1.0 / sum(worn), 1e-9, source, "h", page=shown)
 
@@ -179,9 +186,7 @@ def test_life_of_the_chain_is_that_of_the_run(validated: Callable[..., None], ro
     assert grown[-1] == pytest.approx(1.0, rel=1e-9)
 
 
-def test_rating_point_verifies_equation_4_1_and_validates_nothing(
-    validated: Callable[..., None],
-) -> None:
+def test_rating_point_verifies_equation_4_1_and_validates_nothing(validated: Callable[..., None]) -> None:
     """No. 40, 19/57 teeth, 120 links, 1000 rpm, 4.60 kW: 15 000 h to 3 % with 1.16e-7 mm3/(N m).
 
     The coefficient was set so that just this comes out, from the tight strand alone; so the
@@ -213,9 +218,7 @@ def test_slack_articulations_count() -> None:
     both = elongation_per_loop(arguments[0], (20.0, 5.0), *arguments[1:])
     tight = elongation_per_loop(arguments[0], (20.0, 0.0), *arguments[1:])
     assert both == pytest.approx(1.25 * tight, rel=1e-12)
-    assert tight == pytest.approx(
-        1e-10 * 20.0 * math.pi * PIN * (1 / 19 + 1 / 57) / PITCH, rel=1e-12
-    )
+    assert tight == pytest.approx(1e-10 * 20.0 * math.pi * PIN * (1 / 19 + 1 / 57) / PITCH, rel=1e-12)
 
 
 def test_no_wear_of_joints_no_elongation() -> None:

@@ -47,13 +47,7 @@ def flank_radius(R: float, r: float, h: float, x: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("nodes", [11, 401])
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES)
 def test_points(
-    validated: Callable[..., None],
-    R: float,
-    r: float,
-    h: float,
-    end: float,
-    start: float,
-    nodes: int,
+    validated: Callable[..., None], R: float, r: float, h: float, end: float, start: float, nodes: int
 ) -> None:
     flank = evolute_flank(Strand(R, r, h), end, start, nodes)
     expected = conjugate_flank(R, r, h, np.linspace(end, start, nodes))
@@ -148,9 +142,7 @@ def test_tip_radius_and_neck_of_the_example(validated: Callable[..., None]) -> N
     strand = Strand(CENTRODE, ROLLER, 5.5)
     mirrored = Tooth(strand, evolute_flank(strand, END, START, 201).profile, 20, relief=0.0)
     validated(
-        "tip radius, 16B with 20 teeth",
-        *(mirrored.tip_radius, 83.36, 5e-3, "by hand", "mm"),
-        absolute=True,
+        "tip radius, 16B with 20 teeth", *(mirrored.tip_radius, 83.36, 5e-3, "by hand", "mm"), absolute=True
     )
     assert mirrored.neck == pytest.approx(6.5, abs=0.05)
 

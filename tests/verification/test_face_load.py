@@ -153,9 +153,7 @@ def test_crown_and_linear_gap_together(validated):
     """q = q_m + c C/3 - c C eta^2 - c F eta/2 is largest at eta = -F/(4 C)."""
     here = mesh()
     crown, linear = 0.8, 0.6
-    gap = (
-        gap_of(crown) * (2.0 * here.position / WIDTH) ** 2 + gap_of(linear) * here.position / WIDTH
-    )
+    gap = gap_of(crown) * (2.0 * here.position / WIDTH) ** 2 + gap_of(linear) * here.position / WIDTH
     expected = 1.0 + crown / 3.0 + linear**2 / (16.0 * crown)
     found, source = factor(slice_loads(here, gap)), "its maximum in closed form"
     validated("K of a crown on a linear gap", found, expected, 1e-5, source)
@@ -184,10 +182,8 @@ def test_force_is_power_over_the_speed_of_the_pitch_circle():
         "pair": {"face_width_mm": 1000, "pinion_pitch_diameter_mm": 650, "gear_ratio": 12.5},
         "load": {"power_kW": 7090, "pinion_speed_rpm": 170, "application_factor": 1.5},
         "misalignment": {"fixed_misalignment_um": 180},
-        "running_in": {
-            "specific_wear_rate_mm2_per_N": 1e-11, "slip_ratio": 0.3, "time_hours": 1,
-        },
-    }  # fmt: skip
+        "running_in": {"specific_wear_rate_mm2_per_N": 1e-11, "slip_ratio": 0.3, "time_hours": 1},
+    }
     found = face_load(load_calculation(tables, FaceLoadTables))
     force = 7.09e6 / (math.pi * 0.650 * 170 / 60)
     assert force == pytest.approx(1.2254e6, rel=1e-4)
@@ -238,9 +234,7 @@ def test_partial_contact_runs_in_by_its_closed_form(validated):
     run = worn({"fixed": x}, 1.9 * TIME)
     t = run.hours / TIME
     expected = np.where(
-        t < full,
-        partial_contact(x, t),
-        1.0 + (partial_contact(x, full) - 1.0) * np.exp(-(t - full)),
+        t < full, partial_contact(x, t), 1.0 + (partial_contact(x, full) - 1.0) * np.exp(-(t - full))
     )
     assert (t > full).sum() > 5
     quantity, source = "K while a partial contact runs in", "closed form with Dawson's integral"
@@ -256,9 +250,7 @@ def test_what_changes_with_the_load_stays_but_never_above_2(x):
     Where one of both gaps lifts off, the other carries all of the mean, which is 2 q_m.
     """
     run = worn({"varying": x}, slices=200)
-    assert run.states[0].factor == pytest.approx(
-        linear_face_load_factor(mesh(), gap_of(x)), rel=1e-3
-    )
+    assert run.states[0].factor == pytest.approx(linear_face_load_factor(mesh(), gap_of(x)), rel=1e-3)
     assert run.states[2].factor == pytest.approx(min(1.0 + x / 2.0, 2.0), rel=2e-4)
     carried = run.states[2].loads
     assert carried.mean(axis=0) == pytest.approx(MEAN, rel=2e-4)
@@ -277,10 +269,7 @@ def test_the_fixed_part_runs_in_beside_it():
 
 @pytest.mark.parametrize(
     ("varies_with", "own"),
-    [
-        ("wheel", (WHEEL / RATIO) / (1.0 + WHEEL / RATIO)),
-        ("pinion", 1.0 / (1.0 + WHEEL / RATIO)),
-    ],
+    [("wheel", (WHEEL / RATIO) / (1.0 + WHEEL / RATIO)), ("pinion", 1.0 / (1.0 + WHEEL / RATIO))],
 )
 def test_what_turns_with_a_wheel_is_worn_by_its_own_teeth(varies_with, own):
     """K = 1 + (x_fix e^-t + x_var e^(-t own/all))/2; wheel teeth mesh u times less often."""

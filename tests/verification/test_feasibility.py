@@ -29,11 +29,7 @@ def drive(
         sprocket["evolute_offset_mm"] = offset
     return {
         "format_version": 1,
-        "chain": {
-            "pitch_mm": pitch,
-            "roller_diameter_mm": roller,
-            "inner_width_mm": 0.6 * pitch,
-        },
+        "chain": {"pitch_mm": pitch, "roller_diameter_mm": roller, "inner_width_mm": 0.6 * pitch},
         "sprocket": sprocket,
         "load": {"tension_N": 100, "speed_rpm": 100},
         "wear": {"condition": "hardened, oiled"},

@@ -45,8 +45,11 @@ def prescribed(stress: float = 454.1608627, reach: float = 7.0) -> SynthesisedPa
 
 
 PAIRS: dict[str, ToothPair] = {
-    "involute": C14, "bosansky": BOSANSKY, "unequal arcs": UNEQUAL, "constant stress": prescribed(),
-}  # fmt: skip
+    "involute": C14,
+    "bosansky": BOSANSKY,
+    "unequal arcs": UNEQUAL,
+    "constant stress": prescribed(),
+}
 EVERY_PAIR = pytest.mark.parametrize("name", PAIRS)
 
 
@@ -85,9 +88,7 @@ def test_flanks_touch_on_the_line_of_action(name: str) -> None:
 
 def rotated(flank: Profile, index: int, angle: float) -> np.ndarray:
     x, y = flank.x[index], flank.y[index]
-    return np.array(
-        [x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)]
-    )
+    return np.array([x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)])
 
 
 @EVERY_PAIR
@@ -137,9 +138,7 @@ def test_turn_of_springs_is_that_of_the_balance() -> None:
         gaps[1 + rng.integers(2)] = rng.choice([0.01, np.inf])
         torque = 10.0 ** rng.uniform(-2.0, 2.0)
 
-        def over(
-            turn: float, g: np.ndarray = gaps, w: np.ndarray = levers, t: float = torque
-        ) -> float:
+        def over(turn: float, g: np.ndarray = gaps, w: np.ndarray = levers, t: float = torque) -> float:
             return float((w * np.maximum(0.0, turn * w - g)).sum() - t)
 
         found = turned(torque, *np.column_stack([gaps, levers]).ravel())
@@ -220,9 +219,7 @@ def test_constant_stress_lives_longer(validated: Callable[..., None]) -> None:
     lever, stress = 54.0 * math.cos(math.radians(20.0)), prescribed().mesh(11)
     slips = abs(1.0 - stress.rolling[1, 0] / stress.rolling[0, 0]), slip
     source = "0.05 mm over the first wear per mesh"
-    for name, found, way, arm in zip(
-        names, lives["rigid"], slips, (stress.lever[0], lever), strict=True
-    ):
+    for name, found, way, arm in zip(names, lives["rigid"], slips, (stress.lever[0], lever), strict=True):
         hours = 0.05 / (1e-12 * 0.5 * TORQUE / arm * way) / 60e3
         validated(f"life of {name}, rigid teeth", found, hours, 1e-4, source, "h")
     assert lives["rigid"][0] / lives["rigid"][1] == pytest.approx(1.225, abs=2e-3)
@@ -240,6 +237,4 @@ def test_contact_fatigue_of_constant_stress(validated: Callable[..., None]) -> N
     source = "source 001 by hand"
     for name, times in (("pinion", 1.0), ("wheel", 1.5)):
         found = result.parts[f"{name}_fatigue"].hours_run
-        validated(
-            f"hours of the {name} to contact fatigue", found, times * hours, 1e-4, source, "h"
-        )
+        validated(f"hours of the {name} to contact fatigue", found, times * hours, 1e-4, source, "h")

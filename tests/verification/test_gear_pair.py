@@ -74,8 +74,7 @@ def test_initial_wear_per_mesh(validated: Callable[..., None], name: str) -> Non
     share, p0, width, pinion, wheel, pinion_wear, wheel_wear = TABLE[name]
     of, place = mechanism(points=20001), PLACES[name]
     curvature, slip, mate = (
-        float(np.interp(place, of.place, row))
-        for row in (of.curvature, of.slip_ratio, of.mate_depth)
+        float(np.interp(place, of.place, row)) for row in (of.curvature, of.slip_ratio, of.mate_depth)
     )
     load = share * LINE_LOAD
     found, source = float(peak_pressure(load, curvature, MODULUS)), "GEARpie's geometry by hand"
@@ -132,9 +131,8 @@ def test_elastic_sharing_is_that_of_springs(depth: bool) -> None:
         gaps = np.interp(places, of.place, gap) + C14.separation(places)
         gaps = gaps[np.isfinite(gaps)]
         closing = brentq(
-            lambda d, g=gaps: 14000.0 * np.maximum(0.0, d - g).sum() - LINE_LOAD, 0.0, 10.0,
-            xtol=1e-15,
-        )  # fmt: skip
+            lambda d, g=gaps: 14000.0 * np.maximum(0.0, d - g).sum() - LINE_LOAD, 0.0, 10.0, xtol=1e-15
+        )
         assert load[j] == pytest.approx(14000.0 * max(0.0, closing - gaps[0]), abs=1e-8)
 
 
@@ -224,12 +222,7 @@ def test_power_law_follows_the_curvature_of_both_flanks() -> None:
     p0 = np.sqrt(load * of.curvature * MODULUS / math.pi)
     # Mean of (1 - (x/a)^2)^(3/2) over the width is 3 pi/16.
     expected = (
-        1e-16
-        * (3.0 * math.pi / 16.0)
-        * p0**3
-        * 2.0
-        * half_width(load, of.curvature, MODULUS)
-        * of.slip_ratio
+        1e-16 * (3.0 * math.pi / 16.0) * p0**3 * 2.0 * half_width(load, of.curvature, MODULUS) * of.slip_ratio
     )
     np.testing.assert_allclose(run.depth[-1], expected, rtol=2e-5)
 
@@ -256,9 +249,7 @@ def test_lives_converge_with_the_points(stiffness: float) -> None:
         ((41.318, 59.272), (-1.0, -1.0), "raise the sum of the profile shifts"),
     ],
 )
-def test_pairs_that_cannot_run(
-    tips: tuple[float, float], shifts: tuple[float, float], message: str
-) -> None:
+def test_pairs_that_cannot_run(tips: tuple[float, float], shifts: tuple[float, float], message: str) -> None:
     pair = InvolutePair((16, 24), 4.5, math.radians(20.0), shifts, tips)
     with pytest.raises(GeometryError, match=message):
         pair.check()

@@ -119,7 +119,6 @@ def test_no_extrapolation_on_the_strand() -> None:
 @pytest.mark.parametrize("exponent", [1.0, 2.0])
 def test_life_on_the_strand_hardly_depends_on_the_nodes(exponent: float) -> None:
     lives = [
-        wearsim.simulate(strand(exponent, f"sprocket.nodes={nodes}")).life.cycles
-        for nodes in (101, 201, 401)
+        wearsim.simulate(strand(exponent, f"sprocket.nodes={nodes}")).life.cycles for nodes in (101, 201, 401)
     ]
     assert max(lives) - min(lives) < 2e-4 * lives[-1]

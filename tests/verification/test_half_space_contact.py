@@ -28,9 +28,17 @@ def contact(x, y, width, centre, radius, load, wear=0.0, pressure=None, directio
     pressure = np.zeros(n) if pressure is None else pressure.copy()
     result = np.empty(7)
     status = half_space.line_contact(
-        x, y, width, np.full(n, wear), np.zeros(n), coefficients, constants,
-        pressure, np.empty((half_space.WORK_ROWS, n)), result,
-    )  # fmt: skip
+        x,
+        y,
+        width,
+        np.full(n, wear),
+        np.zeros(n),
+        coefficients,
+        constants,
+        pressure,
+        np.empty((half_space.WORK_ROWS, n)),
+        result,
+    )
     return pressure, result, status
 
 
@@ -96,10 +104,7 @@ def test_hertz_in_the_seat(validated, n, within):
     pressure, _, status = contact(x, y, width, (0.0, -0.06035), R, 1.0)
     assert status == half_space.CONVERGED
     assert pressure.max() == pytest.approx(7.76247, rel=within)
-    quantity, found = (
-        "half-width in the seat, 201 points",
-        half_width(pressure, angle * 6.09535, width),
-    )
+    quantity, found = ("half-width in the seat, 201 points", half_width(pressure, angle * 6.09535, width))
     validated(quantity, found, 0.0820126, within, "Hertz", "mm", page=n == 201)
 
 
@@ -228,12 +233,7 @@ def test_worn_area_is_rate_times_load_times_sliding(wear):
     assert np.sum(wear * pressure * width) == pytest.approx(wear * q, rel=1e-12)
 
 
-CONFORMAL = [
-    (3.96, 4.018, 100.0),
-    (3.96, 4.018, 1000.0),
-    (3.96, 3.96396, 1000.0),
-    (3.96, 3.96, 50.0),
-]
+CONFORMAL = [(3.96, 4.018, 100.0), (3.96, 4.018, 1000.0), (3.96, 3.96396, 1000.0), (3.96, 3.96, 50.0)]
 
 
 @pytest.mark.parametrize(("radius", "seat_radius", "load"), CONFORMAL)
@@ -244,9 +244,7 @@ def test_conformal_seat_against_a_dense_solve(validated, radius, seat_radius, lo
     _, x, y, width = seat(n, seat_radius, 1.2)
     direction = np.array([np.sin(turn), np.cos(turn)])
     centre = -(seat_radius - radius) * direction
-    pressure, result, status = contact(
-        x, y, width, centre, radius, load, wear, direction=tuple(direction)
-    )
+    pressure, result, status = contact(x, y, width, centre, radius, load, wear, direction=tuple(direction))
     assert status == half_space.CONVERGED
     to_centre = centre[:, None] - np.array([x, y])
     distance = np.hypot(*to_centre)
@@ -271,9 +269,7 @@ def test_conformal_seat_against_a_dense_solve(validated, radius, seat_radius, lo
 
 @pytest.mark.parametrize("cold", [True, False])
 @pytest.mark.parametrize("load", [100.0, 1000.0])
-@pytest.mark.parametrize(
-    ("exponent", "factor"), [(1.0, 1e-6), (1.5, 1e-7), (2.0, 1e-8), (3.0, 1e-9)]
-)
+@pytest.mark.parametrize(("exponent", "factor"), [(1.0, 1e-6), (1.5, 1e-7), (2.0, 1e-8), (3.0, 1e-9)])
 def test_power_law_fulfils_all_conditions(exponent, factor, load, cold):
     n = 120
     _, x, y, width = seat(n, 4.018, 1.2)
@@ -281,10 +277,17 @@ def test_power_law_fulfils_all_conditions(exponent, factor, load, cold):
     half_space.influence_coefficients(MODULUS, coefficients)
     pressure = np.zeros(n) if cold else contact(x, y, width, (0.0, -0.058), 3.96, load)[0]
     status = half_space.power_contact(
-        x, y, width, np.full(n, factor), exponent, coefficients,
-        np.array([0.0, -0.058, 3.96, 0.0, 1.0, load, 1e-10, 500.0]), pressure,
-        np.empty((half_space.WORK_ROWS, n)), result,
-    )  # fmt: skip
+        x,
+        y,
+        width,
+        np.full(n, factor),
+        exponent,
+        coefficients,
+        np.array([0.0, -0.058, 3.96, 0.0, 1.0, load, 1e-10, 500.0]),
+        pressure,
+        np.empty((half_space.WORK_ROWS, n)),
+        result,
+    )
     assert status == half_space.CONVERGED
     to_centre = np.array([[0.0], [-0.058]]) - np.array([x, y])
     distance = np.hypot(*to_centre)
@@ -309,10 +312,17 @@ def power_scar(exponent, factor, n, half, sliding):
     for step in np.diff(sliding, prepend=0.0):
         y, centre, radius = far_roller(depth, x)
         status = half_space.power_contact(
-            x, y, width, np.full(n, factor * step), exponent, coefficients,
-            np.array([*centre, radius, 0.0, 1.0, q, 1e-9, 500.0]), pressure,
-            np.empty((half_space.WORK_ROWS, n)), result,
-        )  # fmt: skip
+            x,
+            y,
+            width,
+            np.full(n, factor * step),
+            exponent,
+            coefficients,
+            np.array([*centre, radius, 0.0, 1.0, q, 1e-9, 500.0]),
+            pressure,
+            np.empty((half_space.WORK_ROWS, n)),
+            result,
+        )
         assert status == half_space.CONVERGED
         iterations = max(iterations, result[6])
         depth += factor * step * pressure**exponent
@@ -373,9 +383,7 @@ def test_mirror_and_scale(wear):
     angle, _, _, width = seat(n, 4.018, 1.0)
     x, y = (4.018 + rough) * np.sin(angle), -(4.018 + rough) * np.cos(angle)
     seen, result, _ = contact(x, y, width, (0.01, -0.05), 3.96, 300.0, wear)
-    mirror, other, _ = contact(
-        -x[::-1].copy(), y[::-1].copy(), width, (-0.01, -0.05), 3.96, 300.0, wear
-    )
+    mirror, other, _ = contact(-x[::-1].copy(), y[::-1].copy(), width, (-0.01, -0.05), 3.96, 300.0, wear)
     np.testing.assert_allclose(mirror[::-1], seen, rtol=0.0, atol=1e-9 * seen.max())
     assert other[0] == pytest.approx(result[0], rel=1e-9)
     large, other, _ = contact(

@@ -117,10 +117,7 @@ SINGLE = [
     (replace(BASE, pressure_angle=math.radians(19.0)), 463.831),
     (replace(BASE, torque=250e3), 463.299),
     (replace(BASE, youngs_modulus=(2.2e5, 2.2e5)), 464.620),
-    (
-        replace(BASE, load_factor=1.0 / math.cos(ANGLE), youngs_modulus=(2.06e5, 2.06e5)),
-        463.797,
-    ),
+    (replace(BASE, load_factor=1.0 / math.cos(ANGLE), youngs_modulus=(2.06e5, 2.06e5)), 463.797),
     (replace(PRINTED, gear_ratio=1.5, load_factor=0.418), 464.039),
 ]
 
@@ -153,9 +150,7 @@ def test_no_value_of_a_key_that_cannot():
     """However small the wheel's curvature, the pinion's is left."""
     changes = {change.key: change for change in single_changes(BASE, 300.0, 0.5)}
     assert math.isnan(changes["gear_ratio"].needed)
-    assert changes["torque_N_m"].needed == pytest.approx(
-        240.0 * (300.0 / 453.938082) ** 2, rel=1e-8
-    )
+    assert changes["torque_N_m"].needed == pytest.approx(240.0 * (300.0 / 453.938082) ** 2, rel=1e-8)
 
 
 def test_completed_table(validated, check):
@@ -165,10 +160,7 @@ def test_completed_table(validated, check):
     assert [columns[name].finite_elements for name in columns] == [418.0, 216.0, 228.0]
     assert columns["depth"].candidates == (228,)
     larger = [columns[name].differences["larger"] for name in columns]
-    quantity, source = (
-        "published differences of Hertz and FE, completed",
-        "by hand, over the larger",
-    )
+    quantity, source = ("published differences of Hertz and FE, completed", "by hand, over the larger")
     expected = [9.9138, 14.0741, 12.2537]
     validated(quantity, larger, expected, 5e-5, source, "%", absolute=True)
     assert [round(value, 1) for value in larger] == [9.9, 14.1, 12.3]
@@ -193,11 +185,7 @@ def test_lost_cell():
 @pytest.mark.parametrize(("stress", "percent"), [(259.84, 12.3), (80.0, 1.2), (950.0, 40.0)])
 def test_whole_stresses_are_all_there_are(reference, stress, percent):
     every = np.arange(1, 4000)
-    hits = [
-        int(n)
-        for n in every
-        if abs(difference(stress, float(n), reference) - percent) < 0.05 + 1e-9
-    ]
+    hits = [int(n) for n in every if abs(difference(stress, float(n), reference) - percent) < 0.05 + 1e-9]
     assert whole_stresses(stress, percent, reference) == hits
     for end in stresses_at(stress, percent, reference):
         assert difference(stress, end, reference) == pytest.approx(percent, rel=1e-12)

@@ -89,11 +89,7 @@ def test_life_equals_the_closed_form(
         ROLLER,
         [f"run.method={method}"],
     )
-    path = (
-        slip
-        if column == "sliding_distance_mm"
-        else (mean_factor(exponent) * 2.0 * HALF_WIDTH * slip)
-    )
+    path = slip if column == "sliding_distance_mm" else (mean_factor(exponent) * 2.0 * HALF_WIDTH * slip)
     result = wearsim.simulate(case)
     validated(
         f"life by the law {wear['law']}, m = {exponent:g}",
@@ -107,9 +103,7 @@ def test_life_equals_the_closed_form(
 
 
 @pytest.mark.parametrize("exponent", [0.2, 1.0, 1.5, 2.0, 3.0, 7.5])
-def test_mean_pressure_factor_is_the_integral(
-    validated: Callable[..., None], exponent: float
-) -> None:
+def test_mean_pressure_factor_is_the_integral(validated: Callable[..., None], exponent: float) -> None:
     """Integral of (1 - u^2)^(m/2) over 0..1, with u = cos t."""
     validated(
         f"mean of p^m over p0^m, m = {exponent:g}",

@@ -8,11 +8,7 @@ import pytest
 from wearsim.errors import GeometryError
 from wearsim.handbook.stiffness_spectrum.contact_number import contact_ratio
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
-from wearsim.handbook.stiffness_spectrum.mesh_statics import (
-    deflection,
-    hertz_constant,
-    mesh_stiffness,
-)
+from wearsim.handbook.stiffness_spectrum.mesh_statics import deflection, hertz_constant, mesh_stiffness
 from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
 from wearsim.input.calculation_file import load_calculation
 
@@ -21,11 +17,7 @@ CASE = {
     "gear_pair": {"module_mm": 3, "pressure_angle_deg": 20, "pinion_speed_rpm": 1500},
     "pinion": {"teeth": 20, "pitch_error_mm": 0},
     "wheel": {"teeth": 30, "pitch_error_mm": 0},
-    "statics": {
-        "force_N": 2000,
-        "pinion_curvature_radius_mm": 10,
-        "wheel_curvature_radius_mm": 10,
-    },
+    "statics": {"force_N": 2000, "pinion_curvature_radius_mm": 10, "wheel_curvature_radius_mm": 10},
 }
 ERRORS = ("pinion.pitch_error_mm=0.3", "wheel.pitch_error_mm=0.4")
 DOUBLE = "spectrum.model=double_sum"
@@ -41,12 +33,8 @@ def test_reference_deflections_and_stiffnesses(validated):
     law = (np.array([1.0, 2.0, 4.0]), 2000.0, constant, 2.5)
     source, how = "independent program", {"absolute": True}
     validated("constant of contact", constant, 344010.458, 6e-4, source, "N/mm^1.5", **how)
-    np.testing.assert_allclose(
-        deflection(*law), (0.0323324713, 0.0203681806, 0.0128311497), atol=6e-11
-    )
-    np.testing.assert_allclose(
-        mesh_stiffness(*law), (92785.9790, 147288.5607, 233806.0163), atol=6e-5
-    )
+    np.testing.assert_allclose(deflection(*law), (0.0323324713, 0.0203681806, 0.0128311497), atol=6e-11)
+    np.testing.assert_allclose(mesh_stiffness(*law), (92785.9790, 147288.5607, 233806.0163), atol=6e-5)
 
 
 @pytest.mark.parametrize(
@@ -77,14 +65,10 @@ def test_stiffness_is_the_slope_of_the_force(exponent):
     np.testing.assert_allclose(contacts * constant * delta ** (exponent - 1.0), force, rtol=1e-12)
     up, down = (contacts * constant * (delta * (1 + s)) ** (exponent - 1.0) for s in (step, -step))
     slope = (up - down) / (2.0 * step * delta)
-    np.testing.assert_allclose(
-        mesh_stiffness(contacts, force, constant, exponent), slope, rtol=1e-8
-    )
+    np.testing.assert_allclose(mesh_stiffness(contacts, force, constant, exponent), slope, rtol=1e-8)
     closed = (exponent - 1.0) * constant ** (1.0 / (exponent - 1.0))
     closed *= force ** ((exponent - 2.0) / (exponent - 1.0)) * contacts ** (1.0 / (exponent - 1.0))
-    np.testing.assert_allclose(
-        mesh_stiffness(contacts, force, constant, exponent), closed, rtol=1e-12
-    )
+    np.testing.assert_allclose(mesh_stiffness(contacts, force, constant, exponent), closed, rtol=1e-12)
 
 
 def test_torque_acts_along_the_common_normal_and_printed_along_the_pitch_circle():
@@ -133,19 +117,14 @@ def test_closed_form_stands_beside_the_exact_lines():
     found = solved(*ERRORS, DOUBLE)
     assert found.series_mean == pytest.approx(2.7853335361, abs=1e-3)
     assert max(abs(line.series - line.one_sided) for line in found.lines) < 1e-4
-    printed = {
-        line.name: line.series for line in solved(*ERRORS, DOUBLE, "spectrum.formula=printed").lines
-    }
+    printed = {line.name: line.series for line in solved(*ERRORS, DOUBLE, "spectrum.formula=printed").lines}
     assert printed["fz - f1"] == pytest.approx(2.681e-3, rel=2e-3)
 
 
 @pytest.mark.parametrize(
     ("overrides", "words"),
     [
-        (
-            ("pinion.pitch_error_mm=31",),
-            ("pinion: pitch_error_mm must be below 30.5 mm", "lower it"),
-        ),
+        (("pinion.pitch_error_mm=31",), ("pinion: pitch_error_mm must be below 30.5 mm", "lower it")),
         (
             ("wheel.pitch_error_mm=9", "wheel.error_order=7"),
             ("wheel: pitch_error_mm must be below", "is 9 mm"),
@@ -173,7 +152,5 @@ def test_greatest_error_is_where_two_teeth_coincide():
 
 def test_contact_ratio_is_above_one_for_all_that_an_input_may_have():
     corners = [(z, mate) for z in (5, 6, 10, 50, 300) for mate in (5, 17, 300)]
-    ratios = [
-        contact_ratio(z, mate, math.radians(angle)) for z, mate in corners for angle in (10, 20, 35)
-    ]
+    ratios = [contact_ratio(z, mate, math.radians(angle)) for z, mate in corners for angle in (10, 20, 35)]
     assert min(ratios) > 1.05

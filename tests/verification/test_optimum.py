@@ -43,9 +43,7 @@ CASE: dict[str, Any] = {
     "wear": {"condition": "hardened, oiled"},
     "stop": {"critical_depth_mm": 0.2},
 }
-OFFSET, FACE, START = (
-    f"sprocket.{name}_mm" for name in ("evolute_offset", "face_width", "contact_start")
-)
+OFFSET, FACE, START = (f"sprocket.{name}_mm" for name in ("evolute_offset", "face_width", "contact_start"))
 Searched = Callable[..., tuple[OptimiseStudy, list[Candidate]]]
 
 
@@ -54,9 +52,12 @@ def searched(tmp_path: Path) -> Searched:
     """Return a function that searches CASE and gives the best designs."""
 
     def run(
-        objectives: list[str], parameters: dict[str, Any], limits: dict[str, Any],
-        evaluations: int, stop: dict[str, float] | None = None,
-    ) -> tuple[OptimiseStudy, list[Candidate]]:  # fmt: skip
+        objectives: list[str],
+        parameters: dict[str, Any],
+        limits: dict[str, Any],
+        evaluations: int,
+        stop: dict[str, float] | None = None,
+    ) -> tuple[OptimiseStudy, list[Candidate]]:
         table = {"objectives": objectives, "parameters": parameters, "limits": limits}
         path = tmp_path / "case.toml"
         path.write_text(tomlkit.dumps({**CASE, "stop": stop or CASE["stop"], "optimise": table}))
@@ -121,8 +122,10 @@ def test_longest_life_between_two_limits_of_wear(searched: Searched) -> None:
     low, high = 29.6, 30.9
     exact = minimize_scalar(
         lambda start: -life_of(case_of(stop, contact_start_mm=start)),
-        bounds=(low, high), method="bounded", options={"xatol": 1e-4},
-    )  # fmt: skip
+        bounds=(low, high),
+        method="bounded",
+        options={"xatol": 1e-4},
+    )
     assert low + 0.1 < exact.x < high - 0.1
     _, (best,) = searched(["life_hours"], {START: {"low": low, "high": high}}, {}, 45, stop)
     assert best.measures["life_hours"] == pytest.approx(-exact.fun, rel=2e-3)

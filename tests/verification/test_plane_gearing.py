@@ -97,8 +97,7 @@ def test_form_of_the_gear_standards():
 
 
 @pytest.mark.parametrize(
-    ("stress", "angle"),
-    [(500, "16.0139062546"), (400, "27.9797436171"), (454.1608627, "20.000000")],
+    ("stress", "angle"), [(500, "16.0139062546"), (400, "27.9797436171"), (454.1608627, "20.000000")]
 )
 def test_pole_angle(validated, stress, angle):
     found = math.degrees(pair(stress).pole_crossing().pressure_angle)
@@ -109,9 +108,7 @@ def test_pole_angle(validated, stress, angle):
 
 def test_least_stress_in_the_pole(validated):
     found, source = pair().least_pole_stress, "independent program"
-    validated(
-        "least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True
-    )
+    validated("least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
     assert pair(364.1191).pole_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
     with pytest.raises(GeometryError, match=r"above 364\.119 in the pole.*45 deg.*but is 364"):
         phases(pair(364), tables(364))
@@ -170,23 +167,47 @@ def _involute_radius(l):
 
 DUALITY = [
     # x, y, stress, family: what, printed
-    (10, 3, SIGMA, 1, {
-        "slope": "0.003025241", "mu": "1.8090539", "p": "13.417331", "q": "30.413544",
-        "rho1": "23.857637", "rho2": "19.973238", "sum": "3.9564102",
-        "theta1": "0.63066529", "theta2": "-1.7075711"}),
-    (10, 3, SIGMA, -1, {
-        "slope": "-0.066939452", "mu": "-34.948483", "p": "-6.3017861", "q": "3.758046",
-        "rho1": "4.1385204", "rho2": "-6.6822605", "sum": "-3.9564102",
-        "theta1": "-1.7075711", "theta2": "0.63066529"}),
-    (10, 3, 600, 1, {
-        "rho1": "29.3407964234202", "rho2": "7.90768464212457", "slope": "-0.003461297"}),
-    (10, 3, 600, -1, {
-        "rho1": "3.14441159656206", "rho2": "-6.34989095709919", "slope": "-0.060452914"}),
+    (
+        10,
+        3,
+        SIGMA,
+        1,
+        {
+            "slope": "0.003025241",
+            "mu": "1.8090539",
+            "p": "13.417331",
+            "q": "30.413544",
+            "rho1": "23.857637",
+            "rho2": "19.973238",
+            "sum": "3.9564102",
+            "theta1": "0.63066529",
+            "theta2": "-1.7075711",
+        },
+    ),
+    (
+        10,
+        3,
+        SIGMA,
+        -1,
+        {
+            "slope": "-0.066939452",
+            "mu": "-34.948483",
+            "p": "-6.3017861",
+            "q": "3.758046",
+            "rho1": "4.1385204",
+            "rho2": "-6.6822605",
+            "sum": "-3.9564102",
+            "theta1": "-1.7075711",
+            "theta2": "0.63066529",
+        },
+    ),
+    (10, 3, 600, 1, {"rho1": "29.3407964234202", "rho2": "7.90768464212457", "slope": "-0.003461297"}),
+    (10, 3, 600, -1, {"rho1": "3.14441159656206", "rho2": "-6.34989095709919", "slope": "-0.060452914"}),
     (5, 2, 600, 1, {"rho1": "-444.11888", "rho2": "6.3341708"}),
     (5, 2, 600, -1, {"rho1": "1.8894143", "rho2": "-2.6763563"}),
     (-8, -3, 400, 1, {"rho1": "36.008071", "rho2": "23.821529"}),
     (-8, -3, 400, -1, {"rho1": "-5.2055283", "rho2": "3.8189242"}),
-]  # fmt: skip
+]
 
 
 def measures(contacts):
@@ -217,10 +238,7 @@ def test_duality(validated, x, y, stress, family, printed):
 
 def test_root_of_the_duality():
     assert START[0] == exactly("10.44030651") and math.degrees(START[1]) == exactly("16.69924423")
-    for stress, rho, root in [
-        (SIGMA, "10.87165746", "22.6685604458"),
-        (600, "6.228918834", "18.46528415"),
-    ]:
+    for stress, rho, root in [(SIGMA, "10.87165746", "22.6685604458"), (600, "6.228918834", "18.46528415")]:
         radius = float(pair(stress).reduced_radius(*START))
         assert radius == exactly(rho)
         twice = 4 * CIRCLES.pole_radius(START[1]) * radius
@@ -261,10 +279,7 @@ def test_closed_form_solves_the_quadratic():
     s, k = np.sin(angle) / CIRCLES.curvature_sum, 1 / rho
     polynomials = np.column_stack([k * (s - l) - 1, k * l * (2 * s - l), k * l**2 * s])
     roots = np.sort([np.roots(row) for row in polynomials], axis=1)
-    both = [
-        1 / Contacts.of_radius(CIRCLES, l, angle, rho, family).pinion_curvature - l
-        for family in (1, -1)
-    ]
+    both = [1 / Contacts.of_radius(CIRCLES, l, angle, rho, family).pinion_curvature - l for family in (1, -1)]
     assert np.sort(np.column_stack(both), axis=1) == pytest.approx(roots, rel=1e-8)
 
 
@@ -342,15 +357,47 @@ def test_field_where_no_stress_is_given():
 
 LINE = [
     # l, alpha, phi1, P1, P2, rho1, rho2, involute
-    (-10, "22.14540543", "-0.198294012", ("0.8144457", "51.0707510"),
-     ("1.9921029", "-85.2508306"), "17.3026374", "32.0992348", "574.898099"),
-    (-5, "20.87139111", "-0.098789792", ("0.5011486", "52.4248247"),
-     ("0.7862444", "-82.9093585"), "18.7623804", "27.4478014", "489.478588"),
-    (5, "19.56266306", "0.098376872", ("-0.7796230", "55.8677411"),
-     ("-0.4975710", "-79.4640420"), "23.8184296", "20.6165783", "445.046111"),
-    (10, "19.54707788", "0.196616617", ("-1.9605296", "58.0818742"),
-     ("-0.8067843", "-78.2197381"), "27.5062916", "18.4698216", "457.596636"),
-]  # fmt: skip
+    (
+        -10,
+        "22.14540543",
+        "-0.198294012",
+        ("0.8144457", "51.0707510"),
+        ("1.9921029", "-85.2508306"),
+        "17.3026374",
+        "32.0992348",
+        "574.898099",
+    ),
+    (
+        -5,
+        "20.87139111",
+        "-0.098789792",
+        ("0.5011486", "52.4248247"),
+        ("0.7862444", "-82.9093585"),
+        "18.7623804",
+        "27.4478014",
+        "489.478588",
+    ),
+    (
+        5,
+        "19.56266306",
+        "0.098376872",
+        ("-0.7796230", "55.8677411"),
+        ("-0.4975710", "-79.4640420"),
+        "23.8184296",
+        "20.6165783",
+        "445.046111",
+    ),
+    (
+        10,
+        "19.54707788",
+        "0.196616617",
+        ("-1.9605296", "58.0818742"),
+        ("-0.8067843", "-78.2197381"),
+        "27.5062916",
+        "18.4698216",
+        "457.596636",
+    ),
+]
 
 
 def test_line_through_the_pole(validated):
@@ -379,10 +426,7 @@ def test_slope_in_the_pole():
     assert numerical[1] == pytest.approx(closed, rel=1e-6)
 
 
-NORMAL = {
-    "load_per_width_N_per_mm": 240e3 / (76 * 54 * math.cos(math.radians(20))),
-    "pinion_speed_rpm": 1000,
-}
+NORMAL = {"load_per_width_N_per_mm": 240e3 / (76 * 54 * math.cos(math.radians(20))), "pinion_speed_rpm": 1000}
 
 
 def test_line_under_a_constant_normal_load():
@@ -395,18 +439,54 @@ def test_line_under_a_constant_normal_load():
 
 
 SEGMENTS = [
-    (1, SIGMA, 16, {
-        "angle": "17.6974610", "roll": "0.107772616", "x": "15.2427993", "y": "4.8638535",
-        "x1": "8.8227249", "y1": "60.1619124", "x2": "9.7379171", "y2": "-77.0339451",
-        "rho1": "30.0047861", "rho2": "17.1940707"}),
-    (-1, SIGMA, 7, {
-        "angle": "40.4234058", "roll": "-0.071758498", "x": "5.3289144", "y": "4.5390166",
-        "x1": "9.5122680", "y1": "58.0062975", "x2": "8.9792396", "y2": "-76.1186742",
-        "rho1": "2.7763095", "rho2": "-3.4833069"}),
-    (1, 600, 16, {"angle": "16.3261368", "x1": "9.0000552", "y1": "59.8059162",
-                  "rho1": "30.7568754", "rho2": "7.7918835"}),
+    (
+        1,
+        SIGMA,
+        16,
+        {
+            "angle": "17.6974610",
+            "roll": "0.107772616",
+            "x": "15.2427993",
+            "y": "4.8638535",
+            "x1": "8.8227249",
+            "y1": "60.1619124",
+            "x2": "9.7379171",
+            "y2": "-77.0339451",
+            "rho1": "30.0047861",
+            "rho2": "17.1940707",
+        },
+    ),
+    (
+        -1,
+        SIGMA,
+        7,
+        {
+            "angle": "40.4234058",
+            "roll": "-0.071758498",
+            "x": "5.3289144",
+            "y": "4.5390166",
+            "x1": "9.5122680",
+            "y1": "58.0062975",
+            "x2": "8.9792396",
+            "y2": "-76.1186742",
+            "rho1": "2.7763095",
+            "rho2": "-3.4833069",
+        },
+    ),
+    (
+        1,
+        600,
+        16,
+        {
+            "angle": "16.3261368",
+            "x1": "9.0000552",
+            "y1": "59.8059162",
+            "rho1": "30.7568754",
+            "rho2": "7.7918835",
+        },
+    ),
     (-1, 600, 7, {"angle": "36.9155750", "rho1": "2.2217600", "rho2": "-3.1636996"}),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("family", "stress", "last", "printed"), SEGMENTS)
@@ -451,9 +531,7 @@ def fitted(l, points):
 
 def turned(points, angle):
     x, y = np.moveaxis(np.asarray(points), -1, 0)
-    return np.stack(
-        [np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y], -1
-    )
+    return np.stack([np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y], -1)
 
 
 @pytest.mark.parametrize("name", LINES)
@@ -526,8 +604,13 @@ def test_line_by_another_equation():
     l, y = line.contacts.pole_distance, line.contacts.points[:, 1]
     found = solve_ivp(
         lambda l, y: b * l + 0.5 * a * np.sqrt(l**2 + 4 * rho * y / (a * l)),
-        (1, 10), y[:1], "Radau", l, rtol=1e-10, atol=1e-12,
-    )  # fmt: skip
+        (1, 10),
+        y[:1],
+        "Radau",
+        l,
+        rtol=1e-10,
+        atol=1e-12,
+    )
     assert found.y[0] == pytest.approx(y, abs=1e-8)
     advance = quad(lambda at: 1 / (54 * math.sqrt(1 - (np.interp(at, l, y) / at) ** 2)), 1, 10)[0]
     assert line.roll_angle[-1] - line.roll_angle[0] == pytest.approx(advance, abs=1e-4)
@@ -578,8 +661,7 @@ def test_lines_end_at_a_pressure_angle_of_zero():
 
 
 @pytest.mark.parametrize(
-    ("load", "power"),
-    [(NORMAL, 0.5), (TORQUE, 0.5 * (1 - math.tan(math.radians(20)) ** 2))],
+    ("load", "power"), [(NORMAL, 0.5), (TORQUE, 0.5 * (1 - math.tan(math.radians(20)) ** 2))]
 )
 def test_one_line_goes_through_the_pole_below_45_degrees(load, power):
     """What is added to it near the pole fades outward as l^(-power)."""
@@ -608,9 +690,7 @@ TABLE = {"contact_stress_MPa": [560, 470, 440, 520], "pole_distance_mm": [-10, -
 CORNER = {"contact_stress_MPa": [560, 454, 520], "pole_distance_mm": [-10, 0, 10]}
 
 
-@pytest.mark.parametrize(
-    ("family", "nearest", "end"), [(1, 5, None), (-1, 5, 5.585639), (-1, 6, None)]
-)
+@pytest.mark.parametrize(("family", "nearest", "end"), [(1, 5, None), (-1, 5, 5.585639), (-1, 6, None)])
 def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
     law = {"contact_stress_MPa": [SIGMA, SIGMA], "pole_distance_mm": [nearest, 20]}
     start = {"start_x_mm": 10, "start_y_mm": 3, "last_pole_distance_mm": 10.5, "nodes": 11}

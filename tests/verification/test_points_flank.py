@@ -29,9 +29,7 @@ def evolute_points(count: int) -> np.ndarray:
     x = np.linspace(4.0, 30.67, count)
     l = np.sqrt(x**2 + h**2)
     Kx, Ky, psi = -x - r * x / l, R - h - r * h / l, x / R
-    return np.column_stack(
-        [Kx * np.cos(psi) + Ky * np.sin(psi), Ky * np.cos(psi) - Kx * np.sin(psi)]
-    )
+    return np.column_stack([Kx * np.cos(psi) + Ky * np.sin(psi), Ky * np.cos(psi) - Kx * np.sin(psi)])
 
 
 @pytest.fixture
@@ -49,9 +47,7 @@ def points_case(tmp_path: Path, reference_tables: dict[str, Any]) -> Maker:
             "evolute_offset_mm": 5.5,
             "face_width_mm": 17.0,
         }
-        return wearsim.load_case(
-            {**reference_tables, "sprocket": sprocket, "wear": wear}, overrides
-        )
+        return wearsim.load_case({**reference_tables, "sprocket": sprocket, "wear": wear}, overrides)
 
     return case
 
@@ -67,9 +63,7 @@ def test_life_of_noisy_points(
 ) -> None:
     for seed in range(3):
         noise = NOISE * np.random.default_rng(seed).standard_normal((200, 2))
-        result = wearsim.simulate(
-            points_case(evolute_points(200) + noise, laws[exponent], *overrides)
-        )
+        result = wearsim.simulate(points_case(evolute_points(200) + noise, laws[exponent], *overrides))
         assert result.cycles == pytest.approx(LIVES[exponent], rel=within)
         assert result.initial_peak_pressure == pytest.approx(995.0, rel=0.01)
 
@@ -106,8 +100,6 @@ def test_smoothing_is_stated(points_case: Maker, laws: dict[float, dict[str, Any
     assert any("smoothing spline" in text and "0.0001 mm" in text for text in case.assumptions)
 
 
-def test_points_from_tip_to_root_are_refused(
-    points_case: Maker, laws: dict[float, dict[str, Any]]
-) -> None:
+def test_points_from_tip_to_root_are_refused(points_case: Maker, laws: dict[float, dict[str, Any]]) -> None:
     with pytest.raises(wearsim.CaseError, match="root to tip"):
         points_case(evolute_points(200)[::-1], laws[1])

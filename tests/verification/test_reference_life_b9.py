@@ -17,9 +17,7 @@ CaseMaker = Callable[..., wearsim.Case]
 EXACT = 0.418 / math.sqrt(1.0 / (2.0 * math.pi * (1.0 - 0.3**2)))
 
 
-def life(
-    b9: CaseMaker, points: int, tolerance: float, overrides: Sequence[str] = ()
-) -> wearsim.WearResult:
+def life(b9: CaseMaker, points: int, tolerance: float, overrides: Sequence[str] = ()) -> wearsim.WearResult:
     return wearsim.simulate(b9(points, f"run.life_tolerance={tolerance}", *overrides))
 
 
@@ -39,14 +37,11 @@ def test_life_to_all_published_digits(
     validated(quantity, result.cycles, rounded * EXACT, 1e-8, source, "cycles", page=shown)
 
 
-def test_cycle_by_cycle_updates_converge_on_it(
-    validated: Callable[..., None], b9: CaseMaker
-) -> None:
+def test_cycle_by_cycle_updates_converge_on_it(validated: Callable[..., None], b9: CaseMaker) -> None:
     """Explicit updates of 1000 and 500 cycles approach the life linearly from one side."""
     per_cycle = "run.method=per_cycle"
     lives = [
-        life(b9, 200, 1e-4, [per_cycle, f"run.cycles_per_update={cycles}"]).cycles
-        for cycles in (1000, 500)
+        life(b9, 200, 1e-4, [per_cycle, f"run.cycles_per_update={cycles}"]).cycles for cycles in (1000, 500)
     ]
     extrapolated = 2.0 * lives[1] - lives[0]
     validated(

@@ -37,9 +37,7 @@ def last_flank(result: wearsim.WearResult) -> shapely.LineString:
 def test_life_and_pressure(
     validated: Callable[..., None], reference: CaseMaker, exponent: float, nodes: int, method: str
 ) -> None:
-    result = wearsim.simulate(
-        reference(exponent, f"sprocket.nodes={nodes}", f"run.method={method}")
-    )
+    result = wearsim.simulate(reference(exponent, f"sprocket.nodes={nodes}", f"run.method={method}"))
     shown = (nodes, method) == (401, "advance")
     within, source = 5e-4, "two independent programs, every cycle"
     quantity = f"life of the reference run, m = {exponent:g}"
@@ -67,9 +65,7 @@ def test_contact_ratio_falls_below_one_and_is_warned_of(reference: CaseMaker) ->
     ratio = result.history_columns["worn_contact_ratio"]
     assert ratio[0] == pytest.approx((30.67 - 4.0) / 25.4, abs=2e-4)
     assert ratio[-1] == pytest.approx(0.95, abs=5e-3)
-    assert (
-        sum(bool(re.search("worn contact ratio .* below 1", text)) for text in result.warnings) == 1
-    )
+    assert sum(bool(re.search("worn contact ratio .* below 1", text)) for text in result.warnings) == 1
 
 
 @pytest.mark.parametrize(("exponent", "depth"), [(1, 0.2), (1.5, 0.2), (1, 0.75), (2, 0.75)])
@@ -97,9 +93,7 @@ def test_coarse_updates_are_refused_and_the_proposal_runs(
     proposal = re.search(r"cycles_per_update = (\d+)", str(refusal.value))
     assert proposal is not None
     assert 1 < int(proposal[1]) < coarse
-    result = wearsim.simulate(
-        reference(exponent, nodes, PER_CYCLE, f"run.cycles_per_update={proposal[1]}")
-    )
+    result = wearsim.simulate(reference(exponent, nodes, PER_CYCLE, f"run.cycles_per_update={proposal[1]}"))
     assert result.cycles == pytest.approx(LIVES[exponent], rel=5e-4)
 
 

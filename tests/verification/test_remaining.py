@@ -167,11 +167,7 @@ def test_running_in_is_refused(command: str) -> None:
         "sprocket": {"teeth": 13, "profile": "iso606"},
         "load": {"tension_N": 800, "speed_rpm": 200},
         "drive": {"slack_tension_N": 30},
-        "wear": {
-            "specific_wear_rate_mm2_per_N": 1e-9,
-            "running_in_factor": 2,
-            "running_in_distance_mm": 10,
-        },
+        "wear": {"specific_wear_rate_mm2_per_N": 1e-9, "running_in_factor": 2, "running_in_distance_mm": 10},
     }
     with pytest.raises(wearsim.CaseError, match=f"{command}.*constant"):
         check_constant(wearsim.load_case(tables), command)

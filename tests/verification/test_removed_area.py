@@ -40,8 +40,7 @@ def saved(
     flank = read(folder / "flank.csv")
     nodes = int(flank["node"].max())
     return Saved(
-        read(folder / "history.csv"),
-        {name: values.reshape(-1, nodes) for name, values in flank.items()},
+        read(folder / "history.csv"), {name: values.reshape(-1, nodes) for name, values in flank.items()}
     )
 
 
@@ -96,12 +95,9 @@ def test_pressure_of_the_file_is_hertz_of_its_load_and_curvature(saved: Saved) -
 
 
 @pytest.mark.parametrize(
-    ("name", "closes"),
-    [("16b-20t-oiled", 1e-4), ("520-15t-wrap", 1e-3), ("hertz-arc-prescribed", 3e-3)],
+    ("name", "closes"), [("16b-20t-oiled", 1e-4), ("520-15t-wrap", 1e-3), ("hertz-arc-prescribed", 3e-3)]
 )
-def test_budget_of_a_result_closes(
-    validated: Callable[..., None], name: str, closes: float
-) -> None:
+def test_budget_of_a_result_closes(validated: Callable[..., None], name: str, closes: float) -> None:
     """The two areas come from the points and from the wear: shoelace and sum."""
     case = Path(__file__).parents[2] / "cases" / f"{name}.toml"
     result = wearsim.simulate(wearsim.load_case(case, ["run.life_tolerance=0.05"]))
@@ -111,9 +107,7 @@ def test_budget_of_a_result_closes(
     x, y = (columns[key].reshape(-1, points) for key in ("x_mm", "y_mm"))
     (first, last) = (np.column_stack([x[i], y[i]]) for i in (0, -1))
     ring = np.vstack([first, last[::-1]])
-    shoelace = 0.5 * np.sum(
-        ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]
-    )
+    shoelace = 0.5 * np.sum(ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1])
     quantity, source = f"removed area of {name}", "shoelace formula on its flanks"
     shown = name != "hertz-arc-prescribed"
     validated(quantity, result.removed_area, abs(shoelace), 1e-9, source, "mm2", page=shown)

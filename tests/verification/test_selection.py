@@ -29,13 +29,7 @@ from wearsim.chain.power_rating import (
     strand_factor,
     tooth_factor,
 )
-from wearsim.chain.selection import (
-    Finding,
-    RatedDrive,
-    assess,
-    elongation_limit,
-    rating_note,
-)
+from wearsim.chain.selection import Finding, RatedDrive, assess, elongation_limit, rating_note
 from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
 from wearsim.errors import CaseError
 
@@ -109,9 +103,7 @@ def test_horsepower() -> None:
     assert pytest.approx(550 * 0.3048 * 4.4482216152605e-3, rel=1e-8) == HORSEPOWER
 
 
-@pytest.mark.parametrize(
-    ("strands", "factor"), [(1, 1.0), (2, 1.7), (3, 2.5), (4, 3.3), (5, 3.9), (6, 4.6)]
-)
+@pytest.mark.parametrize(("strands", "factor"), [(1, 1.0), (2, 1.7), (3, 2.5), (4, 3.3), (5, 3.9), (6, 4.6)])
 def test_strand_factors(strands: int, factor: float) -> None:
     """Shigley, table 17-23; GOST knows the first three (a public program has 15.1 and 25.1)."""
     assert strand_factor(strands) == factor
@@ -345,9 +337,14 @@ def test_rating_point_has_every_finding() -> None:
     )
     found = {entry.name: entry for entry in assess(drive)}
     assert set(found) == {
-        "plate fatigue", "roller impact", "corrected power", "joint pressure",
-        "recommended speed", "greatest speed", "safety against breaking",
-    }  # fmt: skip
+        "plate fatigue",
+        "roller impact",
+        "corrected power",
+        "joint pressure",
+        "recommended speed",
+        "greatest speed",
+        "safety against breaking",
+    }
     assert all(entry.source for entry in found.values())
     assert found["plate fatigue"].value / found["plate fatigue"].limit == pytest.approx(1, abs=1e-3)
     assert found["joint pressure"].value == pytest.approx(1144.0 / 44.5, rel=1e-3)
@@ -404,10 +401,7 @@ def test_every_series_of_the_catalogue_is_known(series: str) -> None:
         (lambda: strand_factor(7), "strands must be one of 1, 2, 3, 4, 5, 6, is '7'"),
         (lambda: strand_factor(4, "GOST"), "strands must be one of 1, 2, 3, is '4'"),
         (lambda: joint_pressure(1.0, 0.0), "bearing area must be above 0"),
-        (
-            lambda: RatedDrive(0.0, 19, 1000.0, 0.0),
-            "(?s)pitch must be above 0.*power must be above",
-        ),
+        (lambda: RatedDrive(0.0, 19, 1000.0, 0.0), "(?s)pitch must be above 0.*power must be above"),
     ],
 )
 def test_numbers_and_words_that_cannot_be(call, message: str) -> None:
@@ -417,13 +411,7 @@ def test_numbers_and_words_that_cannot_be(call, message: str) -> None:
 
 @pytest.mark.parametrize(
     "table",
-    [
-        "application_factors",
-        "exploitation_factors",
-        "joint_pressure",
-        "speed_limits",
-        "strand_factors",
-    ],
+    ["application_factors", "exploitation_factors", "joint_pressure", "speed_limits", "strand_factors"],
 )
 def test_every_row_has_a_source(table: str) -> None:
     assert all(row["source"].strip() for row in rows(table))

@@ -127,9 +127,7 @@ def test_load_factor_on_a_wrap_is_one_on_all_forces() -> None:
     factor = fatigue_hours({**base, "fatigue": {"load_factor": 1.2, "sprocket": HARD}})
     more = {"slack_tension_N": 1.2 * slack, "link_stiffness_N_per_mm": 1.2 * stiffness}
     pulled = {**base, "load": {"tension_N": 1.2 * tension, "speed_rpm": 100}, "drive": more}
-    assert fatigue_hours({**pulled, "fatigue": {"sprocket": HARD}}) == pytest.approx(
-        factor, rel=1e-6
-    )
+    assert fatigue_hours({**pulled, "fatigue": {"sprocket": HARD}}) == pytest.approx(factor, rel=1e-6)
 
 
 @pytest.mark.parametrize(("teeth", "turns"), [(27, 2), (28, 1)])
@@ -170,9 +168,7 @@ def test_duty_is_the_sum_of_miner(strand: Callable[..., dict[str, Any]], kind: s
     assert fatigue_hours({**together, "duty": blocks}) == pytest.approx(1.0 / used, rel=1e-6)
 
 
-def test_typical_regime_has_the_printed_equivalence(
-    strand: Callable[..., dict[str, Any]],
-) -> None:
+def test_typical_regime_has_the_printed_equivalence(strand: Callable[..., dict[str, Any]]) -> None:
     """mu_H = 0.25 of regime II, table 2.2."""
     loads = [{"tension_N": 5000, "speed_rpm": 100, "regime": name} for name in ("0", "II")]
     constant, regime = (fatigue_hours(strand(load=load)) for load in loads)
@@ -193,9 +189,7 @@ def test_which_governs(strand: Callable[..., dict[str, Any]], rate: float, first
     assert all("before the wear" in text and "it governs" in text for text in told)
 
 
-def test_a_stress_below_the_limit_is_endured_for_ever(
-    strand: Callable[..., dict[str, Any]],
-) -> None:
+def test_a_stress_below_the_limit_is_endured_for_ever(strand: Callable[..., dict[str, Any]]) -> None:
     """K = 0.99 of 804.2 MPa: N_HG cycles are a bound, or the horizon if that is more."""
     pull = 5000.0 * (0.99 * HARD_LIMIT / evolute_peak(5000.0)) ** 2
     result = wearsim.simulate(wearsim.load_case(strand(load={"tension_N": pull, "speed_rpm": 100})))
@@ -207,15 +201,11 @@ def test_a_stress_below_the_limit_is_endured_for_ever(
     assert result.summary()["governing_life_hours"] == result.life.hours
 
 
-def test_a_stress_above_all_life_factors_is_allowed_at_no_time(
-    strand: Callable[..., dict[str, Any]],
-) -> None:
+def test_a_stress_above_all_life_factors_is_allowed_at_no_time(strand: Callable[..., dict[str, Any]]) -> None:
     """K_HL is 1.8 at most: pulls of 1.01 and 0.99 of that stress squared."""
     most = 5000.0 * (1.8 * HARD_LIMIT / evolute_peak(5000.0)) ** 2
     above, below = (
-        wearsim.simulate(
-            wearsim.load_case(strand(load={"tension_N": factor * most, "speed_rpm": 100}))
-        )
+        wearsim.simulate(wearsim.load_case(strand(load={"tension_N": factor * most, "speed_rpm": 100})))
         for factor in (1.01, 0.99)
     )
     assert above.parts["sprocket_fatigue"] == Life(0.0, 0.0)
@@ -225,9 +215,7 @@ def test_a_stress_above_all_life_factors_is_allowed_at_no_time(
     assert "for any time" not in " ".join(below.warnings)
 
 
-def test_no_limit_within_the_run_leaves_open_which_governs(
-    strand: Callable[..., dict[str, Any]],
-) -> None:
+def test_no_limit_within_the_run_leaves_open_which_governs(strand: Callable[..., dict[str, Any]]) -> None:
     result = wearsim.simulate(wearsim.load_case(strand(run={"horizon_hours": 100.0})))
     assert isinstance(result.life, LowerBound)
     assert result.parts["sprocket_fatigue"].hours > 100.0
@@ -253,9 +241,7 @@ def test_a_chain_that_is_first_does_not_hide_the_fatigue_of_the_sprocket() -> No
 
 def test_hardness_outside_its_formula_is_told(strand: Callable[..., dict[str, Any]]) -> None:
     soft = {"treatment": "surface_hardened", "hardness_HRC": 39}
-    text = (
-        "fatigue.sprocket: table 2.3 holds for 40 to 56 HRC where it is surface_hardened, it is 39"
-    )
+    text = "fatigue.sprocket: table 2.3 holds for 40 to 56 HRC where it is surface_hardened, it is 39"
     assert text in wearsim.simulate(wearsim.load_case(strand(soft))).warnings
     given = {**soft, "contact_limit_MPa": 965}
     result = wearsim.simulate(wearsim.load_case(strand(given)))
@@ -273,9 +259,7 @@ def test_wear_is_the_same_with_and_without(strand: Callable[..., dict[str, Any]]
 
 
 @pytest.mark.parametrize("kind", ["strand", "wrap"])
-def test_a_saved_result_reloads(
-    strand: Callable[..., dict[str, Any]], kind: str, tmp_path: Path
-) -> None:
+def test_a_saved_result_reloads(strand: Callable[..., dict[str, Any]], kind: str, tmp_path: Path) -> None:
     tables = strand() if kind == "strand" else {**WRAP, "fatigue": {"sprocket": HARD}}
     result = wearsim.simulate(wearsim.load_case(tables))
     result.save(tmp_path / "run")

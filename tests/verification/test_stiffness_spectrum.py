@@ -66,7 +66,7 @@ def test_contact_ratio_is_the_path_between_the_tip_circles_over_the_base_pitch(v
         ("double_sum", 2.8155282764171794, 3.0, (-0.9032737124956, -0.2930588027874, 0.1743176129178)),
         ("pairs", RATIO, 1.0, (-0.3010912375, -0.0976862676, 0.0581058710)),
     ],
-)  # fmt: skip
+)
 def test_without_errors_it_is_the_closed_form(validated, model, mean, factor, lines):
     """S_l = 3 eps sinc(pi l eps) of the double sum, whose mean is 3 eps - 2; a third for pairs."""
     contacts = contact_number(PERFECT, model)
@@ -94,18 +94,34 @@ def test_mean_of_the_double_sum_on_either_side_of_two(angle, counts):
     ("pair", "model", "harmonics", "reference"),
     [
         (FINE, "double_sum", MESH, (2.8136029088, 0.9038469249, 0.2914722135, 0.1758388196)),
-        (FINE, "double_sum", SIDES, (0.0031624935, 0.0027358188, 0.0038985762, 0.0035820304,
-                                     0.0013900076, 0.0024311282)),
+        (
+            FINE,
+            "double_sum",
+            SIDES,
+            (0.0031624935, 0.0027358188, 0.0038985762, 0.0035820304, 0.0013900076, 0.0024311282),
+        ),
         (COARSE, "double_sum", MESH, (2.7853335361, 0.9004941863, 0.2539286344, 0.1767585071)),
-        (COARSE, "double_sum", SIDES, (0.0472307050, 0.0411257667, 0.0620872251, 0.0574238786,
-                                       0.0201144095, 0.0351540223)),
+        (
+            COARSE,
+            "double_sum",
+            SIDES,
+            (0.0472307050, 0.0411257667, 0.0620872251, 0.0574238786, 0.0201144095, 0.0351540223),
+        ),
         (COARSE, "double_sum", (55, 65, 61), (0.0007810777, 0.0063064157, 0.0039242604)),
-        (COARSE, "double_sum", (3, 2, 118, 122, 6),
-         (0.0096506828, 0.0078624761, 0.0289782866, 0.0414441158, 0.0020964217)),
-        (COARSE, "pairs", (0, 60, 57, 63, 58, 62),
-         (1.5749813519, 0.3066440949, 0.0156401751, 0.0146913507, 0.0205507730, 0.0205006063)),
+        (
+            COARSE,
+            "double_sum",
+            (3, 2, 118, 122, 6),
+            (0.0096506828, 0.0078624761, 0.0289782866, 0.0414441158, 0.0020964217),
+        ),
+        (
+            COARSE,
+            "pairs",
+            (0, 60, 57, 63, 58, 62),
+            (1.5749813519, 0.3066440949, 0.0156401751, 0.0146913507, 0.0205507730, 0.0205006063),
+        ),
     ],
-)  # fmt: skip
+)
 def test_reference_lines(validated, pair, model, harmonics, reference):
     size = "fine" if pair is FINE else "coarse"
     lines = {MESH: "tooth lines", SIDES: "sidebands"}.get(harmonics, "lines")
@@ -161,10 +177,9 @@ def test_edges_give_what_sampling_the_definition_gives(name, model):
     ("harmonics", "reference"),
     [
         ((19, 20, 21), (0.0623283165, 0.289167491, 0.0519977224)),
-        ((38, 39, 40, 41, 42),
-         (0.00179683122, 0.0234244287, 0.0826706528, 0.0462603749, 0.0115773832)),
+        ((38, 39, 40, 41, 42), (0.00179683122, 0.0234244287, 0.0826706528, 0.0462603749, 0.0115773832)),
     ],
-)  # fmt: skip
+)
 def test_reference_coefficients_of_one_wheel(validated, harmonics, reference):
     found = bessel_coefficients(Wheel(20, 0.02), RATIO, 60)[np.array(harmonics) + 60]
     quantity, source = f"lines of one wheel from {harmonics[0]} on", "independent program"
@@ -204,9 +219,7 @@ def test_one_wheel_of_the_exact_edges_is_the_closed_form():
 LINES = (*MESH, *SIDES, 55, 65, 61, 3, 2, 118, 122, 6)
 
 
-@pytest.mark.parametrize(
-    ("name", "bound"), [("fine", 8e-5), ("coarse", 1.5e-5), ("perfect", 5.1e-4)]
-)
+@pytest.mark.parametrize(("name", "bound"), [("fine", 8e-5), ("coarse", 1.5e-5), ("perfect", 5.1e-4)])
 def test_convolution_of_the_closed_forms_comes_to_the_exact_lines(name, bound):
     """With 6000 harmonics of either wheel; the acceptance is 1e-3."""
     found = series_coefficients(PAIRS[name], LINES, 6000)
@@ -229,16 +242,13 @@ def test_convolution_is_that_of_the_coefficients_on_the_common_grid():
     whole = fftconvolve(spread[0], spread[1])
     harmonics = np.arange(-200, 201)
     wanted = whole[harmonics + 6 * limit]
-    np.testing.assert_allclose(
-        series_coefficients(UNEVEN, harmonics, limit), wanted, rtol=0.0, atol=1e-14
-    )
+    np.testing.assert_allclose(series_coefficients(UNEVEN, harmonics, limit), wanted, rtol=0.0, atol=1e-14)
 
 
 def test_first_order_terms_and_how_small_the_printed_ones_are():
     """Rows of the source's table for a coarse error: wheel or pinion times the other's mean."""
     first, second = (
-        RATIO * bessel_coefficients(wheel, RATIO, 60)[60:].real
-        for wheel in (COARSE.pinion, COARSE.wheel)
+        RATIO * bessel_coefficients(wheel, RATIO, 60)[60:].real for wheel in (COARSE.pinion, COARSE.wheel)
     )
     printed = RATIO * bessel_coefficients(COARSE.pinion, RATIO, 60, "printed_argument")[60:].real
     assert first[20] == pytest.approx(-0.4784834806, abs=6e-11)

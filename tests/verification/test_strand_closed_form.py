@@ -24,9 +24,7 @@ PULL = 5000.0 / 17.0
 
 def engagement(mechanism: StrandMechanism) -> Engagement:
     profile = mechanism.profile
-    return mechanism.contact.engage(
-        np.array(profile.x), np.array(profile.y), np.zeros(profile.x.size)
-    )
+    return mechanism.contact.engage(np.array(profile.x), np.array(profile.y), np.zeros(profile.x.size))
 
 
 def compared(mechanism: StrandMechanism, nodes: int) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -75,8 +73,7 @@ def test_evolute_flank_converges_to_the_closed_form(
 
 
 def test_slip_ratio_is_sliding_speed_over_contact_speed_on_any_flank(
-    validated: Callable[..., None],
-    reference_mechanism: MechanismMaker,
+    validated: Callable[..., None], reference_mechanism: MechanismMaker
 ) -> None:
     """A circular flank of radius 20 mm: the ratio by differences of arc length over turn."""
     mechanism = reference_mechanism(nodes=2001)
@@ -138,9 +135,7 @@ def test_torque_balance_on_the_unworn_flank(reference_mechanism: MechanismMaker)
     assert np.log2(middle / fine) >= 1.9
 
 
-def test_roller_slip_fraction_scales_the_sliding_only(
-    reference_mechanism: MechanismMaker,
-) -> None:
+def test_roller_slip_fraction_scales_the_sliding_only(reference_mechanism: MechanismMaker) -> None:
     whole = reference_mechanism(nodes=51)
     part = engagement(replace(whole, slip_fraction=0.1))
     full = engagement(whole)
@@ -159,9 +154,7 @@ def test_contact_ratio_of_the_unworn_flank(
     validated("contact ratio of the strand", ratio, (30.67 - 4.0) / 25.4, 1e-5, "path over pitch")
 
 
-def test_points_the_strand_does_not_reach_carry_no_load(
-    reference_mechanism: MechanismMaker,
-) -> None:
+def test_points_the_strand_does_not_reach_carry_no_load(reference_mechanism: MechanismMaker) -> None:
     """A roller whose centre circle stays inside the line (R_C < R - h) never touches."""
     mechanism = reference_mechanism(nodes=51)
     profile = mechanism.profile

@@ -106,9 +106,7 @@ class TestExampleB:
         found = pair("b-carburised")
         assert [gear.cycles for gear in found.gears] == near([2.61e8, 82857142.857143])
         assert both(found, "contact", "equivalent_cycles") == near([139909050, 44415571.428571])
-        assert both(found, "bending", "equivalent_cycles") == near(
-            [108103406.89545, 34318541.871571]
-        )
+        assert both(found, "bending", "equivalent_cycles") == near([108103406.89545, 34318541.871571])
 
     @pytest.mark.parametrize("reading", ["gost", "source"])
     def test_contact(self, validated, reading):
@@ -127,10 +125,7 @@ class TestExampleB:
     def test_bending(self, validated):
         found = pair("b-carburised")
         assert both(found, "bending", "factor") == [1.0, 1.0]
-        quantity, stress = (
-            "allowable bending stress, example B",
-            both(found, "bending", "allowable"),
-        )
+        quantity, stress = ("allowable bending stress, example B", both(found, "bending", "allowable"))
         validated(quantity, stress, 455.8823529412, 1e-9, SOURCE, "MPa")
         assert both(found, "bending", "greatest") == near([1328.5714285714] * 2)
         printed = pair("b-carburised", "overload.static_safety=1")
@@ -142,9 +137,12 @@ class TestExampleB:
 
 class TestLoad:
     KEYS = (
-        "drive.gear_ratio=1.5", "load.pinion_torque_N_m=240", "load.module_mm=3",
-        "load.pinion_teeth=36", "load.face_width_mm=76",
-    )  # fmt: skip
+        "drive.gear_ratio=1.5",
+        "load.pinion_torque_N_m=240",
+        "load.module_mm=3",
+        "load.pinion_teeth=36",
+        "load.face_width_mm=76",
+    )
 
     def test_factors(self, validated):
         load = pair("a-improved", *self.KEYS).load
@@ -196,9 +194,7 @@ class TestLoad:
         """Doubling all relative torques doubles the torque and leaves the equivalence alone."""
         single = pair("b-carburised")
         steps = [(2.0, 0.4), (1.4, 0.35), (0.8, 0.25)]
-        tables = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(
-            exclude_unset=True
-        )
+        tables = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(exclude_unset=True)
         tables["cyclogram"] = [{"relative_torque": t, "share_of_time": s} for t, s in steps]
         double = pair_strength(load_calculation(tables, StrengthTables))
         assert double.spectrum.equivalence(9) == near(single.spectrum.equivalence(9))
@@ -244,9 +240,13 @@ class TestSpectrum:
 
     @pytest.mark.parametrize(
         ("name", "a", "b", "tolerance"),
-        [("I", 6.649, 1.967, 3e-4), ("II", 1, 1, 1e-3), ("IV", 2.169, 2.997, 8e-3),
-         ("V", 1.915, 4.133, 2e-2)],
-    )  # fmt: skip
+        [
+            ("I", 6.649, 1.967, 3e-4),
+            ("II", 1, 1, 1e-3),
+            ("IV", 2.169, 2.997, 8e-3),
+            ("V", 1.915, 4.133, 2e-2),
+        ],
+    )
     def test_beta_distributions(self, name, a, b, tolerance):
         """Mean of x^k is the product of (a + i)/(a + b + i); IV and V are not met to the digit."""
         for k in (3, 6, 9):
@@ -404,9 +404,7 @@ class TestTreatments:
         }
         for name, (hardness, contact, bending) in expected.items():
             found = treatments()[name]
-            assert (found.contact_limit(hardness), found.bending_limit(hardness)) == near(
-                (contact, bending)
-            )
+            assert (found.contact_limit(hardness), found.bending_limit(hardness)) == near((contact, bending))
 
     def test_nitrided(self):
         """12 HRC + 290 with the core's hardness is sigma_Flim; sigma_Hlim has to be given."""
@@ -438,9 +436,7 @@ class TestTreatments:
     def test_hardness_in_the_other_scale(self):
         """1 HRC for 10 HB."""
         rockwell = pair("b-carburised").gears[0]
-        brinell = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(
-            exclude_unset=True
-        )
+        brinell = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(exclude_unset=True)
         brinell["pinion"] = {"treatment": "carburised", "hardness_HB": 595}
         found = pair_strength(load_calculation(brinell, StrengthTables)).gears[0]
         assert found.contact == rockwell.contact

@@ -119,8 +119,7 @@ def test_iso_half_gap_on_the_pitch_circle() -> None:
 
 
 @pytest.mark.parametrize(
-    ("form", "tip", "land"),
-    [("min", 72.1105, "2.526"), ("max", 72.1105, "0.847"), ("min", 76.4808, "0.488")],
+    ("form", "tip", "land"), [("min", 72.1105, "2.526"), ("max", 72.1105, "0.847"), ("min", 76.4808, "0.488")]
 )
 def test_iso_tip_land(form: str, tip: float, land: str) -> None:
     gap = iso606_gap(12.7, 8.51, 17, form=form, tip_diameter=tip)
@@ -178,8 +177,9 @@ def test_ansi_40_in_inches() -> None:
     tooth = TypeIITooth(0.5 * INCH, 0.3125 * INCH, 20)
     check("3.19623", tooth.pitch_diameter / INCH)
     check_all("0.317063 0.158531", tooth.seating_diameter / INCH, tooth.seat_radius / INCH)
-    check_all("38.0000 15.2000", 90.0 - math.degrees(tooth.seat_half_angle),
-              math.degrees(tooth.working_angle))  # fmt: skip
+    check_all(
+        "38.0000 15.2000", 90.0 - math.degrees(tooth.seat_half_angle), math.degrees(tooth.working_angle)
+    )
     check_all("0.408531 0.108062", tooth.working_radius / INCH, tooth.working_chord / INCH)
     check_all("-0.197003 0.153915", *(part / INCH for part in tooth.working_centre))
     check_all("0.0388111 0.257594", tooth.straight_length / INCH, tooth.head_radius / INCH)
@@ -190,9 +190,7 @@ def test_ansi_40_in_inches() -> None:
     gap = ansi_b29_gap(0.5 * INCH, 0.3125 * INCH, 20)
     centre = (0.0, gap.seat_centre)
     for printed, part in zip(
-        ("0.124924 -0.097602", "0.179607 -0.004397", "0.194647 0.031382"),
-        gap.segments[:-1],
-        strict=True,
+        ("0.124924 -0.097602", "0.179607 -0.004397", "0.194647 0.031382"), gap.segments[:-1], strict=True
     ):
         check_all(printed, *((a - b) / INCH for a, b in zip(part.end, centre, strict=True)))
     angles = in_degrees(gap)
@@ -201,10 +199,8 @@ def test_ansi_40_in_inches() -> None:
 
 def test_ansi_40_metric() -> None:
     tooth = TypeIITooth(12.7, 7.92, 20)
-    check_all("81.1842 4.0179 10.3539", tooth.pitch_diameter, tooth.seat_radius,
-              tooth.working_radius)  # fmt: skip
-    check_all("6.5284 0.98363 4.49123", tooth.head_radius, tooth.straight_length,
-              tooth.pointed_height)  # fmt: skip
+    check_all("81.1842 4.0179 10.3539", tooth.pitch_diameter, tooth.seat_radius, tooth.working_radius)
+    check_all("6.5284 0.98363 4.49123", tooth.head_radius, tooth.straight_length, tooth.pointed_height)
     check_all("87.8046 89.1671", tooth.outside_diameter, tooth.pointed_diameter())
 
 
@@ -258,11 +254,15 @@ def test_ansi_point_identities(teeth: int) -> None:
     E = 1.3025 * roller + 0.0381
     W = 1.4 * roller * math.cos(math.pi / teeth)
     V = 1.4 * roller * math.sin(math.pi / teeth)
-    F = roller * (
-        0.8 * math.cos(math.radians(18.0 - 56.0 / teeth))
-        + 1.4 * math.cos(math.radians(17.0 - 64.0 / teeth))
-        - 1.3025
-    ) - 0.0381  # fmt: skip
+    F = (
+        roller
+        * (
+            0.8 * math.cos(math.radians(18.0 - 56.0 / teeth))
+            + 1.4 * math.cos(math.radians(17.0 - 64.0 / teeth))
+            - 1.3025
+        )
+        - 0.0381
+    )
     a = pitch_diameter(pitch, teeth) / 2.0
     x = (R * math.cos(A), a - R * math.sin(A))
     y = (-M + E * math.cos(A - B), a + T - E * math.sin(A - B))
@@ -277,8 +277,13 @@ def test_ansi_point_identities(teeth: int) -> None:
 def test_gost_25_4_z_25() -> None:
     tooth = GostTooth(25.4, 15.88, 25)
     assert gost591.tooth_height_factor(25.4, 15.88) == 0.532
-    check_all("202.6597 214.5745 186.6003 186.2004", tooth.pitch_diameter,
-              tooth.outside_diameter, tooth.root_diameter, tooth.largest_chord)  # fmt: skip
+    check_all(
+        "202.6597 214.5745 186.6003 186.2004",
+        tooth.pitch_diameter,
+        tooth.outside_diameter,
+        tooth.root_diameter,
+        tooth.largest_chord,
+    )
     check_all("8.0297 20.7337 10.5619", tooth.seat_radius, tooth.working_radius, tooth.head_radius)
     angles = (tooth.seat_half_angle, tooth.working_angle, tooth.half_tooth_angle)
     check_all("52.6000 15.7600 14.4400", *map(math.degrees, angles))
@@ -296,8 +301,7 @@ def test_gost_25_4_z_25() -> None:
 def test_gost_12_7_z_17() -> None:
     tooth = GostTooth(12.7, 8.51, 17)
     assert gost591.tooth_height_factor(12.7, 8.51) == 0.480
-    check_all("74.0350 60.4633 60.1684", tooth.outside_diameter, tooth.root_diameter,
-              tooth.largest_chord)  # fmt: skip
+    check_all("74.0350 60.4633 60.1684", tooth.outside_diameter, tooth.root_diameter, tooth.largest_chord)
     check_all("4.3263 11.1343 5.7228", tooth.seat_radius, tooth.working_radius, tooth.head_radius)
     check_all("0.6877 0.381", tooth.straight_length, tooth.displacement)
     assert gost591_gap(12.7, 8.51, 17).tip_land == pytest.approx(1.289489033055680, rel=1e-13)
@@ -306,13 +310,22 @@ def test_gost_12_7_z_17() -> None:
 def test_gost_19_05_z_20_and_15_875_z_21() -> None:
     tooth = GostTooth(19.05, 11.91, 20)
     assert gost591.tooth_height_factor(19.05, 11.91) == 0.532
-    check_all("121.7762 130.4116 109.7067", tooth.pitch_diameter, tooth.outside_diameter,
-              tooth.root_diameter)  # fmt: skip
-    check_all("6.0348 15.5628 7.9740 1.0246", tooth.seat_radius, tooth.working_radius,
-              tooth.head_radius, tooth.straight_length)  # fmt: skip
+    check_all("121.7762 130.4116 109.7067", tooth.pitch_diameter, tooth.outside_diameter, tooth.root_diameter)
+    check_all(
+        "6.0348 15.5628 7.9740 1.0246",
+        tooth.seat_radius,
+        tooth.working_radius,
+        tooth.head_radius,
+        tooth.straight_length,
+    )
     tooth = GostTooth(15.875, 10.16, 21)
-    check_all("106.5134 113.7692 96.2026 95.9048", tooth.pitch_diameter, tooth.outside_diameter,
-              tooth.root_diameter, tooth.largest_chord)  # fmt: skip
+    check_all(
+        "106.5134 113.7692 96.2026 95.9048",
+        tooth.pitch_diameter,
+        tooth.outside_diameter,
+        tooth.root_diameter,
+        tooth.largest_chord,
+    )
     check_all("6.7820 0.8883", tooth.head_radius, tooth.straight_length)
 
 
@@ -376,10 +389,9 @@ def test_pressure_angles(form: str, seat_centre: str) -> None:
     """At the seat's end and at the straight part, from each standard's own formula."""
     for teeth in range(9, 151):
         angles = in_degrees(FORMS[form](12.7, 8.51, teeth, seat_centre=seat_centre))
-        expected = {
-            "ISO min": [20.0 - 135.0 / teeth],
-            "ISO max": [30.0 - 135.0 / teeth],
-        }.get(form, [35.0 - 120.0 / teeth, 17.0 - 64.0 / teeth, 17.0 - 64.0 / teeth])
+        expected = {"ISO min": [20.0 - 135.0 / teeth], "ISO max": [30.0 - 135.0 / teeth]}.get(
+            form, [35.0 - 120.0 / teeth, 17.0 - 64.0 / teeth, 17.0 - 64.0 / teeth]
+        )
         np.testing.assert_allclose(angles[-len(expected) :], expected, rtol=0.0, atol=1e-12)
 
 
@@ -426,9 +438,7 @@ def test_outline_has_the_curvature_and_the_area_of_the_arcs(form: str) -> None:
             start += part.length
             if isinstance(part, Arc):
                 (cx, cy), r, p, q = part.centre, part.radius, part.first, part.last
-                twice += r * (
-                    r * (q - p) + cx * (np.sin(q) - np.sin(p)) - cy * (np.cos(q) - np.cos(p))
-                )
+                twice += r * (r * (q - p) + cx * (np.sin(q) - np.sin(p)) - cy * (np.cos(q) - np.cos(p)))
             else:
                 twice += part.start[0] * part.end[1] - part.end[0] * part.start[1]
         shoelace = np.dot(outline.x[1:], outline.y[:-1]) - np.dot(outline.x[:-1], outline.y[1:])

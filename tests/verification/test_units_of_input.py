@@ -16,11 +16,7 @@ CaseMaker = Callable[..., wearsim.Case]
 
 SI: dict[str, Any] = {
     "format_version": 1,
-    "chain": {
-        "pitch_mm": "0.0254 m",
-        "roller_diameter_mm": "1.588 cm",
-        "inner_width_mm": "17020 um",
-    },
+    "chain": {"pitch_mm": "0.0254 m", "roller_diameter_mm": "1.588 cm", "inner_width_mm": "17020 um"},
     "sprocket": {
         "teeth": 20,
         "profile": "evolute",
@@ -30,8 +26,7 @@ SI: dict[str, Any] = {
         "contact_end_mm": "4e-3 m",
     },
     "material": {
-        body: {"youngs_modulus_MPa": "2.1e11 Pa", "poissons_ratio": 0.3}
-        for body in ("sprocket", "roller")
+        body: {"youngs_modulus_MPa": "2.1e11 Pa", "poissons_ratio": 0.3} for body in ("sprocket", "roller")
     },
     "load": {"tension_N": "5 kN", "speed_rpm": "10.471975511965978 rad/s"},
     "stop": {"critical_depth_mm": "2e-4 m"},
@@ -56,10 +51,7 @@ def test_torque_and_power_give_the_pull(reference: CaseMaker, load: str) -> None
     """F_t = T/R = P/(omega R), R = p z/(2 pi); by per_cycle, which has no step control."""
     torque = 5000.0 * 0.0254 * 20 / (2.0 * math.pi)
     omega = 2.0 * math.pi * 100.0 / 60.0
-    values = {
-        "torque_N_m": f"{torque!r} Nm",
-        "power_kW": f"{torque * omega!r} W",
-    }
+    values = {"torque_N_m": f"{torque!r} Nm", "power_kW": f"{torque * omega!r} W"}
     tables = copy.deepcopy(SI)
     tables["wear"] = {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-8}
     tables["load"] = {load: values[load], "speed_rpm": 100}
@@ -78,10 +70,7 @@ def test_drozdov_constants_with_units() -> None:
         "speed_exponent": 0.2,
     }
     strings = {**numbers, "hardness_MPa": "5 GPa", "reference_speed_mm_per_s": "0.4 m/s"}
-    lives = [
-        wearsim.simulate(wearsim.load_case({**SI, "wear": wear})).cycles
-        for wear in (numbers, strings)
-    ]
+    lives = [wearsim.simulate(wearsim.load_case({**SI, "wear": wear})).cycles for wear in (numbers, strings)]
     assert lives[0] == pytest.approx(lives[1], rel=1e-9)
 
 
@@ -91,9 +80,7 @@ def test_every_second_gap_on_the_same_centrode() -> None:
     tables["wear"] = {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-8}
     tables["chain"]["roller_diameter_mm"] = 8.0
     whole = wearsim.simulate(wearsim.load_case(tables))
-    half = wearsim.simulate(
-        wearsim.load_case(tables, ["sprocket.teeth=40", "sprocket.engaged_every=2"])
-    )
+    half = wearsim.simulate(wearsim.load_case(tables, ["sprocket.teeth=40", "sprocket.engaged_every=2"]))
     assert half.cycles == pytest.approx(whole.cycles, rel=1e-9)
     assert half.life.hours == pytest.approx(whole.life.hours, rel=1e-9)
     assert any("the same 20 gaps" in text for text in half.warnings)

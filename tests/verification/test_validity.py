@@ -38,9 +38,7 @@ def columns(**changes: object) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
-def test_conforming_flank_is_an_error_with_cycle_and_place(
-    prescribed: CaseMaker, method: str
-) -> None:
+def test_conforming_flank_is_an_error_with_cycle_and_place(prescribed: CaseMaker, method: str) -> None:
     case = prescribed(
         columns(flank_curvature_per_mm=-1.0 / 5.0), ARCHARD, 0.01, 5.0, [f"run.method={method}"]
     )
@@ -49,17 +47,12 @@ def test_conforming_flank_is_an_error_with_cycle_and_place(
 
 
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
-def test_flank_that_wears_until_it_conforms_gives_no_life(
-    prescribed: CaseMaker, method: str
-) -> None:
+def test_flank_that_wears_until_it_conforms_gives_no_life(prescribed: CaseMaker, method: str) -> None:
     """At m = 1 a given slip ratio digs w = k q lambda N whatever the curvature.
 
     1/rho_H = 1/5 - 0.19 + w'' reaches 0 at a depth of 0.0122 mm, before the limit of 0.05 mm.
     """
-    changes = {
-        "flank_curvature_per_mm": -0.19,
-        "slip_ratio": 0.5 * (1.0 + 0.5 * np.cos(0.5 * math.pi * ARC)),
-    }
+    changes = {"flank_curvature_per_mm": -0.19, "slip_ratio": 0.5 * (1.0 + 0.5 * np.cos(0.5 * math.pi * ARC))}
     case = prescribed(columns(**changes), ARCHARD, 0.05, 5.0, [f"run.method={method}"])
     with pytest.raises(wearsim.ContactError, match="conforms"):
         wearsim.simulate(case)
@@ -94,9 +87,7 @@ def test_stated_error_covers_the_true_one(reference: CaseMaker, nodes: int) -> N
     assert abs(result.cycles / fine - 1.0) <= result.numerical_error + result.life_tolerance
 
 
-def test_pressure_exponent_below_one_with_a_slip_ratio_is_refused(
-    prescribed: CaseMaker,
-) -> None:
+def test_pressure_exponent_below_one_with_a_slip_ratio_is_refused(prescribed: CaseMaker) -> None:
     wear = {"law": "power", "coefficient": 1e-9, "pressure_exponent": 0.9}
     with pytest.raises(wearsim.CaseError, match=r"wear.pressure_exponent.*ill-posed"):
         prescribed(columns(), wear, 0.01, 5.0)
@@ -144,9 +135,7 @@ def test_band_of_a_reached_life_is_k_scaling(reference: CaseMaker) -> None:
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 def test_tip_land_can_end_the_life_and_is_named(reference: CaseMaker, method: str) -> None:
     limit = 9.1
-    case = reference(
-        1, f"run.method={method}", f"stop.min_tip_land_mm={limit}", "stop.critical_depth_mm=0.5"
-    )
+    case = reference(1, f"run.method={method}", f"stop.min_tip_land_mm={limit}", "stop.critical_depth_mm=0.5")
     result = wearsim.simulate(case)
     assert result.stop == "min_tip_land_mm"
     assert result.stop_value == limit
@@ -169,9 +158,7 @@ def test_tip_land_of_the_new_tooth_bounds_the_limit(reference: CaseMaker) -> Non
 
 @pytest.mark.parametrize(("method", "exponent"), [("advance", 1), ("advance", 2), ("per_cycle", 2)])
 def test_no_number_of_a_result_is_nan(reference: CaseMaker, exponent: float, method: str) -> None:
-    result = wearsim.simulate(
-        reference(exponent, f"run.method={method}", "stop.critical_depth_mm=0.75")
-    )
+    result = wearsim.simulate(reference(exponent, f"run.method={method}", "stop.critical_depth_mm=0.75"))
     for table in (result.history_columns, result.flank_columns):
         for name, values in table.items():
             assert np.isfinite(values).all(), name
@@ -187,11 +174,7 @@ def test_only_what_a_table_does_not_give_is_nan(prescribed: CaseMaker) -> None:
         for name, values in table.items()
         if not np.isfinite(values).all()
     }
-    assert unknown == {
-        "worn_contact_ratio",
-        "sliding_speed_mm_per_s",
-        "max_sliding_speed_mm_per_s",
-    }
+    assert unknown == {"worn_contact_ratio", "sliding_speed_mm_per_s", "max_sliding_speed_mm_per_s"}
     json.dumps(result.summary(), allow_nan=False)
 
 
@@ -223,9 +206,7 @@ def test_stall_has_cycle_and_place() -> None:
         if depth.max() > 1e-3:
             slip[3] = np.nan
 
-    with pytest.raises(
-        wearsim.ConvergenceError, match=r"cycle [\d.e+]+, 3 mm from the root.*go on"
-    ):
+    with pytest.raises(wearsim.ConvergenceError, match=r"cycle [\d.e+]+, 3 mm from the root.*go on"):
         run_advance(flat_contact(stalling), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
 
 
@@ -240,9 +221,7 @@ def test_vanished_contact_has_cycle_and_place() -> None:
         if depth.max() > 1e-3:
             load[:] = 0.0
 
-    with pytest.raises(
-        wearsim.ContactError, match=r"cycle [\d.e+]+, deepest 5 mm from.*touches no"
-    ):
+    with pytest.raises(wearsim.ContactError, match=r"cycle [\d.e+]+, deepest 5 mm from.*touches no"):
         run_advance(flat_contact(vanishing), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
 
 
@@ -267,8 +246,6 @@ def test_fold_has_cycle_and_place() -> None:
         x[i, 0:2], x[i, 7:9] = 0.7, 0.3
     run = Trajectory(np.array([0.0, 7.0, 9.0]), x, y, 0.0 * x, None, 3)
     contact = flat_contact(prescribed_contact)
-    with pytest.raises(
-        wearsim.ConvergenceError, match=r"cycle 7, [\d.]+ mm from the root.*cross itself"
-    ):
+    with pytest.raises(wearsim.ConvergenceError, match=r"cycle 7, [\d.]+ mm from the root.*cross itself"):
         check_fold(contact, run)
     check_fold(contact, replace(run, x=x[:1], y=y[:1], cycles=run.cycles[:1]))

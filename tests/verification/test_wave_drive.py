@@ -159,18 +159,13 @@ def test_246_mm_is_out_of_reach_of_its_formula():
 def test_what_would_bring_246_mm(share, pressure, torque, expected):
     """A factor of 10, kgf/cm2 for MPa or kgf m for N m."""
     found = diameter(
-        "pressure",
-        {"output_torque_N_m": torque},
-        engaged_share=share,
-        allowable_pressure_MPa=pressure,
+        "pressure", {"output_torque_N_m": torque}, engaged_share=share, allowable_pressure_MPa=pressure
     )
     assert found == pytest.approx(expected, abs=1e-3 if expected in (251.984, 246.966) else 1e-6)
 
 
 def test_a_literal_torque_in_kN_m_gives_more_than_a_metre():
-    one = diameter(
-        "pressure", {"output_torque_N_m": 8e5}, engaged_share=0.25, allowable_pressure_MPa=65
-    )
+    one = diameter("pressure", {"output_torque_N_m": 8e5}, engaged_share=0.25, allowable_pressure_MPa=65)
     assert one == pytest.approx(1138.8, abs=0.05)
 
 
@@ -250,9 +245,7 @@ def test_rim_endurance_without_speed_is_d0():
     assert slow == pytest.approx(179.654284, abs=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("target", "needed"), [(198, 280.2655), (207, 248.397)], ids=["198 mm", "207 mm"]
-)
+@pytest.mark.parametrize(("target", "needed"), [(198, 280.2655), (207, 248.397)], ids=["198 mm", "207 mm"])
 def test_endurance_limit_for_a_published_diameter(validated, target, needed):
     own = {"endurance_limit_MPa": 280, "safety_factor": 1.7, "published_diameter_mm": target}
     quantity, source = f"endurance limit that gives {target} mm", "independent program"
@@ -280,9 +273,7 @@ def test_diameter_over_torque(method, exponent):
     """All as T^(1/3), the bearing as T^0.357; the rim at speed only in its static part."""
     own = {"bearing_constant": 1.0} if method == "generator_bearing" else {}
     drive = {"generator_speed_rpm": 1e-4} if method == "rim_endurance" else {}
-    ratio = diameter(method, {**drive, "output_torque_N_m": 6400}, **own) / diameter(
-        method, drive, **own
-    )
+    ratio = diameter(method, {**drive, "output_torque_N_m": 6400}, **own) / diameter(method, drive, **own)
     assert ratio == pytest.approx(8**exponent, rel=1e-9)
     tables = solved(method, drive, **own).elasticity
     assert tables["output_torque_N_m"] == pytest.approx(exponent, abs=1e-7)

@@ -73,19 +73,11 @@ def seated_angle(gap: Gap) -> float:
 
 
 TABLE = {
-    0.00: (
-        "1000 657 431 283 186 123 81 53 35 24", "426 281 184 121 79 52 34 23 14 8", 28.3, 0.024,
-    ),
-    0.01: (
-        "1000 613 370 224 136 84 52 32 21 14", "455 285 172 104 63 38 23 14 9 8", 24.0, 0.422,
-    ),
-    0.02: (
-        "1000 562 306 168 93 52 30 18 12 12", "492 287 156 85 46 26 14 8 3 9", 19.8, 0.823,
-    ),
-    0.03: (
-        "1000 503 239 116 57 30 17 10 7 11", "540 285 135 64 31 15 8 4 5 10", 15.8, 1.225,
-    ),
-}  # fmt: skip
+    0.00: ("1000 657 431 283 186 123 81 53 35 24", "426 281 184 121 79 52 34 23 14 8", 28.3, 0.024),
+    0.01: ("1000 613 370 224 136 84 52 32 21 14", "455 285 172 104 63 38 23 14 9 8", 24.0, 0.422),
+    0.02: ("1000 562 306 168 93 52 30 18 12 12", "492 287 156 85 46 26 14 8 3 9", 19.8, 0.823),
+    0.03: ("1000 503 239 116 57 30 17 10 7 11", "540 285 135 64 31 15 8 4 5 10", 15.8, 1.225),
+}
 
 
 def numbers(text: str) -> list[float]:
@@ -123,12 +115,7 @@ def test_last_two_rollers_of_the_table_touch_the_opposite_flank() -> None:
     ],
 )
 def test_table_of_08b(
-    validated: Callable[..., None],
-    form: str,
-    elongation: float,
-    tension: str,
-    force: float,
-    angle: float,
+    validated: Callable[..., None], form: str, elongation: float, tension: str, force: float, angle: float
 ) -> None:
     loads = wrap(FORMS[form](17)).loads(1.0, elongation)
     expected = numbers(tension)
@@ -315,12 +302,7 @@ class Potential:
 
 @pytest.mark.parametrize(
     ("form", "teeth", "elongation", "phase"),
-    [
-        ("ANSI", 20, 0.02, 1.0),
-        ("ANSI", 20, 0.03, 0.5),
-        ("ISO min", 17, 0.0, 1.0),
-        ("ISO max", 17, 0.01, 0.7),
-    ],
+    [("ANSI", 20, 0.02, 1.0), ("ANSI", 20, 0.03, 0.5), ("ISO min", 17, 0.0, 1.0), ("ISO max", 17, 0.01, 0.7)],
 )
 def test_independent_minimum_on_exact_arcs(
     validated: Callable[..., None], form: str, teeth: int, elongation: float, phase: float
@@ -370,9 +352,7 @@ def test_driver_differs_from_driven_by_friction(
 ) -> None:
     """Fact 2: sin(phi +- delta)/sin(phi +- delta + alpha), printed for phi = 35 - 120/z degrees."""
     for driver, printed in zip((True, False), RATIOS[teeth, friction], strict=True):
-        mechanism = wrap(
-            FORMS["ANSI"](teeth), slack=100.0, driver=driver, friction=(friction, 10.0)
-        )
+        mechanism = wrap(FORMS["ANSI"](teeth), slack=100.0, driver=driver, friction=(friction, 10.0))
         tension = mechanism.loads(1.0).tension
         which = "driver" if driver else "driven"
         validated(
@@ -511,9 +491,7 @@ def test_smallest_slack_tension_of_the_convex_forms(form: str, elongation: float
 
 
 @pytest.mark.parametrize(("form", "elongation"), [("ANSI", 0.0), ("ISO max", 0.02)])
-def test_chain_jumps_below_the_slack_tension_that_the_error_names(
-    form: str, elongation: float
-) -> None:
+def test_chain_jumps_below_the_slack_tension_that_the_error_names(form: str, elongation: float) -> None:
     mechanism = wrap(FORMS[form](20), slack=0.5)
     with pytest.raises(ContactError, match="the chain jumps") as caught:
         mechanism.loads(1.0, elongation)

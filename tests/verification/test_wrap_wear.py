@@ -51,9 +51,14 @@ def contact(*settings: str) -> WrapContact:
 
 
 def wear(
-    of: WrapContact, level: int = 0, *, depth: float = DEPTH, horizon: float = ENDLESS,
-    factor: float = 1.0, step: float = 0.0,
-) -> DwellingTrajectory:  # fmt: skip
+    of: WrapContact,
+    level: int = 0,
+    *,
+    depth: float = DEPTH,
+    horizon: float = ENDLESS,
+    factor: float = 1.0,
+    step: float = 0.0,
+) -> DwellingTrajectory:
     """Run until a depth or a horizon."""
     law = archard(COEFFICIENT * factor)
     return run_dwelling(of, law, (depth_criterion(depth),), horizon, level, step)
@@ -131,9 +136,7 @@ def test_articulation_in_and_out(settings: tuple[str, ...], phases: int) -> None
 def test_speed_is_slip_over_the_time_of_a_phase() -> None:
     """100 rpm of 20 teeth: 0.03 s for a pitch."""
     table = events(contact())
-    np.testing.assert_allclose(
-        table[kernels.EVENT_SPEED], table[kernels.EVENT_SLIP] / (0.03 / 4), rtol=1e-12
-    )
+    np.testing.assert_allclose(table[kernels.EVENT_SPEED], table[kernels.EVENT_SLIP] / (0.03 / 4), rtol=1e-12)
 
 
 @KINDS
@@ -265,9 +268,7 @@ def test_area_of_a_step_is_k_q_s() -> None:
     """k sum(q s count) cycles, divided by the mean cosine of the pressed arc, below 1 %."""
     of = contact("sprocket.nodes=601")
     table = events(of)
-    worn = (
-        table[kernels.EVENT_LOAD] * table[kernels.EVENT_SLIP] * table[kernels.EVENT_COUNT]
-    ).sum()
+    worn = (table[kernels.EVENT_LOAD] * table[kernels.EVENT_SLIP] * table[kernels.EVENT_COUNT]).sum()
     run = wear(of, horizon=1000.0, step=1000.0)
     assert run.updates == 1
     assert run.area == pytest.approx(COEFFICIENT * worn * 1000.0, rel=0.01)
@@ -305,17 +306,14 @@ def test_one_step_for_the_whole_life_is_stable() -> None:
 def test_phases_do_not_matter() -> None:
     """8, 16 and 32 phases of a pitch."""
     lives = [
-        wear(contact(f"mechanism.phases={phases}", "sprocket.nodes=201")).cycles[-1]
-        for phases in (8, 16, 32)
+        wear(contact(f"mechanism.phases={phases}", "sprocket.nodes=201")).cycles[-1] for phases in (8, 16, 32)
     ]
     np.testing.assert_allclose(lives, lives[-1], rtol=0.01)
 
 
 def test_nodes_do_not_matter() -> None:
     """301, 601 and 1201 points; the finest two within 0.5 %."""
-    coarse, middle, fine = (
-        wear(contact(f"sprocket.nodes={nodes}")).cycles[-1] for nodes in (301, 601, 1201)
-    )
+    coarse, middle, fine = (wear(contact(f"sprocket.nodes={nodes}")).cycles[-1] for nodes in (301, 601, 1201))
     assert coarse == pytest.approx(fine, rel=0.012)
     assert middle == pytest.approx(fine, rel=0.005)
 
@@ -347,9 +345,7 @@ def test_power_law_wears_less_where_pressure_is_low() -> None:
     law = power(COEFFICIENT / 250.0, 2.0)
     square = run_dwelling(of, law, (depth_criterion(0.02),), ENDLESS, 0)
     line = wear(of, depth=0.02)
-    first, last = (
-        highest_load(of, law, Start(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]]
-    )
+    first, last = (highest_load(of, law, Start(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]])
     assert last < 250.0 < first
     early = 1e-4 * line.cycles[-1]
     depths = [np.interp(early, run.cycles, run.depth.max(axis=1)) for run in (square, line)]
@@ -372,9 +368,7 @@ def test_two_kinds_of_gap_wear_differently() -> None:
     assert run.all_depth.shape[1] == 2
     assert deepest[1] == pytest.approx(DEPTH, rel=1e-9)
     assert deepest[0] < 0.97 * deepest[1]
-    np.testing.assert_array_equal(
-        run.depth[-1], run.all_depth[-1][run.all_depth[-1].max(axis=1).argmax()]
-    )
+    np.testing.assert_array_equal(run.depth[-1], run.all_depth[-1][run.all_depth[-1].max(axis=1).argmax()])
 
 
 def test_without_growth_both_kinds_are_alike() -> None:
@@ -382,9 +376,7 @@ def test_without_growth_both_kinds_are_alike() -> None:
     two = wear(replace(contact("joint.pitch='alternating'"), elongation_per_cycle=0.0))
     one = wear(replace(contact(), elongation_per_cycle=0.0))
     assert two.cycles[-1] == pytest.approx(one.cycles[-1], rel=1e-2)
-    np.testing.assert_allclose(
-        two.all_depth[-1, 0], two.all_depth[-1, 1], rtol=0, atol=3e-2 * DEPTH
-    )
+    np.testing.assert_allclose(two.all_depth[-1, 0], two.all_depth[-1, 1], rtol=0, atol=3e-2 * DEPTH)
 
 
 def test_hunting_teeth_take_the_mean_of_both_kinds() -> None:
@@ -462,16 +454,12 @@ def zone(of: WrapContact, run: DwellingTrajectory, area: float) -> dict[str, flo
         "depth": float(depth[deepest]),
         "radius": float(np.hypot(of.profile.x[deepest], of.profile.y[deepest])),
         "width": float(np.gradient(arc)[depth > 0.5 * depth[deepest]].sum()),
-        "mean_place": float(
-            np.sum(np.gradient(arc) * depth * arc) / np.sum(np.gradient(arc) * depth)
-        ),
+        "mean_place": float(np.sum(np.gradient(arc) * depth * arc) / np.sum(np.gradient(arc) * depth)),
     }
 
 
 @pytest.mark.slow
-def test_a_chain_that_does_not_stretch_digs_a_hook_at_the_root_one_that_does_spreads_the_wear() -> (
-    None
-):
+def test_a_chain_that_does_not_stretch_digs_a_hook_at_the_root_one_that_does_spreads_the_wear() -> None:
     """Of the same area worn off: shallower, wider and higher up the flank with chains that grow.
 
     Three chains to the end of the run, each to 3 %, a twentieth of that time, and one that has

@@ -6,13 +6,7 @@ from pathlib import Path
 
 from wearsim.case.duty_blocks import resolve_duty
 from wearsim.case.flank_endurance import resolve_fatigue
-from wearsim.case.model import (
-    Case,
-    ChainDrive,
-    PrescribedDrive,
-    StrandDrive,
-    WrapDrive,
-)
+from wearsim.case.model import Case, ChainDrive, PrescribedDrive, StrandDrive, WrapDrive
 from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults, wear_input
 from wearsim.case.strand_drive import resolve_prescribed, resolve_strand
 from wearsim.case.wrap_drive import resolve_wrap
@@ -30,29 +24,7 @@ WRAP_TOLERANCE = 5e-2
 
 
 def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:
-    """Complete a case.
-
-    Parameters
-    ----------
-    tables : CaseTables
-        The validated input.
-    name : str
-        Of the case.
-    folder : pathlib.Path
-        Place that paths are relative to.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Case
-        Complete.
-
-    Raises
-    ------
-    CaseError
-        With everything that is wrong.
-    """
+    """Complete a case."""
     case = Resolution(tables, folder, faults)
     take_defaults(case, tables)
     chain = _chain(case, tables.chain)
@@ -159,9 +131,7 @@ def _critical_depth(case: Resolution, drive: ChainDrive | None) -> float:
     if isinstance(drive, StrandDrive | WrapDrive):
         depth = float(f"{0.1 * drive.pitch_line_thickness:.4g}")
         if depth > 0.0:
-            case.take(
-                "stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line"
-            )
+            case.take("stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line")
             return depth
         case.faults.add(
             "stop.critical_depth_mm",
@@ -169,9 +139,7 @@ def _critical_depth(case: Resolution, drive: ChainDrive | None) -> float:
             "check the points of the flank",
         )
     if isinstance(drive, PrescribedDrive):
-        case.faults.add(
-            "stop.critical_depth_mm", "required: a table of loads has no tooth to derive it from"
-        )
+        case.faults.add("stop.critical_depth_mm", "required: a table of loads has no tooth to derive it from")
     return math.nan
 
 
@@ -183,8 +151,7 @@ def _check_depth(case: Resolution, drive: ChainDrive | None, depth: float) -> No
     if depth >= thinnest > 0.0:
         case.faults.add(
             "stop.critical_depth_mm",
-            f"must be below the thickness of the tooth at its neck, {thinnest:.4g} mm "
-            f"(got {depth:g})",
+            f"must be below the thickness of the tooth at its neck, {thinnest:.4g} mm (got {depth:g})",
         )
     elif depth > _DEEP * thickness > 0.0:
         case.warnings.append(
@@ -200,27 +167,20 @@ def _check_tip_land(case: Resolution, drive: ChainDrive | None, min_tip_land: fl
     elif drive is not None and drive.tip_land <= min_tip_land:
         case.faults.add(
             key,
-            f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm "
-            f"(got {min_tip_land:g})",
+            f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm (got {min_tip_land:g})",
         )
 
 
 def _more_limits(case: Resolution, drive: ChainDrive | None) -> dict[str, float]:
     """Limits of the worn tooth beyond depth and tip land, by their keys."""
     stop = case.tables.stop
-    keys = (
-        "case_depth_mm",
-        "min_tooth_thickness_mm",
-        "over_pins_change_mm",
-        "min_slack_tension_N",
-    )
+    keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm", "min_slack_tension_N")
     given = {key: value for key in keys if (value := getattr(stop, key)) is not None}
     tension = given.get("min_slack_tension_N")
     if tension is not None and isinstance(drive, WrapDrive) and tension > drive.slack:
         case.faults.add(
             "stop.min_slack_tension_N",
-            "must not be above the slack tension that the drive has, "
-            f"{drive.slack:.4g} N (got {tension:g})",
+            f"must not be above the slack tension that the drive has, {drive.slack:.4g} N (got {tension:g})",
         )
     least = given.get("min_tooth_thickness_mm")
     if least is not None and drive is not None:

@@ -22,78 +22,33 @@ _SUM_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class LoadBlock:
-    """A part of the duty as the case gives it.
+    """A part of the duty as the case gives it."""
 
-    Attributes
-    ----------
-    share : float
-        Of the cycles.
-    speed_rpm : float
-        Of this sprocket.
-    kind : str
-        ``tension_N``, ``power_kW`` or ``torque_N_m``.
-    value : float
-        Of that key.
-    wear_factor : float
-        On the wear coefficient of the tooth.
-    joint_factor : float
-        On that of the chain's joints.
-    key : str
-        Of the case, for faults.
-    part : float
-        Of the useful pull, for typical regimes.
-    measured : bool
-        Whether it comes from a log, which may hold idling.
-    """
-
-    share: float
-    speed_rpm: float
-    kind: str
-    value: float
-    wear_factor: float
-    joint_factor: float
-    key: str
-    part: float = 1.0
-    measured: bool = False
+    share: float  # of the cycles
+    speed_rpm: float  # of this sprocket
+    kind: str  # `tension_N`, `power_kW` or `torque_N_m`
+    value: float  # of that key
+    wear_factor: float  # on the wear coefficient of the tooth
+    joint_factor: float  # on that of the chain's joints
+    key: str  # of the case, for faults
+    part: float = 1.0  # of the useful pull, for typical regimes
+    measured: bool = False  # whether it comes from a log, which may hold idling
 
 
 @dataclass(frozen=True)
 class Duty:
-    """What a drive does, in blocks.
+    """What a drive does, in blocks."""
 
-    Attributes
-    ----------
-    blocks : tuple of LoadBlock
-        Their shares sum to 1; none where a table of loads takes their place.
-    speed_rpm : float
-        Mean over the time.
-    rated : tuple of LoadBlock
-        The loads that strength and ratings are judged by: the blocks, but of a typical regime
-        the load given.
-    """
-
+    # their shares sum to 1; none where a table of loads takes their place
     blocks: tuple[LoadBlock, ...]
-    speed_rpm: float
+    speed_rpm: float  # mean over the time
+    # the loads that strength and ratings are judged by: the blocks, but of a typical regime the
+    # load given
     rated: tuple[LoadBlock, ...]
 
 
 def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
-    """Return the duty of a case: from [[duty]], a log, a typical regime or constant.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    kind : str
-        Kind of its mechanism.
-    chain : Chain
-        Its chain.
-
-    Returns
-    -------
-    Duty or None
-        None where there was a fault.
-    """
+    """Return the duty of a case: from [[duty]], a log, a typical regime or constant."""
     tables, load, faults = case.tables, case.tables.load, case.faults
     if not tables.duty:
         case.inputs.pop("duty", None)
@@ -152,10 +107,7 @@ def _given(case: Resolution, kind: str) -> Duty | None:
             )
         if getattr(block, first) is None:
             other = kinds[1 - kinds.index(first)]
-            faults.add(
-                f"duty.{number}.{other}",
-                f"all blocks must give the same share, block 1 has {first}",
-            )
+            faults.add(f"duty.{number}.{other}", f"all blocks must give the same share, block 1 has {first}")
     if faults.count > before:
         return None
     shares = [getattr(block, first) for block in blocks]
@@ -164,9 +116,7 @@ def _given(case: Resolution, kind: str) -> Duty | None:
         faults.add("duty", f"{first} of all blocks must sum to 1 (got {total:.9g})")
         return None
     cycles, speed = _shares_of_cycles(
-        [share / total for share in shares],
-        [block.speed_rpm for block in blocks],
-        first == "share_of_time",
+        [share / total for share in shares], [block.speed_rpm for block in blocks], first == "share_of_time"
     )
     found = _joined(
         _load_block(block, number, share)
@@ -190,17 +140,13 @@ def _load_block(block: DutyBlock, number: int, share: float) -> LoadBlock:
     )
 
 
-def _shares_of_cycles(
-    shares: list[float], speeds: list[float], of_time: bool
-) -> tuple[list[float], float]:
+def _shares_of_cycles(shares: list[float], speeds: list[float], of_time: bool) -> tuple[list[float], float]:
     """Return the shares of the cycles and the mean speed over the time."""
     if of_time:
         mean = math.fsum(share * speed for share, speed in zip(shares, speeds, strict=True))
         return [share * speed / mean for share, speed in zip(shares, speeds, strict=True)], mean
     # Relative to the first speed: a constant one comes out to the last digit.
-    slow = math.fsum(
-        share * (speeds[0] / speed) for share, speed in zip(shares, speeds, strict=True)
-    )
+    slow = math.fsum(share * (speeds[0] / speed) for share, speed in zip(shares, speeds, strict=True))
     return shares, speeds[0] / slow
 
 
@@ -267,9 +213,7 @@ def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None
     return Duty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
 
 
-def _log_summary(
-    name: str, duration: float, sorted_in: list[LogBlock], blocks: list[LogBlock]
-) -> str:
+def _log_summary(name: str, duration: float, sorted_in: list[LogBlock], blocks: list[LogBlock]) -> str:
     text = f"{name}: {duration:.6g} s, every row holds until the next, {len(sorted_in)} blocks"
     if len(blocks) < len(sorted_in):
         square = [sum(b.revolutions * b.tension**2 for b in part) for part in (blocks, sorted_in)]

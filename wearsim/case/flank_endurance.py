@@ -16,65 +16,30 @@ _SPROCKET = (
 
 @dataclass(frozen=True)
 class FlankMaterial:
-    """Material of the flanks of a sprocket, pinion or wheel against contact fatigue.
+    """Material of the flanks of a sprocket, pinion or wheel against contact fatigue."""
 
-    Attributes
-    ----------
-    treatment : str
-        Heat treatment.
-    hardness : float
-        Of the flank.
-    scale : str
-        ``HB`` or ``HRC``.
-    contact_limit, contact_safety : float or None
-        sigma_Hlim [MPa] and S_H; None for those of the treatment.
-    """
-
-    treatment: str
-    hardness: float
-    scale: str
-    contact_limit: float | None
-    contact_safety: float | None
+    treatment: str  # heat treatment
+    hardness: float  # of the flank
+    scale: str  # `HB` or `HRC`
+    contact_limit: float | None  # sigma_Hlim [MPa]; None for that of the treatment
+    contact_safety: float | None  # S_H; None for that of the treatment
 
 
 @dataclass(frozen=True)
 class FatigueInput:
-    """Contact fatigue as it was asked for.
+    """Contact fatigue as it was asked for."""
 
-    Attributes
-    ----------
-    load_factor : float
-        K_H on the load, for contact fatigue only.
-    materials : mapping of str to FlankMaterial
-        Of ``pinion`` and ``wheel``, or of ``sprocket``.
-    """
-
-    load_factor: float
-    materials: Mapping[str, FlankMaterial]
+    load_factor: float  # K_H on the load, for contact fatigue only
+    materials: Mapping[str, FlankMaterial]  # of `pinion` and `wheel`, or of `sprocket`
 
 
 def resolve_fatigue(case: Record, table: FatigueTable | None) -> FatigueInput | None:
-    """Return what a case says about contact fatigue.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far.
-    table : FatigueTable or None
-        As given: its tables are those of the materials.
-
-    Returns
-    -------
-    FatigueInput or None
-        None where contact fatigue is not asked for.
-    """
+    """Return what a case says about contact fatigue."""
     if table is None:
         return None
     if "load_factor" not in table.model_fields_set:
         case.assumptions.append("fatigue.load_factor = 1 (default)")
-    sides = {
-        name: side for name, side in dict(table).items() if isinstance(side, FlankMaterialTable)
-    }
+    sides = {name: side for name, side in dict(table).items() if isinstance(side, FlankMaterialTable)}
     if "sprocket" in sides:
         case.assumptions += _SPROCKET
     return FatigueInput(

@@ -7,14 +7,7 @@ import numpy as np
 from wearsim.case.flank_endurance import resolve_fatigue
 from wearsim.case.gear_forms import resolve_teeth
 from wearsim.case.model import Case, GearDrive
-from wearsim.case.shared import (
-    FLANK_NODES,
-    TOLERANCE,
-    modulus_of,
-    run_input,
-    take_defaults,
-    wear_input,
-)
+from wearsim.case.shared import FLANK_NODES, TOLERANCE, modulus_of, run_input, take_defaults, wear_input
 from wearsim.contact.hertz import contact_modulus
 from wearsim.geometry.gear.mesh import Mesh
 from wearsim.input.case_record import Record
@@ -28,29 +21,7 @@ _STEEL = contact_modulus((206_000.0, 206_000.0), (0.3, 0.3))
 
 
 def resolve_gear(tables: GearTables, name: str, folder: Path, faults: Faults) -> Case:
-    """Complete the case of a gear pair.
-
-    Parameters
-    ----------
-    tables : GearTables
-        The validated input.
-    name : str
-        Of the case.
-    folder : pathlib.Path
-        Place that paths are relative to.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Case
-        Complete; the pinion's turns are its cycles.
-
-    Raises
-    ------
-    CaseError
-        With everything that is wrong.
-    """
+    """Complete the case of a gear pair."""
     case = Record(tables, folder, faults)
     take_defaults(case, tables)
     materials = tables.material

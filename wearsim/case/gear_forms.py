@@ -15,26 +15,7 @@ from wearsim.input.schema.gear import GearTable
 def resolve_teeth(
     case: Record, table: GearTable, nodes: int, torque: float, modulus: float
 ) -> tuple[ToothPair, Mesh] | None:
-    """Complete the teeth and check that they mesh.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far; takes what was assumed and what is wrong.
-    table : GearTable
-        The validated input.
-    nodes : int
-        Points of a flank.
-    torque : float
-        Of the pinion [N mm].
-    modulus : float
-        Contact modulus E* [MPa].
-
-    Returns
-    -------
-    tuple of ToothPair and Mesh, or None
-        The pair and how it meshes on so many points; None where something is wrong.
-    """
+    """Complete the teeth and check that they mesh."""
     try:
         if table.profile == "involute":
             involute = _involute(case, table)
@@ -64,11 +45,14 @@ def _involute(case: Record, table: GearTable) -> ToothPair:
     shifts = _taken(case, table, "pinion_shift", 0.0), _taken(case, table, "wheel_shift", 0.0)
     tips = [
         _taken(
-            case, table, f"{gear}_tip_radius_mm", module * (0.5 * count + 1.0 + shift),
+            case,
+            table,
+            f"{gear}_tip_radius_mm",
+            module * (0.5 * count + 1.0 + shift),
             "addendum of one module, plus shift",
         )
         for gear, count, shift in zip(("pinion", "wheel"), teeth, shifts, strict=True)
-    ]  # fmt: skip
+    ]
     pair = InvolutePair(teeth, module, math.radians(angle), shifts, (tips[0], tips[1]))
     pair.check()
     return pair

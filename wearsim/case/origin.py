@@ -13,45 +13,20 @@ from wearsim.quantities import quantities
 
 @dataclass(frozen=True)
 class InputRow:
-    """A key of a case.
+    """A key of a case."""
 
-    Attributes
-    ----------
-    key : str
-        Dotted, tables of a list by their numbers from 1.
-    value : float, int, str, bool or list
-        As it was used.
-    unit, meaning : str
-        Of the quantity.
-    origin : str
-        ``given`` by the user, ``taken`` by wearsim, or ``default`` where the value is that of the
-        schema, so that it makes no difference whether it was given.
-    why : str
-        Why it was taken, or the source of the row of a catalogue that it names.
-    """
-
-    key: str
-    value: Any
-    unit: str
-    meaning: str
+    key: str  # dotted, tables of a list by their numbers from 1
+    value: Any  # as it was used
+    unit: str  # of the quantity
+    meaning: str  # of the quantity
+    # `given` by the user, `taken` by wearsim, or `default` where the value is that of the schema,
+    # so that it makes no difference whether it was given
     origin: str
-    why: str
+    why: str  # why it was taken, or the source of the row of a catalogue that it names
 
 
 def input_rows(inputs: Mapping[str, Any], assumptions: Sequence[str]) -> list[InputRow]:
     """Return the keys of a case in their order.
-
-    Parameters
-    ----------
-    inputs : mapping
-        All tables of the case with every default taken.
-    assumptions : sequence of str
-        What was taken for granted, as the case or its result has it.
-
-    Returns
-    -------
-    list of InputRow
-        One for each key that has a value.
 
     Examples
     --------

@@ -28,15 +28,7 @@ _TOLD = {
 
 
 def take_defaults(case: Record, tables: Table) -> None:
-    """Record the defaults of the schema that matter for the life and were not given.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far.
-    tables : Table
-        Its tables.
-    """
+    """Record the defaults of the schema that matter for the life and were not given."""
     for table, keys in _TOLD.items():
         model = getattr(tables, table)
         for key, why in keys.items():
@@ -45,20 +37,7 @@ def take_defaults(case: Record, tables: Table) -> None:
 
 
 def modulus_of(case: Record, bodies: Mapping[str, MaterialTable]) -> float:
-    """Return the contact modulus of two materials.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far.
-    bodies : mapping of str to MaterialTable
-        Both, by their tables under ``material``.
-
-    Returns
-    -------
-    float
-        E* [MPa].
-    """
+    """Return the contact modulus of two materials."""
     (e1, nu1), (e2, nu2) = (_material(case, body, table) for body, table in bodies.items())
     return contact_modulus((e1, e2), (nu1, nu2))
 
@@ -78,47 +57,18 @@ def _material(case: Record, body: str, table: MaterialTable) -> tuple[float, flo
 
 
 def run_input(case: Record, table: RunTable, tolerance: float) -> RunInput:
-    """Return how the life is calculated.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far.
-    table : RunTable
-        What was given.
-    tolerance : float
-        Relative tolerance of the life where none was.
-
-    Returns
-    -------
-    RunInput
-        Complete.
-    """
+    """Return how the life is calculated."""
     if table.method == "per_cycle" and table.cycles_per_update is None:
         case.take("run.cycles_per_update", 1, "every cycle")
     if table.life_tolerance is None:
         case.take("run.life_tolerance", tolerance, "default")
     return RunInput(
-        table.method, table.cycles_per_update or 1, table.life_tolerance or tolerance,
-        table.horizon_hours,
-    )  # fmt: skip
+        table.method, table.cycles_per_update or 1, table.life_tolerance or tolerance, table.horizon_hours
+    )
 
 
 def wear_input(case: Record, table: WearTable) -> WearInput:
-    """Return the wear law with its band.
-
-    Parameters
-    ----------
-    case : Record
-        The case so far.
-    table : WearTable
-        What was given.
-
-    Returns
-    -------
-    WearInput
-        Complete, with what changes the coefficient as the drive wears.
-    """
+    """Return the wear law with its band."""
     return _changing(table, _law(case, table))
 
 
@@ -154,9 +104,7 @@ def _changing(table: WearTable, wear: WearInput) -> WearInput:
         wear = replace(wear, case_depth=table.case_depth_mm, core_factor=table.core_factor)
     if table.running_in_factor is not None and table.running_in_distance_mm is not None:
         wear = replace(
-            wear,
-            running_in_factor=table.running_in_factor,
-            running_in_distance=table.running_in_distance_mm,
+            wear, running_in_factor=table.running_in_factor, running_in_distance=table.running_in_distance_mm
         )
     if table.roller_wear_ratio is not None:
         wear = replace(wear, roller_ratio=table.roller_wear_ratio)

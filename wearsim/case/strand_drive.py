@@ -16,22 +16,7 @@ _SAFETY = 7.0
 
 
 def resolve_strand(case: Resolution, chain: Chain, duty: Duty | None) -> StrandDrive | None:
-    """Complete a sprocket on a straight strand.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    chain : Chain
-        Its chain.
-    duty : Duty or None
-        Its duty, None where that was at fault.
-
-    Returns
-    -------
-    StrandDrive or None
-        None where there was a fault.
-    """
+    """Complete a sprocket on a straight strand."""
     tables, faults = case.tables, case.faults
     if tables.sprocket is None:
         faults.add("sprocket", "this table is required and missing")
@@ -56,22 +41,7 @@ def resolve_strand(case: Resolution, chain: Chain, duty: Duty | None) -> StrandD
 
 
 def resolve_prescribed(case: Resolution, wear: WearInput, chain: Chain) -> PrescribedDrive | None:
-    """Complete a flank whose load and sliding come from a table.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    wear : WearInput
-        Its wear law.
-    chain : Chain
-        Its chain.
-
-    Returns
-    -------
-    PrescribedDrive or None
-        None where there was a fault.
-    """
+    """Complete a flank whose load and sliding come from a table."""
     tables, key = case.tables, "mechanism.table_file"
     unused = [f"load.{name}" for name in sorted(tables.load.model_fields_set - {"speed_rpm"})]
     if tables.sprocket is not None:
@@ -87,8 +57,7 @@ def resolve_prescribed(case: Resolution, wear: WearInput, chain: Chain) -> Presc
         return None
     if wear.speed_exponent != 0.0 and table.sliding_speed is None:
         case.faults.add(
-            key,
-            "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0",
+            key, "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0"
         )
         return None
     if wear.pressure_exponent < 1.0 and table.slip_ratio is not None:
@@ -102,20 +71,7 @@ def resolve_prescribed(case: Resolution, wear: WearInput, chain: Chain) -> Presc
 
 
 def slip_fraction(case: Resolution, default: float = 1.0) -> float:
-    """Return the part of the sliding of a roller that does not turn.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    default : float
-        What is taken where none is given.
-
-    Returns
-    -------
-    float
-        xi, from 0 to 1.
-    """
+    """Return the part of the sliding of a roller that does not turn."""
     given = case.tables.mechanism.roller_slip_fraction
     if given is None:
         why = "default" if default == 1.0 else "a roller free to turn"
@@ -124,9 +80,7 @@ def slip_fraction(case: Resolution, default: float = 1.0) -> float:
     return given
 
 
-def _blocks(
-    case: Resolution, duty: Duty, centrode: float, chain: Chain
-) -> tuple[Block, ...] | None:
+def _blocks(case: Resolution, duty: Duty, centrode: float, chain: Chain) -> tuple[Block, ...] | None:
     """Return the blocks of a duty with their pulls."""
 
     def _block(load: LoadBlock) -> Block:
@@ -144,22 +98,7 @@ def _blocks(
 
 
 def effective_pull(block: LoadBlock, speed: float, lever: float) -> float:
-    """Return the force that the load of a block asks of the chain.
-
-    Parameters
-    ----------
-    block : LoadBlock
-        A part of the duty.
-    speed : float
-        Of the chain [mm/s].
-    lever : float
-        Speed over the sprocket's angular speed [mm].
-
-    Returns
-    -------
-    float
-        Tension as given, power over speed or torque over lever [N].
-    """
+    """Return the force that the load of a block asks of the chain."""
     if block.kind == "tension_N":
         return block.value
     if block.kind == "power_kW":
@@ -168,31 +107,13 @@ def effective_pull(block: LoadBlock, speed: float, lever: float) -> float:
 
 
 def within_strength(case: Resolution, pull: float, chain: Chain, key: str) -> bool:
-    """Compare a pull with the chain's tensile strength: a fault above it, a warning near it.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    pull : float
-        Largest tension [N].
-    chain : Chain
-        The chain.
-    key : str
-        Of the load, for the fault.
-
-    Returns
-    -------
-    bool
-        Whether the chain holds.
-    """
+    """Compare a pull with the chain's tensile strength: a fault above it, a warning near it."""
     if not chain.tensile:
         case.assumptions.append("tensile strength of the chain not known: the pull is not checked")
         return True
     if pull >= chain.tensile:
         case.faults.add(
-            key,
-            f"the pull must stay below the chain's tensile strength {chain.tensile:g} N, is {pull:.4g} N",
+            key, f"the pull must stay below the chain's tensile strength {chain.tensile:g} N, is {pull:.4g} N"
         )
         return False
     if pull * _SAFETY > chain.tensile:
@@ -204,22 +125,7 @@ def within_strength(case: Resolution, pull: float, chain: Chain, key: str) -> bo
 
 
 def face_width(case: Resolution, table: SprocketTable, chain: Chain) -> float:
-    """Return the width of the tooth that carries load.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    table : SprocketTable
-        Its sprocket.
-    chain : Chain
-        Its chain.
-
-    Returns
-    -------
-    float
-        As given, else the standard's for the chain [mm].
-    """
+    """Return the width of the tooth that carries load."""
     if table.face_width_mm is None:
         width = float(f"{chain.face_width:.4g}")
         case.take("sprocket.face_width_mm", width, "standard tooth width for the chain")

@@ -5,20 +5,9 @@ from functools import lru_cache
 
 from wearsim.catalogue.catalogues import Chain
 from wearsim.errors import GeometryError
-from wearsim.geometry.feasibility import (
-    OFFSET_RESERVE,
-    evolute_limits,
-    remedy,
-    smallest_offset,
-    tooth_limits,
-)
+from wearsim.geometry.feasibility import OFFSET_RESERVE, evolute_limits, remedy, smallest_offset, tooth_limits
 from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
-from wearsim.geometry.measured.points import (
-    contact_range,
-    flank_from_points,
-    phase_error,
-    working_side,
-)
+from wearsim.geometry.measured.points import contact_range, flank_from_points, phase_error, working_side
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
 from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_points
@@ -34,26 +23,7 @@ POINTS_NOISE = 1e-4
 def evolute_tooth(
     case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
-    """Complete a tooth around an evolute flank.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    table : SprocketTable
-        Its sprocket.
-    chain : Chain
-        Its chain.
-    centrode : float
-        Radius of the centrode [mm].
-    nodes : int
-        Points along the flank.
-
-    Returns
-    -------
-    tuple of Tooth and two floats, or None
-        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
-    """
+    """Complete a tooth around an evolute flank."""
     end, start, offset = table.contact_end_mm, table.contact_start_mm, table.evolute_offset_mm
     if end is None:
         end = float(f"{CONTACT_END_PER_PITCH * chain.pitch:.6g}")
@@ -83,12 +53,7 @@ def evolute_tooth(
 
 @lru_cache(maxsize=32)
 def _feasible(
-    strand: Strand,
-    contact: tuple[float, float],
-    nodes: int,
-    teeth: int,
-    relief: float,
-    pitch: float,
+    strand: Strand, contact: tuple[float, float], nodes: int, teeth: int, relief: float, pitch: float
 ) -> tuple[list[tuple[str, str]], Tooth | None, list[str]]:
     """Limits of the flank that fail, the tooth around it, and limits of the tooth that fail.
 
@@ -106,11 +71,7 @@ def _feasible(
 
 
 def _default_offset(
-    case: Resolution,
-    table: SprocketTable,
-    chain: Chain,
-    centrode: float,
-    contact: tuple[float, float],
+    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, contact: tuple[float, float]
 ) -> float | None:
     if not 1.0 < contact_ratio(*contact, chain.pitch) < 2.0:
         # The range is at fault and will be named; any offset serves until then.
@@ -137,33 +98,12 @@ def _relief(table: SprocketTable, chain: Chain) -> float:
 def points_tooth(
     case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
-    """Complete a tooth around a flank given by points.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    table : SprocketTable
-        Its sprocket.
-    chain : Chain
-        Its chain.
-    centrode : float
-        Radius of the centrode [mm].
-    nodes : int
-        Points along the flank.
-
-    Returns
-    -------
-    tuple of Tooth and two floats, or None
-        The tooth and the range of contact x_min, x_max [mm]; None where there was a fault.
-    """
+    """Complete a tooth around a flank given by points."""
     faults = case.faults
     if table.points_file is None or table.evolute_offset_mm is None:
         faults.add("sprocket.evolute_offset_mm", "profile = 'points' on a strand needs this key")
         return None
-    points = read_points(
-        case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults
-    )
+    points = read_points(case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults)
     noise = table.points_noise_mm
     if noise is None:
         noise = POINTS_NOISE
@@ -212,10 +152,7 @@ def points_tooth(
 
 
 def _check_reach(
-    case: Resolution,
-    contact: tuple[float, float],
-    reached: tuple[float, float],
-    tolerance: float,
+    case: Resolution, contact: tuple[float, float], reached: tuple[float, float], tolerance: float
 ) -> None:
     """Add a fault where the range of contact goes on past an end of the flank."""
     (end, start), (root, tip) = contact, reached
@@ -239,6 +176,4 @@ def _doubt_points(case: Resolution, tooth: Tooth, noise: float) -> None:
         case.warnings.append(str(error))
         return
     if cut > CUT_TOLERANCE + 3.0 * noise:
-        case.warnings.append(
-            f"the roller cuts {cut:.3g} mm off the tooth of the points on its way in or out"
-        )
+        case.warnings.append(f"the roller cuts {cut:.3g} mm off the tooth of the points on its way in or out")

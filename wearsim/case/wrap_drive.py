@@ -24,22 +24,7 @@ WELL_LUBRICATED = "hardened, oiled"
 
 
 def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive | None:
-    """Complete a chain around a sprocket.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    chain : Chain
-        Its chain.
-    duty : Duty or None
-        Its duty, None where that was at fault.
-
-    Returns
-    -------
-    WrapDrive or None
-        None where there was a fault.
-    """
+    """Complete a chain around a sprocket."""
     tables, faults = case.tables, case.faults
     table = tables.sprocket
     if table is None:
@@ -86,9 +71,7 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout),
         service_factor=_factor(case, "service", "smooth load", "power"),
-        exploitation_factor=_factor(
-            case, "exploitation", "steady, drip oil, one shift", "joint pressure"
-        ),
+        exploitation_factor=_factor(case, "exploitation", "steady, drip oil, one shift", "joint pressure"),
         chain=chain,
     )
 
@@ -112,9 +95,7 @@ def _check_chain(case: Resolution, chain: Chain) -> None:
     ):
         if not value:
             known = f"the catalogue has none for {chain.designation}" if chain.designation else ""
-            case.faults.add(
-                f"chain.{key}", f"kind = 'wrap' needs this key{': ' if known else ''}{known}"
-            )
+            case.faults.add(f"chain.{key}", f"kind = 'wrap' needs this key{': ' if known else ''}{known}")
 
 
 def _layout(case: Resolution, chain: Chain, table: DriveTable) -> DriveLayout | None:
@@ -213,15 +194,12 @@ def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Blo
     if load.measured:
         tight = max(tight, slack)
     centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
-    return Block(
-        load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor
-    )
+    return Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor)
 
 
 def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:
     case.faults.add(
-        key,
-        f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)",
+        key, f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)"
     )
 
 

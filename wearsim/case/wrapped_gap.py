@@ -13,12 +13,7 @@ from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.gap_points import (
-    ON_CENTRE_LINE,
-    evolute_gap,
-    gap_from_points,
-    lowest_centre,
-)
+from wearsim.geometry.gap_points import ON_CENTRE_LINE, evolute_gap, gap_from_points, lowest_centre
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.input.case_record import Resolution
@@ -53,37 +48,14 @@ _SERIES = {
 
 @dataclass(frozen=True, eq=False)
 class GapShape:
-    """A gap as points, and as exact arcs where it is a standard's.
+    """A gap as points, and as exact arcs where it is a standard's."""
 
-    Attributes
-    ----------
-    outline : Profile
-        From the right tip through the seat to the left tip.
-    gap : Gap or None
-        The exact arcs.
-    """
-
-    outline: Profile
-    gap: Gap | None
+    outline: Profile  # from the right tip through the seat to the left tip
+    gap: Gap | None  # the exact arcs
 
 
 def gap_shape(case: Resolution, table: SprocketTable, chain: Chain) -> GapShape | None:
-    """Return the gap of a sprocket.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-    table : SprocketTable
-        Its sprocket.
-    chain : Chain
-        Its chain.
-
-    Returns
-    -------
-    GapShape or None
-        None where there was a fault.
-    """
+    """Return the gap of a sprocket."""
     nodes = table.nodes or OUTLINE_NODES
     if table.nodes is None:
         case.take("sprocket.nodes", nodes, "default")
@@ -129,9 +101,7 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
     return gap
 
 
-def _iso606_form(
-    case: Resolution, table: SprocketTable, chain: Chain
-) -> Literal["min", "max"] | GapForm:
+def _iso606_form(case: Resolution, table: SprocketTable, chain: Chain) -> Literal["min", "max"] | GapForm:
     """Form of the gap: one of the two of ISO 606, or by what is given between them."""
     given = {key: getattr(table, key) for key in BETWEEN_FORMS}
     if all(value is None for value in given.values()):
@@ -231,9 +201,7 @@ def _drawn(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> 
     return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
 
 
-def _points(
-    case: Resolution, key: str, name: str, table: SprocketTable
-) -> tuple[Vector, Vector] | None:
+def _points(case: Resolution, key: str, name: str, table: SprocketTable) -> tuple[Vector, Vector] | None:
     """Coordinates from the file, None where there was a fault."""
     path = case.path(key, name)
     if table.points_file:
@@ -263,9 +231,7 @@ def _has_right_size(
     return False
 
 
-def _seats_roller(
-    case: Resolution, key: str, outline: Profile, table: SprocketTable, chain: Chain
-) -> bool:
+def _seats_roller(case: Resolution, key: str, outline: Profile, table: SprocketTable, chain: Chain) -> bool:
     """Whether a roller seats about as on new sprockets of these teeth, else a fault.
 
     Standard forms seat it on the pitch circle or below, the lowest of them ISO 606's maximum

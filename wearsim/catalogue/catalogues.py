@@ -18,12 +18,6 @@ def regimes() -> dict[str, tuple[tuple[float, float], ...]]:
     moments up to the seventh: those of wear, between the first and the second, lie
     within 1e-4 of it.
 
-    Returns
-    -------
-    dict
-        From ``0`` (constant), ``I`` (heavy) to ``V`` (very light): pairs of relative load
-        and share of the cycles, the heaviest first.
-
     Examples
     --------
     Where all loads are equally probable, the mean of x^3 is 1/4:
@@ -46,30 +40,6 @@ KG_PER_M = 1e-6
 class Chain:
     """A roller chain.
 
-    Attributes
-    ----------
-    designation : str
-        As in its standard; empty for a chain of one's own.
-    pitch, roller_diameter, inner_width : float
-        p, d1 and b1 [mm].
-    strands : int
-        Chains side by side.
-    tensile : float
-        Minimum tensile strength [N], 0 where it is not known.
-    note : str
-        Doubtful numbers of the table and what else there is to know about the row.
-    series : str
-        Standard and series as in the table, such as ``ISO606-B``; empty for a chain of one's own.
-    pin_diameter : float
-        d2 [mm], 0 where it is not known.
-    bearing_area : float
-        Projected area of pin in bush, all strands together [mm2], 0 where it is not known.
-    mass_per_length : float
-        q, all strands together [t/mm = N s^2/mm^2], 0 where it is not known: `KG_PER_M` times
-        the kg/m of the table, so that q v^2 with v in mm/s is a force in N.
-    transverse_pitch : float
-        Distance of the strands [mm], 0 where it is not known.
-
     Examples
     --------
     >>> duplex = chains()["08B-2"]
@@ -79,18 +49,22 @@ class Chain:
     1.4
     """
 
-    designation: str
-    pitch: float
-    roller_diameter: float
-    inner_width: float
-    strands: int = 1
-    tensile: float = 0.0
-    note: str = ""
+    designation: str  # as in its standard; empty for a chain of one's own
+    pitch: float  # p [mm]
+    roller_diameter: float  # d1 [mm]
+    inner_width: float  # b1 [mm]
+    strands: int = 1  # chains side by side
+    tensile: float = 0.0  # minimum tensile strength [N], 0 where it is not known
+    note: str = ""  # doubtful numbers of the table and what else there is to know about the row
+    # standard and series as in the table, such as `ISO606-B`; empty for a chain of one's own
     series: str = ""
-    pin_diameter: float = 0.0
+    pin_diameter: float = 0.0  # d2 [mm], 0 where it is not known
+    # projected area of pin in bush, all strands together [mm2], 0 where it is not known
     bearing_area: float = 0.0
+    # q, all strands together [t/mm = N s^2/mm^2], 0 where it is not known: `KG_PER_M` times the
+    # kg/m of the table, so that q v^2 with v in mm/s is a force in N
     mass_per_length: float = 0.0
-    transverse_pitch: float = 0.0
+    transverse_pitch: float = 0.0  # distance of the strands [mm], 0 where it is not known
 
     @property
     def face_width(self) -> float:
@@ -102,71 +76,32 @@ class Chain:
 
 @dataclass(frozen=True)
 class Material:
-    """An elastic material.
+    """An elastic material."""
 
-    Attributes
-    ----------
-    name : str
-        As in the table.
-    youngs_modulus : float
-        E [MPa].
-    poissons_ratio : float
-        Poisson's ratio.
-    density : float
-        Mass over volume [kg/m3].
-    """
-
-    name: str
-    youngs_modulus: float
-    poissons_ratio: float
-    density: float
+    name: str  # as in the table
+    youngs_modulus: float  # E [MPa]
+    poissons_ratio: float  # Poisson's ratio
+    density: float  # mass over volume [kg/m3]
 
 
 @dataclass(frozen=True)
 class WearCondition:
-    """A typical state of surface and lubricant with its specific wear rates.
+    """A typical state of surface and lubricant with its specific wear rates."""
 
-    Attributes
-    ----------
-    condition : str
-        As in the table.
-    low, typical, high : float
-        Specific wear rate k of a tooth [mm2/N].
-    source : str
-        Where the numbers come from.
-    lubricated : bool
-        Whether oil or grease reaches teeth and joints, and no dirt.
-    joint_low, joint_typical, joint_high : float
-        Specific wear rate of pin and bush together in that state [mm2/N].
-    joint_source : str
-        Where the numbers of the joints come from.
-    """
-
-    condition: str
-    low: float
-    typical: float
-    high: float
-    source: str
-    lubricated: bool
-    joint_low: float
-    joint_typical: float
-    joint_high: float
-    joint_source: str
+    condition: str  # as in the table
+    low: float  # specific wear rate k of a tooth [mm2/N]
+    typical: float  # specific wear rate k of a tooth [mm2/N]
+    high: float  # specific wear rate k of a tooth [mm2/N]
+    source: str  # where the numbers come from
+    lubricated: bool  # whether oil or grease reaches teeth and joints, and no dirt
+    joint_low: float  # specific wear rate of pin and bush together in that state [mm2/N]
+    joint_typical: float  # specific wear rate of pin and bush together in that state [mm2/N]
+    joint_high: float  # specific wear rate of pin and bush together in that state [mm2/N]
+    joint_source: str  # where the numbers of the joints come from
 
 
 def rows(table: str) -> list[dict[str, str]]:
-    """Return a table as it stands in its file.
-
-    Parameters
-    ----------
-    table : str
-        ``chains``, ``materials`` or ``wear_conditions``.
-
-    Returns
-    -------
-    list of dict
-        One dictionary of strings for each row.
-    """
+    """Return a table as it stands in its file."""
     path = Path(__file__).with_name(f"{table}.csv")
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
@@ -175,14 +110,6 @@ def rows(table: str) -> list[dict[str, str]]:
 @cache
 def chains() -> dict[str, Chain]:
     """Return the chains by every name they go by.
-
-    Returns
-    -------
-    dict
-        A row ``08A-1 (ANSI 40)`` stands under ``08A-1``, ``08A`` and ``ANSI 40``. A row of
-        ISO 606 with a transverse pitch also stands for its chains of two and three strands,
-        ``08A-2``, ``ANSI 40-2`` and so on: area, tensile strength and mass are then n times
-        the single row, and the note says so.
 
     Examples
     --------
@@ -211,18 +138,6 @@ def chains() -> dict[str, Chain]:
 def chain_name(typed: str) -> str | None:
     """Return the name of the catalogue that a typed designation stands for.
 
-    Parameters
-    ----------
-    typed : str
-        In any case, with or without the spaces and hyphens that set letters off from digits;
-        ``#40`` and ``no. 40`` stand for ``ANSI 40``, a decimal point for a comma.
-
-    Returns
-    -------
-    str or None
-        A key of `chains`, the very same where it is one; None where no chain goes by it, as by
-        a bare ``40``.
-
     Examples
     --------
     >>> chain_name("08b"), chain_name("#40"), chain_name("40")
@@ -233,17 +148,6 @@ def chain_name(typed: str) -> str | None:
 
 def nearest_chain(typed: str) -> str:
     """Return a hint at the chains most like a designation that is none.
-
-    Parameters
-    ----------
-    typed : str
-        What was given.
-
-    Returns
-    -------
-    str
-        Those that lack only ``ANSI``, a leading zero or the letter of the series, with their
-        pitches; else as `nearest`.
 
     Examples
     --------
@@ -314,13 +218,7 @@ def _multiple(single: Chain, designation: str, strands: int) -> Chain:
 
 @cache
 def materials() -> dict[str, Material]:
-    """Return the materials by name.
-
-    Returns
-    -------
-    dict
-        Material by name.
-    """
+    """Return the materials by name."""
     return {
         row["name"]: Material(
             row["name"],
@@ -334,13 +232,7 @@ def materials() -> dict[str, Material]:
 
 @cache
 def wear_conditions() -> dict[str, WearCondition]:
-    """Return the wear conditions by name.
-
-    Returns
-    -------
-    dict
-        Condition by name.
-    """
+    """Return the wear conditions by name."""
     return {
         row["condition"]: WearCondition(
             row["condition"],
@@ -359,20 +251,7 @@ def wear_conditions() -> dict[str, WearCondition]:
 
 
 def nearest(name: str, names: "list[str] | dict[str, object]") -> str:
-    """Return a hint at the names most like a wrong one.
-
-    Parameters
-    ----------
-    name : str
-        What was given.
-    names : list or dict of str
-        What is allowed.
-
-    Returns
-    -------
-    str
-        ``; did you mean ...``, or nothing where no name is close.
-    """
+    """Return a hint at the names most like a wrong one."""
     upper = {known.upper(): known for known in names}
     close = difflib.get_close_matches(name.upper(), upper, n=3, cutoff=0.6)
     return f"; did you mean {' or '.join(repr(upper[match]) for match in close)}?" if close else ""

@@ -10,19 +10,7 @@ from wearsim.errors import CaseError, Fault
 
 @cache
 def rows(table: str) -> tuple[dict[str, str], ...]:
-    """Return a table as it stands in its file.
-
-    Parameters
-    ----------
-    table : str
-        ``application_factors``, ``exploitation_factors``, ``joint_pressure``, ``speed_limits``
-        or ``strand_factors``.
-
-    Returns
-    -------
-    tuple of dict
-        One dictionary of strings for each row.
-    """
+    """Return a table as it stands in its file."""
     path = Path(__file__).with_name(f"{table}.csv")
     with path.open(encoding="utf-8", newline="") as file:
         return tuple(csv.DictReader(file))
@@ -30,23 +18,6 @@ def rows(table: str) -> tuple[dict[str, str], ...]:
 
 def factor(table: str, **keys: str) -> float:
     """Return the factor of the row whose columns hold given words.
-
-    Parameters
-    ----------
-    table : str
-        Table with a column ``factor``.
-    **keys : str
-        Word by column, in the order in which they narrow the table down.
-
-    Returns
-    -------
-    float
-        Factor of the first such row.
-
-    Raises
-    ------
-    CaseError
-        No row holds these words.
 
     Examples
     --------

@@ -142,10 +142,7 @@ def belt_centre(teeth_1: int, teeth_2: int, links: float) -> float:
 
     return float(
         brentq(
-            lambda centre: belt_links(teeth_1, teeth_2, centre) - links,
-            half + 1e-12,
-            0.5 * links,
-            xtol=1e-12,
+            lambda centre: belt_links(teeth_1, teeth_2, centre) - links, half + 1e-12, 0.5 * links, xtol=1e-12
         )
     )
 

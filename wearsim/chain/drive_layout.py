@@ -3,11 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from wearsim.chain.chain_length import (
-    even_links,
-    handbook_centre,
-    handbook_links,
-)
+from wearsim.chain.chain_length import even_links, handbook_centre, handbook_links
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import pitch_diameter
 
@@ -244,9 +240,7 @@ def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> D
     return DriveLayout(pitch, teeth_1, teeth_2, links, centre)
 
 
-def layout_with_centre(
-    pitch: float, teeth_1: int, teeth_2: int, centre_distance: float
-) -> DriveLayout:
+def layout_with_centre(pitch: float, teeth_1: int, teeth_2: int, centre_distance: float) -> DriveLayout:
     """Return the layout nearest above a wished centre distance that has an even number of links.
 
     Parameters
@@ -287,13 +281,10 @@ def _least_centre(pitch: float, teeth_1: int, teeth_2: int) -> float:
 
 def _refuse_numbers(pitch: float, teeth_1: int, teeth_2: int) -> None:
     if not pitch > 0.0:
-        raise GeometryError(
-            f"drive layout: the pitch must be above 0, is {pitch:g} mm: give the chain's"
-        )
+        raise GeometryError(f"drive layout: the pitch must be above 0, is {pitch:g} mm: give the chain's")
     if min(teeth_1, teeth_2) < 5:
         raise GeometryError(
-            f"drive layout: both sprockets need at least 5 teeth, have {teeth_1} and {teeth_2}: "
-            "use more"
+            f"drive layout: both sprockets need at least 5 teeth, have {teeth_1} and {teeth_2}: use more"
         )
 
 

@@ -52,12 +52,7 @@ def exploitation_factor(
     >>> exploitation_factor(shifts="two", adjustment="none")  # 1.25 * 1.25
     1.5625
     """
-    causes = {
-        "load": load,
-        "lubrication": lubrication,
-        "shifts": shifts,
-        "adjustment": adjustment,
-    }
+    causes = {"load": load, "lubrication": lubrication, "shifts": shifts, "adjustment": adjustment}
     used = math.prod(
         factor("exploitation_factors", cause=cause, state=state) for cause, state in causes.items()
     )
@@ -65,9 +60,7 @@ def exploitation_factor(
     return used * (0.15 * math.sqrt(degrees) if degrees > 60.0 else 1.0)
 
 
-def joint_pressure(
-    pull: float, bearing_area: float, strands: int = 1, exploitation: float = 1.0
-) -> float:
+def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitation: float = 1.0) -> float:
     """Return the pressure in the joint by GOST practice, p = F_t K_e/(A m_p).
 
     Parameters
@@ -130,9 +123,7 @@ def allowable_joint_pressure(pitch: float, speed: float) -> float | None:
     column = [
         (float(row["speed_rpm"]), float(row["pressure_MPa"]))
         for row in rows("joint_pressure")
-        if float(row["smallest_pitch_mm"]) - _SAME
-        <= pitch
-        <= float(row["largest_pitch_mm"]) + _SAME
+        if float(row["smallest_pitch_mm"]) - _SAME <= pitch <= float(row["largest_pitch_mm"]) + _SAME
     ]
     if not column or speed > column[-1][0]:
         return None

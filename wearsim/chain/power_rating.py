@@ -208,6 +208,5 @@ def power_rating(pitch: float, teeth: float, speed: float, light: bool = False) 
         is not in it.
     """
     return min(
-        plate_fatigue_rating(pitch, teeth, speed, light),
-        roller_impact_rating(pitch, teeth, speed, light),
+        plate_fatigue_rating(pitch, teeth, speed, light), roller_impact_rating(pitch, teeth, speed, light)
     )

@@ -3,11 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from wearsim.chain.joint_pressure import (
-    allowable_joint_pressure,
-    joint_pressure,
-    speed_limits,
-)
+from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressure, speed_limits
 from wearsim.chain.power_rating import (
     REFERENCE_TEETH,
     corrected_power,
@@ -245,9 +241,7 @@ def rating_note(series: str) -> str:
     return f"indicative, the formula is for the A series; {kinds.get(series, 'series not known')}"
 
 
-def assess(
-    drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0
-) -> tuple[Finding, ...]:
+def assess(drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0) -> tuple[Finding, ...]:
     """Return what the handbooks say about a drive.
 
     Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference

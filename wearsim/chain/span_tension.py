@@ -36,9 +36,7 @@ def centrifugal_tension(mass_per_length: float, chain_speed: float) -> float:
     return mass_per_length * chain_speed**2
 
 
-def catenary_tension(
-    mass_per_length: float, span: float, sag: float = 0.02, slope: float = 0.0
-) -> float:
+def catenary_tension(mass_per_length: float, span: float, sag: float = 0.02, slope: float = 0.0) -> float:
     """Return the tension of the slack span under its own weight, q g a cos(psi)/(8 f/a).
 
     The parabola in place of the catenary: below the tension at the ends of a level span by

@@ -19,25 +19,35 @@ _SHORTEST_S = 0.02
 @click.command(short_help="The flank as it wears, as a moving picture.")
 @click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
-    "--out", required=True, type=click.Path(path_type=Path, allow_dash=True),
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path, allow_dash=True),
     help="New file: .gif, .webp or .png (animated); - is stdout.",
-)  # fmt: skip
+)
+@click.option("--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells.")
 @click.option(
-    "--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells."
+    "--frames",
+    type=click.IntRange(2, 300),
+    default=60,
+    show_default=True,
+    help="Pictures, at equal steps of running time.",
 )
 @click.option(
-    "--frames", type=click.IntRange(2, 300), default=60, show_default=True,
-    help="Pictures, at equal steps of running time.",
-)  # fmt: skip
-@click.option(
-    "--seconds", type=click.FloatRange(0.1, 120.0), default=5.0, show_default=True,
+    "--seconds",
+    type=click.FloatRange(0.1, 120.0),
+    default=5.0,
+    show_default=True,
     callback=finite,
     help="What they take; the last one stays 2 s longer.",
-)  # fmt: skip
+)
 @click.option(
-    "--width", type=click.IntRange(320, 1920), default=960, show_default=True, metavar="PX",
+    "--width",
+    type=click.IntRange(320, 1920),
+    default=960,
+    show_default=True,
+    metavar="PX",
     help="Of the picture; its letters grow with it.",
-)  # fmt: skip
+)
 @click.option("--force", is_flag=True, help="Replace the file.")
 @overrides
 @standard

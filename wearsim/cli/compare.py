@@ -12,9 +12,7 @@ from wearsim.command.workbook import check_workbook, workbook_option, write_work
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
-@click.argument(
-    "sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN..."
-)
+@click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN...")
 @click.option("--out", type=click.Path(path_type=Path), help="New folder.")
 @workbook_option
 @click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
@@ -22,9 +20,13 @@ from wearsim.command.workbook import check_workbook, workbook_option, write_work
 @overrides
 @standard
 def compare(
-    sources: tuple[Path, ...], out: Path | None, xlsx: Path | None, force: bool, as_json: bool,
+    sources: tuple[Path, ...],
+    out: Path | None,
+    xlsx: Path | None,
+    force: bool,
+    as_json: bool,
     settings: tuple[str, ...],
-) -> int:  # fmt: skip
+) -> int:
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
     The folder holds summary.csv and summary.md and pictures of the flanks, of depth,

@@ -27,11 +27,7 @@ def doctor(as_json: bool) -> int:
     found = findings(case)
     failed = [one.name for one in found if one.state == "failed"]
     if as_json:
-        content = {
-            "schema_version": 1,
-            "in_order": not failed,
-            "findings": [asdict(one) for one in found],
-        }
+        content = {"schema_version": 1, "in_order": not failed, "findings": [asdict(one) for one in found]}
         click.echo(json.dumps(content, ensure_ascii=False))
         return _NOT_IN_ORDER if failed else 0
     width = max(len(one.name) for one in found)

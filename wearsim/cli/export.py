@@ -18,11 +18,7 @@ if TYPE_CHECKING:
 _FORMATS = ("dxf", "svg", "csv", "step")
 _GAUGES = ("pdf", "svg", "dxf")
 
-_STATES: "dict[str, tuple[State, ...]]" = {
-    "new": ("new",),
-    "worn": ("worn",),
-    "both": ("new", "worn"),
-}
+_STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
 
 _LONGER = 1000.0
 """Times the horizon of a case that the limit of a gauge is looked for in."""
@@ -31,20 +27,18 @@ _LONGER = 1000.0
 @click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
 @click.argument("source", type=click.Path(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
-    "--out", type=click.Path(path_type=Path, allow_dash=True),
-    help="New file of the wheel; - is stdout.",
-)  # fmt: skip
+    "--out", type=click.Path(path_type=Path, allow_dash=True), help="New file of the wheel; - is stdout."
+)
+@click.option("--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells.")
 @click.option(
-    "--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells."
+    "--state", type=click.Choice(tuple(_STATES)), help="Of the wheel; else new for a case, both for a run."
 )
 @click.option(
-    "--state", type=click.Choice(tuple(_STATES)),
-    help="Of the wheel; else new for a case, both for a run.",
-)  # fmt: skip
-@click.option(
-    "--template", type=click.Path(path_type=Path), metavar="FILE",
+    "--template",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
     help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and put in between the teeth.",
-)  # fmt: skip
+)
 @click.option("--force", is_flag=True, help="Replace the files.")
 @overrides
 @standard

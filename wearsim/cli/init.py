@@ -21,18 +21,23 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 
 @click.command(short_help="A commented case to start from.")
 @click.option(
-    "--chain", default="16B-1", show_default=True, metavar="DESIGNATION",
-    shell_complete=complete_chain,
-)  # fmt: skip
+    "--chain", default="16B-1", show_default=True, metavar="DESIGNATION", shell_complete=complete_chain
+)
 @click.option("--teeth", type=int, default=20, show_default=True)
 @click.option(
-    "--kind", type=click.Choice(["strand", "wrap"]), default="strand", show_default=True,
+    "--kind",
+    type=click.Choice(["strand", "wrap"]),
+    default="strand",
+    show_default=True,
     help="A guided strand past the sprocket, or a chain around it.",
-)  # fmt: skip
+)
 @click.option(
-    "--out", type=click.Path(path_type=Path, allow_dash=True), default="-", show_default=True,
+    "--out",
+    type=click.Path(path_type=Path, allow_dash=True),
+    default="-",
+    show_default=True,
     help="New file; - is stdout.",
-)  # fmt: skip
+)
 @click.option("--force", is_flag=True, help="Replace the file.")
 @standard
 def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
@@ -49,31 +54,14 @@ def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
 
 
 def new_case(chain: str, teeth: int, kind: str) -> str:
-    """Return the text of a working case.
-
-    Parameters
-    ----------
-    chain : str
-        Designation.
-    teeth : int
-        Of the sprocket.
-    kind : str
-        ``strand`` or ``wrap``.
-
-    Returns
-    -------
-    str
-        TOML with every key explained.
-    """
+    """Return the text of a working case."""
     case = _seed(chain, teeth, kind)
     # A chain speed of 1 m/s, and a pull that keeps a wrap within its ratings.
     pitch, tensile = _size(case)
     speed = float(f"{60_000.0 / (pitch * teeth):.2g}")
     power = float(f"{tensile / _SAFETY[kind] * pitch * teeth * speed / 6e7:.2g}")
     template = Path(__file__).with_name("templates") / f"{kind}.toml"
-    return template.read_text(encoding="utf-8").format(
-        teeth=teeth, power=power, speed=speed, **_values(case)
-    )
+    return template.read_text(encoding="utf-8").format(teeth=teeth, power=power, speed=speed, **_values(case))
 
 
 def _seed(chain: str, teeth: int, kind: str) -> "Case":

@@ -33,34 +33,44 @@ if TYPE_CHECKING:
 
 @click.command(short_help="The life of a drive in hours.")
 @click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for result, history and flank.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), help="New folder for result, history and flank."
+    "--parquet", is_flag=True, help="Write both tables as Parquet files too (pip install 'wearsim[parquet]')."
 )
-@click.option(
-    "--parquet", is_flag=True,
-    help="Write both tables as Parquet files too (pip install 'wearsim[parquet]').",
-)  # fmt: skip
 @workbook_option
 @click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @click.option(
-    "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
+    "--require-hours",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="H",
     callback=finite,
     help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
-)  # fmt: skip
+)
 @click.option(
-    "--solve-for", "key", metavar="TABLE.KEY", shell_complete=complete_key,
+    "--solve-for",
+    "key",
+    metavar="TABLE.KEY",
+    shell_complete=complete_key,
     help="Find the value of this number at which the CASE lives --require-hours.",
-)  # fmt: skip
+)
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
 @standard
 def life(
-    cases: tuple[Path, ...], out: Path | None, parquet: bool, xlsx: Path | None, force: bool,
-    as_json: bool, require_hours: float | None, key: str | None, verify_grid: bool, strict: bool,
+    cases: tuple[Path, ...],
+    out: Path | None,
+    parquet: bool,
+    xlsx: Path | None,
+    force: bool,
+    as_json: bool,
+    require_hours: float | None,
+    key: str | None,
+    verify_grid: bool,
+    strict: bool,
     settings: tuple[str, ...],
-) -> int:  # fmt: skip
+) -> int:
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
@@ -68,9 +78,7 @@ def life(
     """
     if key is not None:
         if verify_grid or strict or parquet or xlsx:
-            raise click.UsageError(
-                "--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx"
-            )
+            raise click.UsageError("--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx")
         return _solve(cases, key, require_hours, settings, out, force, as_json)
     _check_parquet(out, parquet)
     check_workbook(out, xlsx, force)
@@ -104,9 +112,14 @@ def life(
 
 
 def _solve(
-    cases: tuple[Path, ...], key: str, hours: float | None, settings: tuple[str, ...],
-    out: Path | None, force: bool, as_json: bool,
-) -> int:  # fmt: skip
+    cases: tuple[Path, ...],
+    key: str,
+    hours: float | None,
+    settings: tuple[str, ...],
+    out: Path | None,
+    force: bool,
+    as_json: bool,
+) -> int:
     from wearsim.study.solve_for.command import solve
 
     if len(cases) != 1 or hours is None:

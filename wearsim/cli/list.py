@@ -39,13 +39,7 @@ def _rows(table: str) -> list[dict[str, str]]:
 
 
 def shipped_cases() -> list[Path]:
-    """Return the cases that come with wearsim.
-
-    Returns
-    -------
-    list of pathlib.Path
-        In the installed package, or beside it in a checkout.
-    """
+    """Return the cases that come with wearsim."""
     package = Path(__file__).parent.parent
     for folder in (package / "cases", package.parent / "cases"):
         found = sorted(folder.glob("*.toml"))

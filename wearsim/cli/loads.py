@@ -12,9 +12,14 @@ from wearsim.command.options import finite, load_cases, overrides, standard, war
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--elongation", type=click.FloatRange(0.0, 10.0), default=0.0, show_default=True,
-    metavar="PERCENT", callback=finite, help="Elongation of the chain.",
-)  # fmt: skip
+    "--elongation",
+    type=click.FloatRange(0.0, 10.0),
+    default=0.0,
+    show_default=True,
+    metavar="PERCENT",
+    callback=finite,
+    help="Elongation of the chain.",
+)
 @click.option(
     "--phase",
     type=click.FloatRange(0.0, 1.0),
@@ -27,9 +32,8 @@ from wearsim.command.options import finite, load_cases, overrides, standard, war
 @overrides
 @standard
 def loads(
-    case: Path, elongation: float, phase: float | None, worst: bool, as_json: bool,
-    settings: tuple[str, ...],
-) -> None:  # fmt: skip
+    case: Path, elongation: float, phase: float | None, worst: bool, as_json: bool, settings: tuple[str, ...]
+) -> None:
     """Print what the teeth of CASE carry; tooth 1 is at the tight end."""
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
@@ -37,9 +41,7 @@ def loads(
     from wearsim.report.loads_table import loads_json, loads_table
     from wearsim.simulation.tooth_loads import tooth_loads
 
-    found = tooth_loads(
-        loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase
-    )
+    found = tooth_loads(loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase)
     if as_json:
         click.echo(json.dumps(loads_json(found), ensure_ascii=False, allow_nan=False))
     else:

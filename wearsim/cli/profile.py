@@ -12,9 +12,12 @@ from wearsim.errors import OutputError
 @click.command(short_help="The working flank as a CSV file of points.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--out", type=click.Path(path_type=Path, allow_dash=True), default="-", show_default=True,
+    "--out",
+    type=click.Path(path_type=Path, allow_dash=True),
+    default="-",
+    show_default=True,
     help="New CSV file; - is stdout.",
-)  # fmt: skip
+)
 @click.option("--force", is_flag=True, help="Replace the file.")
 @overrides
 @standard

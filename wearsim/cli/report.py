@@ -9,14 +9,10 @@ from wearsim.command.options import SOME_FAILED, overrides, standard, warn
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
-@click.argument(
-    "sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RUN_OR_CASE..."
-)
+@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RUN_OR_CASE...")
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
 @click.option(
-    "--single-file",
-    is_flag=True,
-    help="Every page holds its script (about 5 MB each) and moves alone.",
+    "--single-file", is_flag=True, help="Every page holds its script (about 5 MB each) and moves alone."
 )
 @click.option(
     "--detail",

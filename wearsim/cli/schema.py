@@ -31,9 +31,7 @@ def schema(of_result: bool, command: str | None) -> None:
     from wearsim.input.schema import CaseTables
 
     if command and command not in OTHER_FILES:
-        raise click.BadParameter(
-            f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of"
-        )
+        raise click.BadParameter(f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of")
     model = tables_of(command) if command else CaseTables
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -18,9 +18,12 @@ _NEW = Path("drive.toml")
 @click.command(short_help="A local page to try designs: edit a case, see tooth and life change.")
 @click.argument("case", required=False, type=CasePath(path_type=Path), metavar="[CASE]")
 @click.option(
-    "--port", type=click.IntRange(0, 65535), default=0, metavar="N",
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=0,
+    metavar="N",
     help="Port on 127.0.0.1; without it any free one.",
-)  # fmt: skip
+)
 @click.option("--no-browser", is_flag=True, help="Open no browser, only print the address.")
 @overrides
 @standard

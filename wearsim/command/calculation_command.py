@@ -9,15 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import (
-    error_json,
-    exit_code,
-    overrides,
-    print_json,
-    show_error,
-    standard,
-    warn,
-)
+from wearsim.command.options import error_json, exit_code, overrides, print_json, show_error, standard, warn
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
@@ -28,31 +20,11 @@ Option = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compute], click.Command]:
-    """Make a command of a function from a case and overrides to a sheet.
-
-    Parameters
-    ----------
-    name : str
-        Of the command.
-    short_help : str
-        Its line in the list of commands.
-    *options : callable
-        Options of its own, made by ``click.option``; the function gets them by their names.
-
-    Returns
-    -------
-    callable
-        Decorator; the docstring of the function is the help of the command.
-    """
+    """Make a command of a function from a case and overrides to a sheet."""
 
     def _decorate(compute: Compute) -> click.Command:
         def _run(
-            case: Path,
-            out: Path | None,
-            force: bool,
-            as_json: bool,
-            settings: tuple[str, ...],
-            **own: object,
+            case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...], **own: object
         ) -> None:
             _show(partial(compute, **own), case, out, force, as_json, settings)
 
@@ -74,12 +46,7 @@ def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compu
 
 
 def _show(
-    compute: Compute,
-    case: Path,
-    out: Path | None,
-    force: bool,
-    as_json: bool,
-    settings: tuple[str, ...],
+    compute: Compute, case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]
 ) -> None:
     if out is not None:
         from wearsim.files import check_folder

@@ -15,47 +15,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """A finished calculation.
+    """A finished calculation."""
 
-    Attributes
-    ----------
-    text : str
-        For the screen, at most a hundred characters wide.
-    content : mapping
-        For ``--json``: plain values, never nan.
-    tables : callable
-        Returns pandas.DataFrame by file stem; units in the names of the columns. Only a folder
-        needs them, and the libraries for them.
-    figures : callable
-        Returns matplotlib.figure.Figure by file stem.
-    warnings : tuple of str
-        What the user should look at.
-    files : mapping of str to callable
-        By file name: what writes a further file to the path that it is given.
-    """
-
-    text: str
-    content: Mapping[str, Any]
+    text: str  # for the screen, at most a hundred characters wide
+    content: Mapping[str, Any]  # for `--json`: plain values, never nan
+    # returns pandas.DataFrame by file stem; units in the names of the columns. Only a folder needs
+    # them, and the libraries for them
     tables: Callable[[], Mapping[str, "pd.DataFrame"]]
-    figures: Callable[[], Mapping[str, "Figure"]]
-    warnings: tuple[str, ...] = ()
+    figures: Callable[[], Mapping[str, "Figure"]]  # returns matplotlib.figure.Figure by file stem
+    warnings: tuple[str, ...] = ()  # what the user should look at
+    # by file name: what writes a further file to the path that it is given
     files: Mapping[str, Callable[[Path], None]] = field(default_factory=dict)
 
     def save(self, folder: Path, force: bool) -> None:
-        """Write ``result.json``, a CSV file for each table, each picture as PNG and SVG, and the files.
-
-        Parameters
-        ----------
-        folder : pathlib.Path
-            New folder.
-        force : bool
-            Replace what is there.
-
-        Raises
-        ------
-        OutputError
-            Something is in the way.
-        """
+        """Write ``result.json``, a CSV file for each table, each picture as PNG and SVG, and the files."""
         from wearsim.report.figures import save_figure
 
         with new_folder(folder, force) as place:

@@ -16,22 +16,7 @@ if TYPE_CHECKING:
 def results_of(
     sources: tuple[Path, ...], settings: tuple[str, ...], as_json: bool
 ) -> "dict[Path, WearResult]":
-    """Load the runs and run the cases; a failed case is shown and left out of the rest.
-
-    Parameters
-    ----------
-    sources : tuple of pathlib.Path
-        Cases (.toml) and folders of runs.
-    settings : tuple of str
-        Overrides, for cases only.
-    as_json : bool
-        Print a failed case as JSON on stdout.
-
-    Returns
-    -------
-    dict
-        Results by their source, in its order; at least one.
-    """
+    """Load the runs and run the cases; a failed case is shown and left out of the rest."""
     from wearsim.result import WearResult
 
     for path in sources:
@@ -57,19 +42,6 @@ def results_of(
 
 
 def check_settings(sources: Sequence[Path], settings: tuple[str, ...]) -> None:
-    """Raise where values are to be set in a run, which has been.
-
-    Parameters
-    ----------
-    sources : sequence of pathlib.Path
-        Cases (.toml) and folders of runs.
-    settings : tuple of str
-        Overrides.
-
-    Raises
-    ------
-    click.UsageError
-        There are overrides and a folder.
-    """
+    """Raise where values are to be set in a run, which has been."""
     if settings and any(path.is_dir() for path in sources):
         raise click.UsageError("--set changes cases, it cannot change the folder of a run")

@@ -21,48 +21,16 @@ def _items(values: Iterator[str]) -> "list[CompletionItem[str]]":
 
 
 class _OfferedPath(click.Path):
-    """A path of which only those of some kind are offered, else all.
-
-    Parameters
-    ----------
-    **options
-        Of click.Path.
-    """
+    """A path of which only those of some kind are offered, else all."""
 
     def offered(self, path: Path) -> bool:
-        """Tell whether a path is of the kind.
-
-        Parameters
-        ----------
-        path : pathlib.Path
-            A path that exists.
-
-        Returns
-        -------
-        bool
-            True for a case.
-        """
+        """Tell whether a path is of the kind."""
         return path.suffix == ".toml" and not path.name.endswith(".lock.toml")
 
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> "list[CompletionItem[str]]":
-        """Offer what lies in the folder that is being typed, and one folder below.
-
-        Parameters
-        ----------
-        ctx : click.Context
-            Not used.
-        param : click.Parameter
-            Not used.
-        incomplete : str
-            What was typed.
-
-        Returns
-        -------
-        list of CompletionItem
-            Paths; where there are none, what the shell itself offers.
-        """
+        """Offer what lies in the folder that is being typed, and one folder below."""
         found = _items(path for path in _below(incomplete) if self.offered(Path(path)))
         return found or super().shell_complete(ctx, param, incomplete)
 
@@ -75,18 +43,7 @@ class RunPath(_OfferedPath):
     """A case, or the folder of a run."""
 
     def offered(self, path: Path) -> bool:
-        """Tell whether a path is a case or the folder of a run.
-
-        Parameters
-        ----------
-        path : pathlib.Path
-            A path that exists.
-
-        Returns
-        -------
-        bool
-            True for both.
-        """
+        """Tell whether a path is a case or the folder of a run."""
         return super().offered(path) or (path / "result.json").is_file()
 
 
@@ -111,22 +68,7 @@ def _listed(folder: Path) -> list[Path]:
 def complete_chain(
     context: click.Context, parameter: click.Parameter, incomplete: str
 ) -> "list[CompletionItem[str]]":
-    """Offer the chains of the catalogue.
-
-    Parameters
-    ----------
-    context : click.Context
-        Not used.
-    parameter : click.Parameter
-        Not used.
-    incomplete : str
-        What was typed.
-
-    Returns
-    -------
-    list of CompletionItem
-        Designations without blanks, which a shell would take for two words.
-    """
+    """Offer the chains of the catalogue."""
     return _items(name for name in _chains() if name.startswith(incomplete.upper()))
 
 
@@ -139,22 +81,7 @@ def _chains() -> list[str]:
 def complete_kind(
     context: click.Context, parameter: click.Parameter, incomplete: str
 ) -> "list[CompletionItem[str]]":
-    """Offer the kinds of input files beside that of a chain drive.
-
-    Parameters
-    ----------
-    context : click.Context
-        Not used.
-    parameter : click.Parameter
-        Not used.
-    incomplete : str
-        What was typed.
-
-    Returns
-    -------
-    list of CompletionItem
-        Kinds.
-    """
+    """Offer the kinds of input files beside that of a chain drive."""
     from wearsim.command.registry import OTHER_FILES
 
     return _items(name for name in OTHER_FILES if name.startswith(incomplete))
@@ -163,44 +90,14 @@ def complete_kind(
 def complete_key(
     context: click.Context, parameter: click.Parameter, incomplete: str
 ) -> "list[CompletionItem[str]]":
-    """Offer the dotted keys of the case on the line.
-
-    Parameters
-    ----------
-    context : click.Context
-        Holds the case.
-    parameter : click.Parameter
-        Not used.
-    incomplete : str
-        What was typed.
-
-    Returns
-    -------
-    list of CompletionItem
-        Keys.
-    """
+    """Offer the dotted keys of the case on the line."""
     return _items(key for key in _keys(context) if key.startswith(incomplete))
 
 
 def complete_setting(
     context: click.Context, parameter: click.Parameter, incomplete: str
 ) -> "list[CompletionItem[str]]":
-    """Offer dotted keys with ``=``, and after it the words that the key may hold.
-
-    Parameters
-    ----------
-    context : click.Context
-        Holds the case.
-    parameter : click.Parameter
-        Not used.
-    incomplete : str
-        What was typed.
-
-    Returns
-    -------
-    list of CompletionItem
-        Beginnings of settings, or whole ones.
-    """
+    """Offer dotted keys with ``=``, and after it the words that the key may hold."""
     key, equals, typed = incomplete.partition("=")
     keys = _keys(context)
     if not equals:

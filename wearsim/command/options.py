@@ -24,79 +24,46 @@ BAD_INPUT, FAILED, NOT_MET, SOME_FAILED = 2, 3, 4, 5
 
 
 def standard(function: Function) -> Function:
-    """Add ``-q`` and ``--debug``, which every command takes.
-
-    Parameters
-    ----------
-    function : callable
-        Command to be.
-
-    Returns
-    -------
-    callable
-        The same with two more options.
-    """
+    """Add ``-q`` and ``--debug``, which every command takes."""
 
     def _quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
         if value:
             context.find_root().meta["wearsim.quiet"] = True
 
     function = click.option(
-        "-q", "--quiet", is_flag=True, expose_value=False, callback=_quiet,
+        "-q",
+        "--quiet",
+        is_flag=True,
+        expose_value=False,
+        callback=_quiet,
         help="Print no warnings and no progress on stderr.",
-    )(function)  # fmt: skip
-    return click.option(
-        "--debug", is_flag=True, expose_value=False, help="Show the traceback of an error."
     )(function)
+    return click.option("--debug", is_flag=True, expose_value=False, help="Show the traceback of an error.")(
+        function
+    )
 
 
 def overrides(function: Function) -> Function:
-    """Add ``--set``, which every command that takes a CASE takes.
-
-    Parameters
-    ----------
-    function : callable
-        Command to be.
-
-    Returns
-    -------
-    callable
-        The same with one more option.
-    """
+    """Add ``--set``, which every command that takes a CASE takes."""
     return click.option(
-        "--set", "settings", multiple=True, metavar="TABLE.KEY=VALUE",
+        "--set",
+        "settings",
+        multiple=True,
+        metavar="TABLE.KEY=VALUE",
         shell_complete=complete_setting,
         help="Override a key of the case; VALUE is TOML, else a string. Repeatable.",
-    )(function)  # fmt: skip
+    )(function)
 
 
 def warn(text: str) -> None:
-    """Print a note on stderr unless ``-q`` was given.
-
-    Parameters
-    ----------
-    text : str
-        The note.
-    """
+    """Print a note on stderr unless ``-q`` was given."""
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
         click.echo(text, err=True)
 
 
 @contextmanager
 def working(text: str) -> Iterator[Callable[[float], None]]:
-    """Show on a terminal's stderr that something is under way, and the time left once that is known.
-
-    Parameters
-    ----------
-    text : str
-        What it is.
-
-    Yields
-    ------
-    callable
-        To be told how much of the work is done, from 0 to 1; less than before where it
-        starts again.
-    """
+    """Show on a terminal's stderr that something is under way, and the time left once that is known."""
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
         yield lambda part: None
@@ -122,18 +89,7 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
 
 
 def worn(case: "Case") -> "WearResult":
-    """Run a case and show on a terminal how far it is.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    WearResult
-        Its run.
-    """
+    """Run a case and show on a terminal how far it is."""
     from wearsim.simulation import simulate
 
     with working(f"wearing {case.title}") as told:
@@ -141,32 +97,14 @@ def worn(case: "Case") -> "WearResult":
 
 
 def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:
-    """Print an object on one line of stdout, and warnings on stderr.
-
-    Parameters
-    ----------
-    content : mapping
-        Plain values, never nan.
-    source : pathlib.Path
-        What the warnings are about.
-    warnings : iterable of str
-        What the user should look at.
-    """
+    """Print an object on one line of stdout, and warnings on stderr."""
     click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
     for text in warnings:
         warn(f"{source}: warning: {text}")
 
 
 def show_error(error: WearsimError, path: Path | None = None) -> None:
-    """Print an error on stderr, with its traceback if ``--debug`` was given.
-
-    Parameters
-    ----------
-    error : WearsimError
-        The error.
-    path : pathlib.Path, optional
-        Case that it belongs to, where its message does not say so.
-    """
+    """Print an error on stderr, with its traceback if ``--debug`` was given."""
     if "--debug" in sys.argv:
         traceback.print_exception(error)
     else:
@@ -174,36 +112,12 @@ def show_error(error: WearsimError, path: Path | None = None) -> None:
 
 
 def exit_code(error: WearsimError) -> int:
-    """Return the exit code of an error.
-
-    Parameters
-    ----------
-    error : WearsimError
-        The error.
-
-    Returns
-    -------
-    int
-        2 for bad input, 3 for a calculation that failed.
-    """
+    """Return the exit code of an error."""
     return BAD_INPUT if isinstance(error, CaseError | OutputError) else FAILED
 
 
 def error_json(case: str, error: WearsimError) -> str:
-    """Return a failed case as one line of JSON.
-
-    Parameters
-    ----------
-    case : str
-        Name of the case.
-    error : WearsimError
-        What went wrong.
-
-    Returns
-    -------
-    str
-        With the file, line and key of the first fault.
-    """
+    """Return a failed case as one line of JSON."""
     first = error.faults[0] if isinstance(error, CaseError) else Fault(str(error))
     file, _, override = first.file.partition("--set ")
     content = {
@@ -217,22 +131,7 @@ def error_json(case: str, error: WearsimError) -> str:
 
 
 def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case]":
-    """Load all cases before the first one runs; report all faults of all of them.
-
-    Parameters
-    ----------
-    paths : sequence of pathlib.Path
-        Input files.
-    settings : sequence of str
-        Overrides.
-    as_json : bool
-        Print a faulty case as JSON on stdout.
-
-    Returns
-    -------
-    list of Case
-        In the order of the paths.
-    """
+    """Load all cases before the first one runs; report all faults of all of them."""
     from wearsim.case.load_case import load_case
 
     cases, failed = [], False
@@ -260,22 +159,7 @@ def _check_hold(case: "Case") -> None:
 
 
 def finite(context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:
-    """Refuse nan and infinity, which click's ranges let pass.
-
-    Parameters
-    ----------
-    context : click.Context
-        Not used.
-    parameter : click.Parameter
-        Not used.
-    value : float or None
-        What was given.
-
-    Returns
-    -------
-    float or None
-        The value.
-    """
+    """Refuse nan and infinity, which click's ranges let pass."""
     if value is None or math.isfinite(value):
         return value
     raise click.BadParameter(f"{value} is not a finite number.")

@@ -21,22 +21,14 @@ from wearsim.runner.run_study import Told
 
 @contextmanager
 def counting(text: str) -> Iterator[Told]:
-    """Show on stderr how many cases are done, at what rate, and the time left.
-
-    Parameters
-    ----------
-    text : str
-        What is under way.
-
-    Yields
-    ------
-    callable
-        To be told how many cases of all are done.
-    """
+    """Show on stderr how many cases are done, at what rate, and the time left."""
     columns = (
-        TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), _Rate(),
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        _Rate(),
         TimeRemainingColumn(),
-    )  # fmt: skip
+    )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(text, total=None)
         yield lambda done, count: bar.update(task, completed=done, total=count)

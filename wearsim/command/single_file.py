@@ -8,22 +8,7 @@ from wearsim.errors import OutputError
 
 
 def check_place(place: Path, source: Path, force: bool) -> None:
-    """Raise where a file would be written over another one, or over its own source.
-
-    Parameters
-    ----------
-    place : pathlib.Path
-        Where to write; ``-`` is always free.
-    source : pathlib.Path
-        What it is made of.
-    force : bool
-        Whether a file that is there may be replaced.
-
-    Raises
-    ------
-    OutputError
-        The place is taken.
-    """
+    """Raise where a file would be written over another one, or over its own source."""
     from wearsim.files import check_free
 
     if str(place) == "-":
@@ -34,29 +19,7 @@ def check_place(place: Path, source: Path, force: bool) -> None:
 
 
 def format_of(place: Path, given: str | None, known: tuple[str, ...], hint: str) -> str:
-    """Return the format of a file by its ending.
-
-    Parameters
-    ----------
-    place : pathlib.Path
-        Where to write.
-    given : str or None
-        The format, where the user names it.
-    known : tuple of str
-        Formats that there are.
-    hint : str
-        What else the user may do.
-
-    Returns
-    -------
-    str
-        One of `known`.
-
-    Raises
-    ------
-    OutputError
-        The ending is none of them.
-    """
+    """Return the format of a file by its ending."""
     found = given or place.suffix.removeprefix(".").lower().replace("stp", "step")
     if found not in known:
         endings = ", ".join(f".{name}" for name in known)
@@ -65,22 +28,7 @@ def format_of(place: Path, given: str | None, known: tuple[str, ...], hint: str)
 
 
 def write_content(place: Path, content: bytes, force: bool) -> None:
-    """Write a file, all of it or nothing, and say so; to stdout where the place is ``-``.
-
-    Parameters
-    ----------
-    place : pathlib.Path
-        Where to write.
-    content : bytes
-        All of it.
-    force : bool
-        Replace what is there.
-
-    Raises
-    ------
-    OutputError
-        The place is taken or cannot be written.
-    """
+    """Write a file, all of it or nothing, and say so; to stdout where the place is ``-``."""
     if str(place) == "-":
         sys.stdout.buffer.write(content)
         return

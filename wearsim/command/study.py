@@ -16,36 +16,16 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Place:
-    """Where a study runs and what is kept of it.
+    """Where a study runs and what is kept of it."""
 
-    Attributes
-    ----------
-    out : pathlib.Path or None
-        Its folder.
-    force : bool
-        Replace the folder of another study.
-    dry_run : bool
-        Only tell what it would take.
-    jobs : int or None
-        Processes in place of threads.
-    threads : int or None
-        Threads; as many as there are cores where neither is given.
-    scheduler : str or None
-        Address of a Dask scheduler.
-    scheduler_file : pathlib.Path or None
-        File that it wrote.
-    tls : mapping
-        Files for encryption.
-    """
-
-    out: Path | None
-    force: bool
-    dry_run: bool
-    jobs: int | None
-    threads: int | None
-    scheduler: str | None
-    scheduler_file: Path | None
-    tls: Mapping[str, str]
+    out: Path | None  # its folder
+    force: bool  # replace the folder of another study
+    dry_run: bool  # only tell what it would take
+    jobs: int | None  # processes in place of threads
+    threads: int | None  # threads; as many as there are cores where neither is given
+    scheduler: str | None  # address of a Dask scheduler
+    scheduler_file: Path | None  # file that it wrote
+    tls: Mapping[str, str]  # files for encryption
 
     def workers(self) -> "Workers":
         """Return the workers that were asked for."""
@@ -54,11 +34,13 @@ class Place:
         asked = [
             name
             for name, value in (
-                ("--jobs", self.jobs), ("--threads", self.threads), ("--scheduler", self.scheduler),
+                ("--jobs", self.jobs),
+                ("--threads", self.threads),
+                ("--scheduler", self.scheduler),
                 ("--scheduler-file", self.scheduler_file),
             )
             if value is not None
-        ]  # fmt: skip
+        ]
         if len(asked) > 1:
             raise click.UsageError(f"{' and '.join(asked)} do not go together: give one of them")
         if self.tls and not {"--scheduler", "--scheduler-file"} & set(asked):
@@ -71,29 +53,25 @@ class Place:
 
 
 def place_options(function: Function) -> Function:
-    """Add the options that tell where a study runs, as the argument ``place``.
-
-    Parameters
-    ----------
-    function : callable
-        Command to be.
-
-    Returns
-    -------
-    callable
-        The same with more options.
-    """
+    """Add the options that tell where a study runs, as the argument ``place``."""
     from functools import wraps
 
     @wraps(function)
     def command(
-        *arguments: Any, out: Path | None, force: bool, dry_run: bool, jobs: int | None,
-        threads: int | None, scheduler: str | None, scheduler_file: Path | None,
-        tls_ca_file: Path | None, tls_cert: Path | None, tls_key: Path | None, **others: Any,
-    ) -> Any:  # fmt: skip
-        files = {
-            "tls_ca_file": tls_ca_file, "tls_client_cert": tls_cert, "tls_client_key": tls_key,
-        }  # fmt: skip
+        *arguments: Any,
+        out: Path | None,
+        force: bool,
+        dry_run: bool,
+        jobs: int | None,
+        threads: int | None,
+        scheduler: str | None,
+        scheduler_file: Path | None,
+        tls_ca_file: Path | None,
+        tls_cert: Path | None,
+        tls_key: Path | None,
+        **others: Any,
+    ) -> Any:
+        files = {"tls_ca_file": tls_ca_file, "tls_client_cert": tls_cert, "tls_client_key": tls_key}
         tls = {name: str(path) for name, path in files.items() if path is not None}
         place = Place(out, force, dry_run, jobs, threads, scheduler, scheduler_file, tls)
         return function(*arguments, place=place, **others)
@@ -106,21 +84,21 @@ def place_options(function: Function) -> Function:
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 _OPTIONS = (
     click.option(
-        "--out", type=click.Path(path_type=Path),
+        "--out",
+        type=click.Path(path_type=Path),
         help="Folder of the study; run again, it goes on from what is finished there.",
     ),
     click.option("--force", is_flag=True, help="Take the folder of another study."),
-    click.option(
-        "--dry-run", is_flag=True, help="Tell the number of cases, the time and the files only."
-    ),
+    click.option("--dry-run", is_flag=True, help="Tell the number of cases, the time and the files only."),
     click.option("--threads", type=click.IntRange(min=1), help="Threads; else one a core."),
     click.option("--jobs", type=click.IntRange(min=1), help="Processes in place of threads."),
     click.option(
-        "--scheduler", metavar="ADDRESS",
+        "--scheduler",
+        metavar="ADDRESS",
         help="Dask scheduler such as tcp://127.0.0.1:8786 (pip install 'wearsim[dask]').",
     ),
     click.option("--scheduler-file", type=_FILE, help="File that the Dask scheduler wrote."),
     click.option("--tls-ca-file", type=_FILE, help="Certificate of the authority, for TLS."),
     click.option("--tls-cert", type=_FILE, help="Own certificate, for TLS."),
     click.option("--tls-key", type=_FILE, help="Own key, for TLS."),
-)  # fmt: skip
+)

@@ -13,41 +13,13 @@ from wearsim.report.figures import picture_bytes
 
 
 def save_texts(folder: Path, files: Mapping[str, str]) -> None:
-    """Write the tables of a study, each in place of that of an earlier run.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        That of the study.
-    files : mapping of str to str
-        Contents by file name.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written.
-    """
+    """Write the tables of a study, each in place of that of an earlier run."""
     for name, content in files.items():
         write_file(folder / name, content, force=True)
 
 
 def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
-    """Write the pictures of a study as PNG and SVG.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        That of the study.
-    title : str
-        Stands above each.
-    figures : mapping of str to matplotlib.figure.Figure
-        By file stem.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written.
-    """
+    """Write the pictures of a study as PNG and SVG."""
     for name, figure in figures.items():
         figure.suptitle(literal(title), fontsize=10)
         for kind in ("png", "svg"):
@@ -56,16 +28,6 @@ def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> Non
 
 def plain(value: Any) -> Any:
     """Return a value as JSON has it.
-
-    Parameters
-    ----------
-    value : object
-        A number, a text or a list.
-
-    Returns
-    -------
-    object
-        None for a number that is not known.
 
     Examples
     --------

@@ -22,27 +22,8 @@ if TYPE_CHECKING:
 INTERRUPTED = 130
 
 
-def run(
-    design: "Design", place: Place, told: Mapping[str, Any], text: str
-) -> "pd.DataFrame | None":
-    """Run the cases of a study, or only tell what it would take.
-
-    Parameters
-    ----------
-    design : Design
-        Its cases.
-    place : Place
-        Where they run.
-    told : mapping
-        What the manifest of the folder tells of the study.
-    text : str
-        What is shown beside the bar.
-
-    Returns
-    -------
-    pandas.DataFrame or None
-        A row for each case; None for a dry run.
-    """
+def run(design: "Design", place: Place, told: Mapping[str, Any], text: str) -> "pd.DataFrame | None":
+    """Run the cases of a study, or only tell what it would take."""
     from wearsim.runner.run_study import run_study
     from wearsim.runner.store import check_store
 
@@ -61,26 +42,7 @@ def run(
 def in_batches(
     design: "Design", place: Place, told: Mapping[str, Any], text: str, most: int
 ) -> "Iterator[Callable[[Design], pd.DataFrame]]":
-    """Run cases of a study batch by batch, where each depends on the ones before.
-
-    Parameters
-    ----------
-    design : Design
-        What all batches have in common; its hash and ``told`` are those of the study.
-    place : Place
-        Where they run.
-    told : mapping
-        What the manifest of the folder tells of the study.
-    text : str
-        What is shown beside the bar.
-    most : int
-        Cases of all batches at most.
-
-    Yields
-    ------
-    callable
-        Runs a batch and returns a row for each case.
-    """
+    """Run cases of a study batch by batch, where each depends on the ones before."""
     from wearsim.runner.run_study import run_study
     from wearsim.runner.workers import KeptOpen
 
@@ -121,30 +83,12 @@ def _interrupted(place: Place) -> "Iterator[None]":
 
 
 def exit_code(table: "pd.DataFrame") -> int:
-    """Return 5 where cases have failed, and tell how many.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        A row for each case.
-
-    Returns
-    -------
-    int
-        Exit code.
-
-    Raises
-    ------
-    StudyError
-        All have failed.
-    """
+    """Return 5 where cases have failed, and tell how many."""
     failed = table[table["error"] != ""]
     if failed.empty:
         return 0
     first = failed.iloc[0]
-    what = (
-        f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
-    )
+    what = f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
     if len(failed) == len(table):
         raise StudyError(what)
     warn(f"warning: {what}")
@@ -169,18 +113,7 @@ def _show_plan(design: "Design", place: Place) -> None:
 
 
 def timed(design: "Design") -> tuple[float, int]:
-    """Return the time that a case takes.
-
-    Parameters
-    ----------
-    design : Design
-        Cases.
-
-    Returns
-    -------
-    tuple of float and int
-        Seconds in one thread, and from how many cases.
-    """
+    """Return the time that a case takes."""
     from wearsim.runner.shard import Shard, run_shard, shards
 
     first = next(shards(design))

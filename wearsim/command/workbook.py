@@ -16,36 +16,17 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def workbook_option(function: Function) -> Function:
-    """Add ``--xlsx``.
-
-    Parameters
-    ----------
-    function : callable
-        Command to be.
-
-    Returns
-    -------
-    callable
-        The same with one more option.
-    """
+    """Add ``--xlsx``."""
     return click.option(
-        "--xlsx", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
+        "--xlsx",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
         help="New workbook with answers, tables, charts and inputs (pip install 'wearsim[report]').",
-    )(function)  # fmt: skip
+    )(function)
 
 
 def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
-    """Find what is in the way of a workbook before the first case runs.
-
-    Parameters
-    ----------
-    out : pathlib.Path or None
-        The folder that is written too.
-    xlsx : pathlib.Path or None
-        Place of the workbook; None where none is asked for.
-    force : bool
-        Whether it may be replaced.
-    """
+    """Find what is in the way of a workbook before the first case runs."""
     if xlsx is None:
         return
     from wearsim.report import workbook
@@ -56,17 +37,7 @@ def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
 
 
 def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool) -> None:
-    """Write results into a workbook, with titles that tell them apart, and say where it is.
-
-    Parameters
-    ----------
-    results : mapping of pathlib.Path to WearResult
-        By what the user named.
-    file : pathlib.Path
-        Place of the workbook.
-    force : bool
-        Replace what is there.
-    """
+    """Write results into a workbook, with titles that tell them apart, and say where it is."""
     from wearsim.report.comparison import distinct
     from wearsim.report.workbook import save_workbook
 

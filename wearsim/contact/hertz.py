@@ -6,9 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
-def contact_modulus(
-    youngs_modulus: tuple[float, float], poissons_ratio: tuple[float, float]
-) -> float:
+def contact_modulus(youngs_modulus: tuple[float, float], poissons_ratio: tuple[float, float]) -> float:
     """Return E* with 1/E* = sum((1 - nu^2)/E) over both bodies.
 
     Some packages call twice this value the effective modulus; wearsim has no second definition.
@@ -94,6 +92,4 @@ def half_width(
     >>> float(half_width(100.0, 1.0 / 6.035, 2.1e5 / 1.82).round(6))
     0.081606
     """
-    return np.sqrt(
-        4.0 * np.asarray(load_per_width) / (math.pi * modulus * np.asarray(relative_curvature))
-    )
+    return np.sqrt(4.0 * np.asarray(load_per_width) / (math.pi * modulus * np.asarray(relative_curvature)))

@@ -128,9 +128,7 @@ def greatest_von_mises(poissons_ratio: float) -> Greatest:
     top = int(axis_von_mises(_SEARCH, poissons_ratio).argmax())
     if top == 0:
         return Greatest(0.0, 1.0 - 2.0 * poissons_ratio)
-    depth = float(
-        brentq(_slope, _SEARCH[top - 1], _SEARCH[top + 1], args=(poissons_ratio,), xtol=1e-15)
-    )
+    depth = float(brentq(_slope, _SEARCH[top - 1], _SEARCH[top + 1], args=(poissons_ratio,), xtol=1e-15))
     return Greatest(depth, float(axis_von_mises(depth, poissons_ratio)))
 
 

@@ -53,10 +53,7 @@ class SynthesisedPair:
         LineOfAction
             From the first contact to the last.
         """
-        crossing, synthesis = (
-            self.loaded.pole_crossing(),
-            Synthesis(self.circles, self.loaded.law, 1),
-        )
+        crossing, synthesis = (self.loaded.pole_crossing(), Synthesis(self.circles, self.loaded.law, 1))
         tried = np.linspace(*self.reach, points)
         roll = synthesis.through_pole(crossing, tried).roll_angle
         even = np.interp(np.linspace(roll[0], roll[-1], points), roll, tried)

@@ -15,34 +15,12 @@ if TYPE_CHECKING:
 
 
 def new_drawing() -> "Drawing":
-    """Return an empty drawing in mm.
-
-    Returns
-    -------
-    ezdxf.document.Drawing
-        Of DXF R2010, with dashed and dash-dotted line types.
-    """
+    """Return an empty drawing in mm."""
     return new("R2010", setup=["linetypes"], units=MM)
 
 
-def add_polyline(
-    drawing: "Drawing", layer: str, vertices: Vector, bulges: Vector, closed: bool
-) -> None:
-    """Add one polyline with arcs.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        Where to.
-    layer : str
-        Its layer.
-    vertices : numpy.ndarray
-        Coordinates [mm], shape (n, 2); of a closed one the first is not repeated.
-    bulges : numpy.ndarray
-        Of the ways from each vertex to the next, n of them if it is closed, else n - 1.
-    closed : bool
-        Whether the last vertex is joined to the first.
-    """
+def add_polyline(drawing: "Drawing", layer: str, vertices: Vector, bulges: Vector, closed: bool) -> None:
+    """Add one polyline with arcs."""
     own = bulges.tolist() + [0.0] * (len(vertices) - len(bulges))
     drawing.modelspace().add_lwpolyline(
         [(x, y, bulge) for (x, y), bulge in zip(vertices.tolist(), own, strict=True)],
@@ -53,33 +31,14 @@ def add_polyline(
 
 
 def dxf_text(drawing: "Drawing") -> str:
-    """Return a drawing as the text of a DXF file.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        The drawing.
-
-    Returns
-    -------
-    str
-        Of R2010, to be encoded in UTF-8.
-    """
+    """Return a drawing as the text of a DXF file."""
     stream = io.StringIO()
     drawing.write(stream)
     return stream.getvalue()
 
 
 def write_dxf(outline: Outline, path: Path) -> None:
-    """Write an outline as one closed polyline with arcs, in mm, on the layer OUTLINE.
-
-    Parameters
-    ----------
-    outline : Outline
-        The outline.
-    path : pathlib.Path
-        File to write.
-    """
+    """Write an outline as one closed polyline with arcs, in mm, on the layer OUTLINE."""
     drawing = new_drawing()
     drawing.layers.add("OUTLINE")
     add_polyline(drawing, "OUTLINE", outline.vertices, outline.bulges, closed=True)

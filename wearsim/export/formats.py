@@ -11,31 +11,7 @@ from wearsim.result import WearResult
 
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
-    """Return the wheels of a case as the content of a file.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult or None
-        A run of it; may be None where only the new state is asked for.
-    states : sequence of str
-        ``new``, ``worn`` or both.
-    form : str
-        ``dxf``, ``svg``, ``csv`` or ``step``.
-
-    Returns
-    -------
-    bytes
-        All of the file.
-
-    Raises
-    ------
-    CaseError
-        The case has no wheel.
-    GeometryError
-        A solid of a gear whose root is not known.
-    """
+    """Return the wheels of a case as the content of a file."""
     shapes = wheel_shapes(case, result)
     if form == "csv":
         from wearsim.export.wheel_points import wheel_points
@@ -59,24 +35,7 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
 def wheel_note(
     case: Case, result: WearResult | None, shapes: Sequence[WheelShape], states: Sequence[State]
 ) -> list[str]:
-    """Return what stands below the wheels in a drawing.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult or None
-        Its run.
-    shapes : sequence of WheelShape
-        Its wheels.
-    states : sequence of str
-        What is drawn of them.
-
-    Returns
-    -------
-    list of str
-        Title, hours, units and tolerance, what is taken for granted.
-    """
+    """Return what stands below the wheels in a drawing."""
     taken = [f"{shape.name}: {text}" for shape in shapes for text in shape.notes]
     if len(shapes) > 1 and shapes[0].notes == shapes[1].notes:
         taken = list(shapes[0].notes)

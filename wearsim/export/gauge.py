@@ -36,28 +36,15 @@ _TOLERANCE = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """A gauge in the frame of its space, whose centre line is +y.
+    """A gauge in the frame of its space, whose centre line is +y."""
 
-    Attributes
-    ----------
-    name : str
-        Of the wheel.
-    outline : Chain
-        Closed, of short lines: what goes between the teeth, shoulders along the tips, head.
-    new : tuple of Chain
-        The new gap, for comparison.
-    clearance : float
-        To the new teeth, where the gauge is not as wide as the worn gap [mm].
-    pitch_radius, tip_radius : float
-        Of the wheel [mm].
-    """
-
-    name: str
+    name: str  # of the wheel
+    # closed, of short lines: what goes between the teeth, shoulders along the tips, head
     outline: Chain
-    new: tuple[Chain, ...]
-    clearance: float
-    pitch_radius: float
-    tip_radius: float
+    new: tuple[Chain, ...]  # the new gap, for comparison
+    clearance: float  # to the new teeth, where the gauge is not as wide as the worn gap [mm]
+    pitch_radius: float  # of the wheel [mm]
+    tip_radius: float  # of the wheel [mm]
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -68,18 +55,7 @@ class Gauge:
 
 
 def gauge(shape: WheelShape) -> Gauge:
-    """Return the gauge of a wheel that is worn to its limit.
-
-    Parameters
-    ----------
-    shape : WheelShape
-        The wheel with its worn spaces.
-
-    Returns
-    -------
-    Gauge
-        Of the space worn most.
-    """
+    """Return the gauge of a wheel that is worn to its limit."""
     worn, new = shape.worn[shape.most_worn], shape.new[shape.most_worn]
     pitch = math.tau * shape.pitch_radius / len(shape.new)
     clearance = _CLEARANCE * pitch

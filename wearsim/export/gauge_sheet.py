@@ -46,45 +46,12 @@ _LAYERS = {
 
 
 def is_worn_out(result: WearResult) -> bool:
-    """Return whether a run ends at a limit of its teeth.
-
-    Parameters
-    ----------
-    result : WearResult
-        The run.
-
-    Returns
-    -------
-    bool
-        On a wrap a limit of the sprocket, whatever chains were used up before.
-    """
+    """Return whether a run ends at a limit of its teeth."""
     return isinstance(result.parts.get("sprocket", result.life), Life)
 
 
 def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
-    """Return the gauge of a case as the content of a file.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult
-        A run of it to the limit of its teeth.
-    form : str
-        ``pdf``, ``svg`` or ``dxf``.
-
-    Returns
-    -------
-    bytes
-        All of the file; the smallest sheet from A4 on that takes the gauge.
-
-    Raises
-    ------
-    CaseError
-        The run did not reach a limit, or the case has no wheel.
-    GeometryError
-        The gauge is larger than A0.
-    """
+    """Return the gauge of a case as the content of a file."""
     if not is_worn_out(result):
         message = (
             f"a limit of the teeth must be reached for a gauge of it, but none is within "
@@ -104,27 +71,7 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
 
 
 def sheet_drawing(case: Case, result: WearResult) -> "tuple[Drawing, tuple[float, float]]":
-    """Return the sheet as a drawing, its lower left corner at (0, 0), and its size.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult
-        A run of it to the limit of its teeth.
-
-    Returns
-    -------
-    drawing : ezdxf.document.Drawing
-        Layers GAUGE, NEW, PITCH_CIRCLE, CHECK and NOTES, in mm.
-    size : tuple of float
-        Width and height [mm].
-
-    Raises
-    ------
-    GeometryError
-        The gauge is larger than A0.
-    """
+    """Return the sheet as a drawing, its lower left corner at (0, 0), and its size."""
     gauges = [gauge(shape) for shape in wheel_shapes(case, result)]
     text = _text(case, result, gauges)
     width, height, lines = _sheet(gauges, text)

@@ -27,26 +27,7 @@ _ROOTED = (
 
 
 def gear_shapes(drive: GearDrive, result: WearResult | None) -> tuple[WheelShape, WheelShape]:
-    """Return pinion and wheel at their centre distance, in contact in the pole.
-
-    Parameters
-    ----------
-    drive : GearDrive
-        The pair.
-    result : WearResult or None
-        A run of it; None for new gears only.
-
-    Returns
-    -------
-    tuple of WheelShape
-        The pinion about (0, 0), the wheel above it. Whole outlines of convex-concave gears, of
-        others the flanks.
-
-    Raises
-    ------
-    GeometryError
-        A convex-concave gear that has no root circle.
-    """
+    """Return pinion and wheel at their centre distance, in contact in the pole."""
     mesh, circles = drive.pair.mesh(drive.points), drive.pair.circles
     worn = flanks(result, -1) if result is not None else None
     shapes = []

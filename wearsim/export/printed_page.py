@@ -19,20 +19,7 @@ _THINNEST = 0.1
 
 
 def svg_text(drawing: "Drawing", box: Box) -> str:
-    """Return a drawing as SVG in its true size.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        In mm.
-    box : tuple of float
-        What is shown of it.
-
-    Returns
-    -------
-    str
-        With width and height in mm; arcs are Bezier curves within 3e-4 of their radius.
-    """
+    """Return a drawing as SVG in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
     from ezdxf.addons.drawing.properties import RenderContext
@@ -44,30 +31,13 @@ def svg_text(drawing: "Drawing", box: Box) -> str:
     Frontend(RenderContext(drawing), backend, config=_ink(1.0)).draw_layout(drawing.modelspace())
     return backend.get_string(
         Page(width, height, Units.mm, Margins.all(0.0)),
-        settings=Settings(
-            fit_page=False, output_coordinate_space=max(width, height) * _UNITS_PER_MM
-        ),
+        settings=Settings(fit_page=False, output_coordinate_space=max(width, height) * _UNITS_PER_MM),
         render_box=BoundingBox2d([(left, bottom), (left + width, bottom + height)]),
     )
 
 
 def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
-    """Return a drawing as a PDF page in its true size.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        In mm.
-    box : tuple of float
-        What is shown of it: the page.
-    title : str
-        Of the document.
-
-    Returns
-    -------
-    bytes
-        One page, without a date.
-    """
+    """Return a drawing as a PDF page in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
     from ezdxf.addons.drawing.properties import RenderContext
@@ -93,7 +63,5 @@ def _ink(units_per_mm: float) -> "Configuration":
     from ezdxf.addons.drawing.config import BackgroundPolicy, Configuration
 
     return Configuration(
-        background_policy=BackgroundPolicy.WHITE,
-        lineweight_scaling=units_per_mm,
-        min_lineweight=_THINNEST,
+        background_policy=BackgroundPolicy.WHITE, lineweight_scaling=units_per_mm, min_lineweight=_THINNEST
     )

@@ -24,20 +24,7 @@ _FEWEST = 4
 
 
 def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
-    """Return wheels as the content of a STEP file.
-
-    Parameters
-    ----------
-    shapes : sequence of WheelShape
-        The wheels, where they lie, with closed outlines.
-    states : sequence of str
-        ``new``, ``worn`` or both: a solid each.
-
-    Returns
-    -------
-    bytes
-        In mm: the outlines from z = 0 over the face width, without a bore.
-    """
+    """Return wheels as the content of a STEP file."""
     from build123d import Compound, export_step
 
     solids = []
@@ -54,20 +41,7 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
 
 
 def solid(chain: Chain, width: float) -> "Solid":
-    """Return an outline extruded along z.
-
-    Parameters
-    ----------
-    chain : Chain
-        A closed outline.
-    width : float
-        Length along z from 0 [mm].
-
-    Returns
-    -------
-    build123d.Solid
-        Lines and arcs as they are; a stretch of many points is one spline through them.
-    """
+    """Return an outline extruded along z."""
     from build123d import Face, Solid, Wire
     from build123d import Vector as Direction
 
@@ -81,9 +55,7 @@ def _edges(stretch: Stretch) -> "list[Edge]":
     if stretch.is_curve:
         return [edge for part in _smooth(stretch) for edge in _curve(part)]
     found = []
-    for start, end, bulge in zip(
-        stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, strict=True
-    ):
+    for start, end, bulge in zip(stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, strict=True):
         if bulge == 0.0:
             found.append(Edge.make_line(tuple(start), tuple(end)))
         else:

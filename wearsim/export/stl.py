@@ -14,18 +14,6 @@ _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 def prism(polygon: Vector, width: float) -> Vector:
     """Return the surface of a polygon extruded along z.
 
-    Parameters
-    ----------
-    polygon : numpy.ndarray
-        Coordinates [mm], counterclockwise, shape (n, 2); the first is not repeated.
-    width : float
-        Length along z from 0 [mm].
-
-    Returns
-    -------
-    numpy.ndarray
-        Corners of the triangles [mm], shape (4 n - 4, 3, 3); counterclockwise from outside.
-
     Examples
     --------
     >>> prism(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), 2.0).shape
@@ -51,15 +39,7 @@ def _raised(points: Vector, height: float) -> Vector:
 
 
 def write_stl(triangles: Vector, path: Path) -> None:
-    """Write triangles as a binary STL file, in single precision as the format has it.
-
-    Parameters
-    ----------
-    triangles : numpy.ndarray
-        Corners [mm], shape (n, 3, 3).
-    path : pathlib.Path
-        File to write.
-    """
+    """Write triangles as a binary STL file, in single precision as the format has it."""
     records = np.zeros(len(triangles), _RECORD)
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     records["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)

@@ -23,25 +23,8 @@ _LINE = 1.7
 _LETTERS_IN_LINE = 75
 
 
-def wheel_drawing(
-    shapes: Sequence[WheelShape], states: Sequence[State], note: Sequence[str]
-) -> "Drawing":
-    """Return wheels as a drawing.
-
-    Parameters
-    ----------
-    shapes : sequence of WheelShape
-        The wheels, where they lie.
-    states : sequence of str
-        ``new``, ``worn`` or both.
-    note : sequence of str
-        Lines of text below the wheels.
-
-    Returns
-    -------
-    ezdxf.document.Drawing
-        Layers NEW and WORN (of a pair PINION_NEW and so on), PITCH_CIRCLE, CENTRE and NOTES, in mm.
-    """
+def wheel_drawing(shapes: Sequence[WheelShape], states: Sequence[State], note: Sequence[str]) -> "Drawing":
+    """Return wheels as a drawing."""
     drawing = new_drawing()
     for shape in shapes:
         for state in states:
@@ -61,15 +44,7 @@ def wheel_drawing(
 
 
 def add_layer(drawing: "Drawing", name: str, kind: str) -> None:
-    """Add a layer that looks like its kind.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        Where to.
-    name, kind : str
-        Its name, and that of the layer of a single wheel that it looks like.
-    """
+    """Add a layer that looks like its kind."""
     drawing.layers.add(
         name,
         color=_COLOURS[kind],
@@ -81,53 +56,17 @@ def add_layer(drawing: "Drawing", name: str, kind: str) -> None:
 def add_text(
     drawing: "Drawing", text: str, place: tuple[float, float], height: float, layer: str = "NOTES"
 ) -> None:
-    """Add a line of text.
-
-    Parameters
-    ----------
-    drawing : ezdxf.document.Drawing
-        Where to.
-    text : str
-        One line; percent signs stay what they are.
-    place : tuple of float
-        Its left end on the base line [mm].
-    height : float
-        Of a capital letter [mm].
-    layer : str
-        Its layer.
-    """
+    """Add a line of text."""
     # %%d and the like are codes in a DXF text, and so is a caret.
     plain = " ".join(text.replace("%%", "% %").replace("^", "^ ").split())
-    drawing.modelspace().add_text(
-        plain, height=height, dxfattribs={"layer": layer, "insert": place}
-    )
+    drawing.modelspace().add_text(plain, height=height, dxfattribs={"layer": layer, "insert": place})
 
 
-def drawing_box(
-    shapes: Sequence[WheelShape], note: Sequence[str]
-) -> tuple[float, float, float, float]:
-    """Return the rectangle that wheels and the note below them take.
-
-    Parameters
-    ----------
-    shapes : sequence of WheelShape
-        The wheels.
-    note : sequence of str
-        The note.
-
-    Returns
-    -------
-    tuple of float
-        Left, bottom, width and height [mm], in whole mm.
-    """
+def drawing_box(shapes: Sequence[WheelShape], note: Sequence[str]) -> tuple[float, float, float, float]:
+    """Return the rectangle that wheels and the note below them take."""
     left, bottom, width, height = _around(shapes)
     below = _LINE * (len(_folded(note)) + 1) * _LETTERS * width
-    return (
-        math.floor(left),
-        math.floor(bottom - below),
-        math.ceil(width) + 1,
-        math.ceil(height + below) + 1,
-    )
+    return (math.floor(left), math.floor(bottom - below), math.ceil(width) + 1, math.ceil(height + below) + 1)
 
 
 def _around(shapes: Sequence[WheelShape]) -> tuple[float, float, float, float]:

@@ -12,21 +12,7 @@ from wearsim.geometry.wheel import Chain
 
 
 def wheel_points(shapes: Sequence[WheelShape], states: Sequence[State]) -> pd.DataFrame:
-    """Return the outlines of wheels by points.
-
-    Parameters
-    ----------
-    shapes : sequence of WheelShape
-        The wheels, where they lie.
-    states : sequence of str
-        ``new``, ``worn`` or both.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a point, counterclockwise: the computed points, and more on arcs so that chords
-        lie within 1e-4 mm. The first point of a closed outline is not repeated.
-    """
+    """Return the outlines of wheels by points."""
     tables = [
         _chain_points(chain).assign(wheel=shape.name, state=state)
         for shape in shapes
@@ -39,9 +25,7 @@ def wheel_points(shapes: Sequence[WheelShape], states: Sequence[State]) -> pd.Da
 def _chain_points(chain: Chain) -> pd.DataFrame:
     rows, numbers, names = [], [], []
     for stretch, tooth in zip(chain.stretches, chain.teeth, strict=True):
-        points, _ = along_ways(
-            stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, CHORD_TOLERANCE
-        )
+        points, _ = along_ways(stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, CHORD_TOLERANCE)
         if not chain.closed and stretch is chain.stretches[-1]:
             points = np.concatenate([points, stretch.vertices[-1:]])
         rows.append(points)

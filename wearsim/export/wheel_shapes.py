@@ -19,51 +19,22 @@ State = Literal["new", "worn"]
 
 @dataclass(frozen=True, eq=False)
 class WheelShape:
-    """A wheel, new and worn.
+    """A wheel, new and worn."""
 
-    Attributes
-    ----------
-    name : str
-        ``sprocket``, ``pinion`` or ``wheel``.
-    new, worn : tuple of Space
-        Spaces between the teeth, counterclockwise; no worn ones without a run.
-    pitch_radius : float
-        Radius of the circle that rolls, or through the centres of the rollers [mm].
-    width : float
-        Of the face [mm].
-    notes : tuple of str
-        What the outline takes for granted.
-    turn : float
-        Angle by which the first space is turned from +y counterclockwise [rad].
-    centre : tuple of float
-        Where the axis lies [mm].
-    most_worn : int
-        Index of a space that is worn most.
-    """
-
-    name: str
+    name: str  # `sprocket`, `pinion` or `wheel`
+    # new, worn: spaces between the teeth, counterclockwise; no worn ones without a run
     new: tuple[Space, ...]
     worn: tuple[Space, ...]
+    # radius of the circle that rolls, or through the centres of the rollers [mm]
     pitch_radius: float
-    width: float
-    notes: tuple[str, ...]
-    turn: float = 0.0
-    centre: tuple[float, float] = (0.0, 0.0)
-    most_worn: int = 0
+    width: float  # of the face [mm]
+    notes: tuple[str, ...]  # what the outline takes for granted
+    turn: float = 0.0  # angle by which the first space is turned from +y counterclockwise [rad]
+    centre: tuple[float, float] = (0.0, 0.0)  # where the axis lies [mm]
+    most_worn: int = 0  # index of a space that is worn most
 
     def chains(self, state: State) -> tuple[Chain, ...]:
-        """Return the outline in one state, where it lies in the drawing.
-
-        Parameters
-        ----------
-        state : str
-            ``new`` or ``worn``.
-
-        Returns
-        -------
-        tuple of Chain
-            One closed chain, or an open one a tooth where no root is known.
-        """
+        """Return the outline in one state, where it lies in the drawing."""
         spaces = self.new if state == "new" else self.worn
         return tuple(chain.moved(self.centre) for chain in ring(spaces, self.turn))
 
@@ -81,25 +52,7 @@ class WheelShape:
 
 
 def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...]:
-    """Return the wheels of a case.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult or None
-        A run of it, whose last state is the worn one; None for new wheels only.
-
-    Returns
-    -------
-    tuple of WheelShape
-        A sprocket, or a pinion and a wheel.
-
-    Raises
-    ------
-    CaseError
-        The case has a table of loads only, no wheel.
-    """
+    """Return the wheels of a case."""
     drive = case.drive
     if isinstance(drive, PrescribedDrive):
         message = (
@@ -125,17 +78,9 @@ def _strand_shape(case: Case, drive: StrandDrive, result: WearResult | None) -> 
         last = flanks(result, -1)
         gone = worn_space(new, np.column_stack([last["x_mm"], last["y_mm"]]))
         worn = tuple(new if number % every else gone for number in range(tooth.teeth))
-    notes = (
-        "seat and tip are arcs, the tip about the axis; back flank and seat do not wear",
-        *_alike(every),
-    )
+    notes = ("seat and tip are arcs, the tip about the axis; back flank and seat do not wear", *_alike(every))
     return WheelShape(
-        "sprocket",
-        (new,) * tooth.teeth,
-        worn,
-        tooth.strand.centrode_radius,
-        drive.face_width,
-        notes,
+        "sprocket", (new,) * tooth.teeth, worn, tooth.strand.centrode_radius, drive.face_width, notes
     )
 
 
@@ -164,13 +109,7 @@ def _wrap_shape(case: Case, drive: WrapDrive, result: WearResult | None) -> Whee
         notes += _alike(math.gcd(drive.gaps, case.engaged_every)) if len(kinds) == 1 else ()
     radius = 0.5 * drive.layout.pitch / math.sin(0.5 * drive.pitch_angle)
     return WheelShape(
-        "sprocket",
-        (new,) * drive.gaps,
-        worn,
-        radius,
-        drive.face_width,
-        tuple(notes),
-        most_worn=most_worn,
+        "sprocket", (new,) * drive.gaps, worn, radius, drive.face_width, tuple(notes), most_worn=most_worn
     )
 
 

@@ -46,10 +46,7 @@ def stress_equivalence(stresses: Sequence[tuple[float, float]]) -> float:
 
 
 def fatigue_life(
-    material: FlankMaterial,
-    stresses: Sequence[tuple[float, float]],
-    cycles_per_hour: float,
-    hours: float,
+    material: FlankMaterial, stresses: Sequence[tuple[float, float]], cycles_per_hour: float, hours: float
 ) -> EnduredHours:
     """Return the hours for which the contact stresses of a flank are allowed.
 

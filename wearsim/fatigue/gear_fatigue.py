@@ -59,10 +59,7 @@ def gear_fatigue_lives(
     speeds = {"pinion": case.speed_rpm, "wheel": case.speed_rpm / drive.pair.circles.gear_ratio}
     return {
         name: fatigue_life(
-            fatigue.materials[name],
-            [(stress, 1.0)],
-            cycles_per_hour(speed),
-            case.run.horizon_hours,
+            fatigue.materials[name], [(stress, 1.0)], cycles_per_hour(speed), case.run.horizon_hours
         )
         for name, speed in speeds.items()
     }

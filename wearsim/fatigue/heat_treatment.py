@@ -112,9 +112,7 @@ class Treatment:
         if least <= hardness <= greatest:
             return ""
         span = f"{least:g} to {greatest:g}" if least > 0.0 else f"at most {greatest:g}"
-        return (
-            f"table 2.3 holds for {span} {self.scale} where it is {self.name}, it is {hardness:g}"
-        )
+        return f"table 2.3 holds for {span} {self.scale} where it is {self.name}, it is {hardness:g}"
 
     def bending_limit(self, hardness: float) -> float:
         """Return the endurance limit in bending, sigma_Flim of table 2.3.
@@ -191,10 +189,7 @@ def treatments() -> dict[str, Treatment]:
             name=row["treatment"],
             scale=row["scale"],
             hardness_range=(_number(row["least_hardness"], 0.0), float(row["greatest_hardness"])),
-            contact_line=(
-                _number(row["contact_slope"], math.nan),
-                _number(row["contact_offset"], math.nan),
-            ),
+            contact_line=(_number(row["contact_slope"], math.nan), _number(row["contact_offset"], math.nan)),
             bending_line=(float(row["bending_slope"]), float(row["bending_offset"])),
             contact_safety=float(row["contact_safety"]),
             bending_exponent=float(row["bending_exponent"]),

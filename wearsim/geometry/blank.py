@@ -30,10 +30,7 @@ def tooth_space(tooth: Tooth) -> Space:
     seat = tooth.seat[::-1]
     back = to_circle(_points(tooth.back_flank)[::-1], tooth.tip_radius)[::-1]
     return Space(
-        (
-            along_points("back_flank", back),
-            arc_through("root", seat[0], seat[len(seat) // 2], seat[-1]),
-        ),
+        (along_points("back_flank", back), arc_through("root", seat[0], seat[len(seat) // 2], seat[-1])),
         (along_points("flank", _points(tooth.flank)),),
     )
 

@@ -126,9 +126,7 @@ def evolute_limits(
         f"evolute_offset_mm = {strand.offset:g}"
     )
     try:
-        needed = smallest_offset(
-            strand.centrode_radius, strand.roller_radius, contact_end, contact_start
-        )
+        needed = smallest_offset(strand.centrode_radius, strand.roller_radius, contact_end, contact_start)
     except GeometryError as error:
         return [("evolute_offset", f"{message}; {error}")]
     return [("evolute_offset", f"{message}: at least evolute_offset_mm = {needed:.4g}")]
@@ -152,9 +150,7 @@ def tooth_limits(tooth: Tooth, pitch: float) -> list[str]:
     least = THINNEST_PER_PITCH * pitch
     for name, value in (("neck thickness", tooth.neck), ("tip land", tooth.tip_land)):
         if value < least:
-            return [
-                f"{name} of the tooth must be at least {least:.3g} mm (0.05 pitch), is {value:.3g} mm"
-            ]
+            return [f"{name} of the tooth must be at least {least:.3g} mm (0.05 pitch), is {value:.3g} mm"]
     cut = tooth.cut_depth()
     if cut > CUT_TOLERANCE:
         return [
@@ -231,16 +227,12 @@ def remedy(
     """
 
     def _offset(gaps: int) -> float | None:
-        return feasible_offset(
-            pitch, roller_radius, gaps, engaged_every, contact_end, contact_start
-        )
+        return feasible_offset(pitch, roller_radius, gaps, engaged_every, contact_end, contact_start)
 
     offset = _offset(teeth)
     if offset is not None:
         return f"; evolute_offset_mm = {offset:.4g} will do"
     for more in range(teeth + 1, MOST_TEETH + 1):
         if _offset(more) is not None:
-            return (
-                f"; teeth = {more} will do with the default offset, or try a shorter contact range"
-            )
+            return f"; teeth = {more} will do with the default offset, or try a shorter contact range"
     return "; try a shorter contact range or a smaller roller"

@@ -97,8 +97,7 @@ def seat_height(
     if seat_centre == "root_diameter":
         return pitch_radius + (seat_radius - roller_radius)
     raise GeometryError(
-        f"seat centre: must be 'pitch_circle' or 'root_diameter', got {seat_centre!r}: "
-        "give one of the two"
+        f"seat centre: must be 'pitch_circle' or 'root_diameter', got {seat_centre!r}: give one of the two"
     )
 
 

@@ -30,9 +30,7 @@ _NO_FIT = 1e12
 _MOST_POINTS = 1000
 
 
-def gap_from_points(
-    x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller_radius: float
-) -> Profile:
+def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller_radius: float) -> Profile:
     """Return a smooth outline of a whole gap through points known within a noise.
 
     A quintic spline over the chord length, fitted by least squares. Where arcs and lines
@@ -159,11 +157,7 @@ def evolute_gap(tooth: Tooth, pitch: float, nodes: int) -> Profile:
         No seat clears the roller.
     """
     back, flank = tooth.back_flank, tooth.flank
-    pieces = (
-        np.column_stack([back.x, back.y]),
-        tooth.seat[::-1],
-        np.column_stack([flank.x, flank.y]),
-    )
+    pieces = (np.column_stack([back.x, back.y]), tooth.seat[::-1], np.column_stack([flank.x, flank.y]))
     dense = np.concatenate([_through(piece, 20 * nodes) for piece in pieces])
     centre_x, centre_y = lowest_centre(dense[::5, 0], dense[::5, 1], tooth.strand.roller_radius)
     pitch_radius = 0.5 * pitch / math.sin(0.5 * pitch / tooth.strand.centrode_radius)
@@ -278,9 +272,7 @@ class _JointedFit:
                 joints, lowest = found, score
         return joints
 
-    def _all_placed(
-        self, joints: list[float], score: Callable[[list[float]], float]
-    ) -> list[float]:
+    def _all_placed(self, joints: list[float], score: Callable[[list[float]], float]) -> list[float]:
         """Every joint in turn where it fits best, within some points of where it is."""
         from scipy.optimize import minimize_scalar
 
@@ -317,9 +309,7 @@ class _JointedFit:
             ]
             if not trials:
                 break
-            totals = [
-                self._spread_score(trial, joints) + 2.0 * sum(trial) * self.cost for trial in trials
-            ]
+            totals = [self._spread_score(trial, joints) + 2.0 * sum(trial) * self.cost for trial in trials]
             best = int(np.argmin(totals))
             if not totals[best] < total:
                 break
@@ -361,9 +351,7 @@ class _JointedFit:
 
         inner = np.sort([*knots, *np.repeat(joints, 4), *np.repeat(self.corners, 5)])
         ends = np.repeat(self.chord[[0, -1]], 6)
-        return make_lsq_spline(
-            self.chord, self.points, np.concatenate([ends[:6], inner, ends[6:]]), k=5
-        )
+        return make_lsq_spline(self.chord, self.points, np.concatenate([ends[:6], inner, ends[6:]]), k=5)
 
     def _breaks(self, joints: list[float]) -> Vector:
         """Indices of the ends, corners and joints, in order."""

@@ -122,9 +122,7 @@ class Outline:
         GeometryError
             The outline crosses itself.
         """
-        points, _ = along_ways(
-            self.vertices, np.roll(self.vertices, -1, axis=0), self.bulges, tolerance
-        )
+        points, _ = along_ways(self.vertices, np.roll(self.vertices, -1, axis=0), self.bulges, tolerance)
         if not shapely.Polygon(points).is_valid:
             raise GeometryError(
                 "outline: it must not cross itself, but does: take fewer or larger teeth, or a lower "

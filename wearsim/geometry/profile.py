@@ -158,9 +158,7 @@ class Profile:
         frame = np.empty((4, x.size))
         flank_frame(x.copy(), y.copy(), *frame)
         values = (x, y, *(_vector(row) for row in frame[:3]))
-        for name, value in zip(
-            ("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True
-        ):
+        for name, value in zip(("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True):
             object.__setattr__(self, name, value)
 
     @property

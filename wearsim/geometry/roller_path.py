@@ -167,9 +167,7 @@ def roller_path(outline: Profile, roller_radius: float, nodes: int) -> RollerPat
     """
     pick = np.unique(np.linspace(0, outline.x.size - 1, nodes).round().astype(int))
     nx, ny = outline.normal_x[pick], outline.normal_y[pick]
-    base = np.array(
-        [outline.x[pick] + roller_radius * nx, outline.y[pick] + roller_radius * ny, nx, ny]
-    )
+    base = np.array([outline.x[pick] + roller_radius * nx, outline.y[pick] + roller_radius * ny, nx, ny])
     path = RollerPath(base, roller_radius)
     unworn = path._cast(np.array(outline.x), np.array(outline.y), np.arange(pick.size, dtype=float))
     moved = (unworn.locus[0] - base[0]) * nx + (unworn.locus[1] - base[1]) * ny

@@ -110,8 +110,7 @@ class Tooth:
         """Points of the seat arc from the working flank's root to the back flank's [mm]."""
         bottom = self.strand.height - self.strand.roller_radius
         path = shapely.union(
-            sweep_path(self.strand, self.tip_radius, 1.0),
-            sweep_path(self.strand, self.tip_radius, -1.0),
+            sweep_path(self.strand, self.tip_radius, 1.0), sweep_path(self.strand, self.tip_radius, -1.0)
         )
         for clearance in _SEAT_CLEARANCES:
             depth = clearance * 2.0 * self.strand.roller_radius
@@ -143,8 +142,7 @@ class Tooth:
             Greatest depth [mm] over entry and exit; about zero where the flank is touched.
         """
         path = shapely.union(
-            sweep_path(self.strand, self.tip_radius, 1.0),
-            sweep_path(self.strand, self.tip_radius, -1.0),
+            sweep_path(self.strand, self.tip_radius, 1.0), sweep_path(self.strand, self.tip_radius, -1.0)
         )
         pitch_angle = 2.0 * math.pi / self.teeth
         outline = np.concatenate([_turned(self.gap, i * pitch_angle) for i in (1, 0, -1)])
@@ -286,9 +284,7 @@ def _turned(points: Vector, angle: float) -> Vector:
     return np.asarray(points @ np.array([[cosine, sine], [-sine, cosine]]))
 
 
-def _arc_through(
-    start: tuple[float, float], middle: tuple[float, float], end: tuple[float, float]
-) -> Vector:
+def _arc_through(start: tuple[float, float], middle: tuple[float, float], end: tuple[float, float]) -> Vector:
     """Points on the arc through three points, 61 of them, from the first to the last."""
     (x1, y1), (x2, y2), (x3, y3) = start, middle, end
     matrix = np.array([[x2 - x1, y2 - y1], [x3 - x1, y3 - y1]])

@@ -13,13 +13,7 @@ import numpy as np
 
 from wearsim.geometry.outline import Outline
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.stretch import (
-    APART,
-    Stretch,
-    along_points,
-    arc_about_axis,
-    line,
-)
+from wearsim.geometry.stretch import APART, Stretch, along_points, arc_about_axis, line
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,9 +204,7 @@ def ring(spaces: Sequence[Space], turn: float = 0.0) -> tuple[Chain, ...]:
         start = (space.left or space.right)[-1].vertices[-1]
         end = following.right[0].vertices[0]
         own = space.right + space.left if space.rooted else space.left
-        rows.append(
-            (*own, *arc_about_axis("tip", start, end), *(() if space.rooted else following.right))
-        )
+        rows.append((*own, *arc_about_axis("tip", start, end), *(() if space.rooted else following.right)))
     if spaces[0].rooted:
         numbers = tuple(n for n, row in enumerate(rows, 1) for _ in row)
         return (Chain(tuple(part for row in rows for part in row), numbers, True),)

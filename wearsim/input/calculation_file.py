@@ -13,52 +13,14 @@ Tables = TypeVar("Tables", bound=CalculationTables)
 
 
 def load_calculation(source: Source, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
-    """Return the tables of a calculation.
-
-    Parameters
-    ----------
-    source : path or mapping
-        A TOML file, or its tables as dictionaries.
-    model : type
-        The tables that it must hold.
-    overrides : sequence of str
-        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
-
-    Returns
-    -------
-    CalculationTables
-        Of the model; its title is the name of the file where none is given.
-
-    Raises
-    ------
-    CaseError
-        Everything that is wrong with the input, with file and line.
-    """
+    """Return the tables of a calculation."""
     document = read_document(source, overrides)
     document.data.setdefault("title", document.name)
     return checked(document, model)
 
 
 def checked(document: Document, model: type[Tables]) -> Tables:
-    """Return the tables of a document.
-
-    Parameters
-    ----------
-    document : Document
-        What stands in a file.
-    model : type
-        The tables that it must hold.
-
-    Returns
-    -------
-    CalculationTables
-        Of the model.
-
-    Raises
-    ------
-    CaseError
-        Everything that is wrong with them, with file and line.
-    """
+    """Return the tables of a document."""
     try:
         return model.model_validate(document.data)
     except ValidationError as error:
@@ -68,20 +30,7 @@ def checked(document: Document, model: type[Tables]) -> Tables:
 
 
 def defaults_taken(tables: Table, prefix: str = "") -> tuple[str, ...]:
-    """Return what a file left to its defaults, as an answer lists it under its assumptions.
-
-    Parameters
-    ----------
-    tables : Table
-        The input, or a table of it.
-    prefix : str
-        Dotted name of the table and a dot.
-
-    Returns
-    -------
-    tuple of str
-        Such as ``"run.method = advance (default)"``; without what is absent by default.
-    """
+    """Return what a file left to its defaults, as an answer lists it under its assumptions."""
     taken: list[str] = []
     for key, value in tables:
         if isinstance(value, Table):

@@ -9,17 +9,7 @@ from wearsim.input.schema import CaseTables, Table
 
 
 class Record:
-    """What is given, found, taken and doubted while a case is being completed.
-
-    Parameters
-    ----------
-    tables : Table
-        The validated input.
-    folder : pathlib.Path
-        Place that paths are relative to.
-    faults : Faults
-        Takes what is wrong.
-    """
+    """What is given, found, taken and doubted while a case is being completed."""
 
     def __init__(self, tables: Table, folder: Path, faults: Faults) -> None:
         self.folder = folder
@@ -30,17 +20,7 @@ class Record:
         self.warnings: list[str] = []
 
     def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
-        """Record a default that the case takes.
-
-        Parameters
-        ----------
-        key : str
-            Dotted key.
-        value : float, int, str or list of int
-            Its value.
-        why : str
-            Where it comes from.
-        """
+        """Record a default that the case takes."""
         place = self.inputs
         *tables, last = key.split(".")
         for table in tables:
@@ -50,32 +30,13 @@ class Record:
         self.assumptions.append(f"{key} = {shown} ({why})")
 
     def path(self, key: str, name: str) -> Path:
-        """Return the place of a file that the case names.
-
-        Parameters
-        ----------
-        key : str
-            Key that names it.
-        name : str
-            Path, relative to the case file.
-
-        Returns
-        -------
-        pathlib.Path
-            The file.
-        """
+        """Return the place of a file that the case names."""
         path = self.folder / name
         self.files.append(path)
         return path
 
     def texts(self) -> dict[str, str]:
-        """Return the text of the files by their names; the cases of a study share it.
-
-        Returns
-        -------
-        dict
-            Bytes that are no UTF-8 as lone surrogates.
-        """
+        """Return the text of the files by their names; the cases of a study share it."""
         found = {}
         for path in self.files:
             text = path.read_text(encoding="utf-8-sig", errors="surrogateescape")
@@ -84,17 +45,7 @@ class Record:
 
 
 class Resolution(Record):
-    """The record of a drive with a chain.
-
-    Parameters
-    ----------
-    tables : CaseTables
-        The validated input.
-    folder : pathlib.Path
-        Place that paths are relative to.
-    faults : Faults
-        Takes what is wrong.
-    """
+    """The record of a drive with a chain."""
 
     def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
         super().__init__(tables, folder, faults)

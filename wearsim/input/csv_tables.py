@@ -22,49 +22,20 @@ _GAP = 10.0
 
 @dataclass(frozen=True, eq=False)
 class PrescribedTable:
-    """Load and sliding along a flank.
+    """Load and sliding along a flank."""
 
-    Attributes
-    ----------
-    arc_length, load_per_width, flank_curvature : numpy.ndarray
-        Columns of the file [mm, N/mm, 1/mm].
-    slip_ratio : numpy.ndarray or None
-        |v_s|/v_t, where the file gives it.
-    sliding_distance : numpy.ndarray or None
-        Path [mm], where the file gives it.
-    sliding_speed : numpy.ndarray or None
-        Sliding speed [mm/s], where the file gives it.
-    """
-
-    arc_length: Vector
-    load_per_width: Vector
-    flank_curvature: Vector
-    slip_ratio: Vector | None
-    sliding_distance: Vector | None
-    sliding_speed: Vector | None
+    arc_length: Vector  # columns of the file [mm, N/mm, 1/mm]
+    load_per_width: Vector  # columns of the file [mm, N/mm, 1/mm]
+    flank_curvature: Vector  # columns of the file [mm, N/mm, 1/mm]
+    slip_ratio: Vector | None  # |v_s|/v_t, where the file gives it
+    sliding_distance: Vector | None  # path [mm], where the file gives it
+    sliding_speed: Vector | None  # sliding speed [mm/s], where the file gives it
 
 
 def read_columns(
     path: Path, required: tuple[str, ...], optional: tuple[str, ...], key: str, faults: Faults
 ) -> dict[str, Vector]:
-    """Read a CSV file of numbers and report every bad cell.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file.
-    required, optional : tuple of str
-        Names of columns; any other is a fault.
-    key : str
-        Key of the case that names the file, for the faults.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    dict
-        Column by name; empty where there was a fault.
-    """
+    """Read a CSV file of numbers and report every bad cell."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             lines = list(csv.reader(file))
@@ -83,22 +54,8 @@ def read_columns(
     return {name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)}
 
 
-def header_faults(
-    names: Sequence[str], required: Sequence[str], optional: Sequence[str]
-) -> list[str]:
+def header_faults(names: Sequence[str], required: Sequence[str], optional: Sequence[str]) -> list[str]:
     """Return what is wrong with the names of columns.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Those of a file.
-    required, optional : sequence of str
-        Those that it must and may have.
-
-    Returns
-    -------
-    list of str
-        In words.
 
     Examples
     --------
@@ -107,13 +64,9 @@ def header_faults(
     """
     known = [*required, *optional]
     found = [
-        f"column {name!r} is missing{nearest(name, list(names))}"
-        for name in required
-        if name not in names
+        f"column {name!r} is missing{nearest(name, list(names))}" for name in required if name not in names
     ]
-    found += [
-        f"unknown column {name!r}{nearest(name, known)}" for name in names if name not in known
-    ]
+    found += [f"unknown column {name!r}{nearest(name, known)}" for name in names if name not in known]
     if len(set(names)) != len(names):
         found.append("every column may stand there once only")
     return found
@@ -139,9 +92,7 @@ def _cells(
             except ValueError:
                 row.append(math.nan)
             if not math.isfinite(row[-1]):
-                faults.add(
-                    key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})"
-                )
+                faults.add(key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})")
             elif abs(row[-1]) > MOST:
                 text = f"{name} must be at most {MOST:g} in size (got {cell!r})"
                 faults.add(key, f"{path.name}:{number}: {text}")
@@ -153,22 +104,7 @@ def _cells(
 
 
 def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
-    """Read the points of a flank, from root to tip.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        CSV file with the columns x_mm, y_mm.
-    key : str
-        Key of the case that names the file.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    tuple of numpy.ndarray or None
-        x and y [mm]; None where there was a fault.
-    """
+    """Read the points of a flank, from root to tip."""
     columns = read_columns(path, ("x_mm", "y_mm"), (), key, faults)
     if not columns:
         return None
@@ -182,31 +118,13 @@ def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] |
         faults.add(key, f"{path.name}:{index + 3}: the point repeats the one before: remove it")
     radius = np.hypot(x, y)
     if radius[0] > radius[-1]:
-        faults.add(
-            key,
-            f"{path.name}: points must run from root to tip, but the radius falls: reverse them",
-        )
+        faults.add(key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them")
         return None
     return None if same.size else (x, y)
 
 
 def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | None:
-    """Read load and sliding along a flank.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        CSV file; columns in the documentation of the key ``mechanism.table_file``.
-    key : str
-        Key of the case that names the file.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    PrescribedTable or None
-        None where there was a fault.
-    """
+    """Read load and sliding along a flank."""
     required = ("arc_length_mm", "load_per_width_N_per_mm", "flank_curvature_per_mm")
     optional = ("slip_ratio", "sliding_distance_mm", "sliding_speed_mm_per_s")
     columns = read_columns(path, required, optional, key, faults)
@@ -242,22 +160,7 @@ def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | N
 
 
 def read_log(path: Path, key: str, faults: Faults) -> Log | None:
-    """Read a log of tension and speed.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        CSV file with the columns time_s, tension_N, speed_rpm.
-    key : str
-        Key of the case that names the file.
-    faults : Faults
-        Takes what is wrong.
-
-    Returns
-    -------
-    Log or None
-        None where there was a fault.
-    """
+    """Read a log of tension and speed."""
     columns = read_columns(path, ("time_s", "tension_N", "speed_rpm"), (), key, faults)
     if not columns:
         return None
@@ -277,10 +180,7 @@ def read_log(path: Path, key: str, faults: Faults) -> Log | None:
             "fill the gap or cut the log there",
         )
     for index in np.flatnonzero(tension < 0.0):
-        faults.add(
-            key,
-            f"{path.name}:{index + 2}: tension_N must not be negative (got {tension[index]:g})",
-        )
+        faults.add(key, f"{path.name}:{index + 2}: tension_N must not be negative (got {tension[index]:g})")
     for index in np.flatnonzero(speed <= 0.0):
         faults.add(
             key,

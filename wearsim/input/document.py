@@ -14,19 +14,11 @@ from wearsim.input.messages import Faults
 
 @dataclass(frozen=True)
 class CaseText:
-    """What an input file is to hold, before it is written.
+    """What an input file is to hold, before it is written."""
 
-    Attributes
-    ----------
-    path : pathlib.Path
-        Place of the file, there or not: it names the case, and paths in it are relative to its
-        folder.
-    text : str
-        All of it.
-    """
-
+    # place of the file, there or not: it names the case, and paths in it are relative to its folder
     path: Path
-    text: str
+    text: str  # all of it
 
 
 _DEEPEST = 20
@@ -37,47 +29,16 @@ Source = str | Path | CaseText | Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Document:
-    """What stands in an input file.
+    """What stands in an input file."""
 
-    Attributes
-    ----------
-    name : str
-        Stem of the file.
-    folder : pathlib.Path
-        Folder that paths in it are relative to.
-    data : dict
-        Its tables with the overrides.
-    faults : Faults
-        Takes what is wrong with it.
-    """
-
-    name: str
-    folder: Path
-    data: dict[str, Any]
-    faults: Faults
+    name: str  # stem of the file
+    folder: Path  # folder that paths in it are relative to
+    data: dict[str, Any]  # its tables with the overrides
+    faults: Faults  # takes what is wrong with it
 
 
 def read_document(source: Source, overrides: Sequence[str]) -> Document:
-    """Read a TOML file, or take its text or a mapping with the same tables.
-
-    Parameters
-    ----------
-    source : path, CaseText or mapping
-        A TOML file, its text, or its tables as dictionaries (paths in it are then relative to
-        the working directory).
-    overrides : sequence of str
-        ``table.key=VALUE``; VALUE is TOML, else a string.
-
-    Returns
-    -------
-    Document
-        Not yet checked.
-
-    Raises
-    ------
-    CaseError
-        It cannot be read, or an override cannot be applied.
-    """
+    """Read a TOML file, or take its text or a mapping with the same tables."""
     if isinstance(source, Mapping):
         file, name, text, folder = "case", "case", "", Path()
         _check_depth(dict(source), file)
@@ -96,18 +57,6 @@ def read_document(source: Source, overrides: Sequence[str]) -> Document:
 
 def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:
     """Return tables whose title tells what is no longer as it was written under that title.
-
-    Parameters
-    ----------
-    tables : mapping
-        The tables as they are used.
-    written : mapping
-        As they were written.
-
-    Returns
-    -------
-    dict
-        The tables; without a title, or with one that is new itself, as they are.
 
     Examples
     --------
@@ -128,20 +77,6 @@ def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str,
 
 def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Give every key of some tables.
-
-    Parameters
-    ----------
-    tables : mapping
-        Tables of an input file.
-    prefix : str
-        Dotted name of the table that they stand in and a dot.
-
-    Yields
-    ------
-    str
-        Dotted key, tables of a list by their numbers from 1.
-    object
-        Its value.
 
     Examples
     --------
@@ -166,9 +101,7 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise CaseError(
-            [Fault(f"must be a readable file: {error.strerror}", "", str(path))]
-        ) from None
+        raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
     except UnicodeDecodeError:
         raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
 
@@ -201,9 +134,7 @@ def _check_depth(data: dict[str, Any], file: str, text: str = "") -> None:
         return
     lines = [line.partition("#")[0] for line in text.splitlines()]
     deep = (number for number, line in enumerate(lines, 1) if _opened(line) >= _DEEPEST)
-    message = (
-        f"at most {_DEEPEST} tables or lists may lie within one another, not {depth}: remove some"
-    )
+    message = f"at most {_DEEPEST} tables or lists may lie within one another, not {depth}: remove some"
     raise CaseError([Fault(message, "", file, next(deep, 0))])
 
 

@@ -15,21 +15,11 @@ from wearsim.geometry.profile import Vector
 
 @dataclass(frozen=True, eq=False)
 class Log:
-    """A log whose rows hold until the next; the last row only ends the one before.
+    """A log whose rows hold until the next; the last row only ends the one before."""
 
-    Attributes
-    ----------
-    step : numpy.ndarray
-        Time that every row holds [s], shape (rows - 1,).
-    tension : numpy.ndarray
-        Of the tight strand [N], shape (rows - 1,).
-    speed : numpy.ndarray
-        Of the sprocket [rpm], above 0, shape (rows - 1,).
-    """
-
-    step: Vector
-    tension: Vector
-    speed: Vector
+    step: Vector  # time that every row holds [s], shape (rows - 1,)
+    tension: Vector  # of the tight strand [N], shape (rows - 1,)
+    speed: Vector  # of the sprocket [rpm], above 0, shape (rows - 1,)
 
     @property
     def duration(self) -> float:
@@ -39,38 +29,15 @@ class Log:
 
 @dataclass(frozen=True)
 class LogBlock:
-    """Part of a log.
+    """Part of a log."""
 
-    Attributes
-    ----------
-    time : float
-        How long it lasts [s].
-    revolutions : float
-        Of the sprocket in this time.
-    tension : float
-        Mean over the revolutions [N].
-    """
-
-    time: float
-    revolutions: float
-    tension: float
+    time: float  # how long it lasts [s]
+    revolutions: float  # of the sprocket in this time
+    tension: float  # mean over the revolutions [N]
 
 
 def log_blocks(log: Log, tension_bins: int, speed_bins: int) -> list[LogBlock]:
     """Sort a log into bins of equal width between the least and the largest value.
-
-    Parameters
-    ----------
-    log : Log
-        The log.
-    tension_bins, speed_bins : int
-        Number of bins.
-
-    Returns
-    -------
-    list of LogBlock
-        One for every bin in which there is something; time, revolutions and tension times
-        revolutions of the log are kept.
 
     Examples
     --------
@@ -84,12 +51,10 @@ def log_blocks(log: Log, tension_bins: int, speed_bins: int) -> list[LogBlock]:
     revolutions = log.speed * log.step / 60.0
     count = tension_bins * speed_bins
     time, turns, work = (
-        np.bincount(cell, weights, count)
-        for weights in (log.step, revolutions, revolutions * log.tension)
+        np.bincount(cell, weights, count) for weights in (log.step, revolutions, revolutions * log.tension)
     )
     return [
-        LogBlock(float(time[i]), float(turns[i]), float(work[i] / turns[i]))
-        for i in np.flatnonzero(turns)
+        LogBlock(float(time[i]), float(turns[i]), float(work[i] / turns[i])) for i in np.flatnonzero(turns)
     ]
 
 
@@ -107,18 +72,6 @@ def merged(blocks: list[LogBlock], most: int) -> list[LogBlock]:
 
     The nearest is that with which the least of the variance of tension and speed, each
     over its range, is lost.
-
-    Parameters
-    ----------
-    blocks : list of LogBlock
-        The blocks.
-    most : int
-        How many may be left, at least 1.
-
-    Returns
-    -------
-    list of LogBlock
-        With the same time, revolutions and tension times revolutions.
 
     Examples
     --------

@@ -12,16 +12,6 @@ from wearsim.input.schema.table import Table
 def schema_of(tables: Mapping[str, Any]) -> type[Table]:
     """Return the schema that a case is read by.
 
-    Parameters
-    ----------
-    tables : mapping
-        What stands in it.
-
-    Returns
-    -------
-    type
-        That of gear pairs or that of chain drives.
-
     Examples
     --------
     >>> schema_of({"chain": {}}).__name__, schema_of({"gear": {}}).__name__
@@ -37,20 +27,6 @@ def schema_of(tables: Mapping[str, Any]) -> type[Table]:
 
 def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
     """Give every key of a schema but those of tables by the dotted names of other keys.
-
-    Parameters
-    ----------
-    model : type
-        Tables of an input file.
-    prefix : str
-        Dotted name of the table and a dot.
-
-    Yields
-    ------
-    str
-        Dotted key; a list of tables has ``[]`` after its name.
-    pydantic.fields.FieldInfo
-        What it may hold.
 
     Examples
     --------
@@ -73,16 +49,6 @@ def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, F
 def words(field: FieldInfo) -> tuple[str, ...]:
     """Return the words that a key may hold.
 
-    Parameters
-    ----------
-    field : pydantic.fields.FieldInfo
-        What it may hold.
-
-    Returns
-    -------
-    tuple of str
-        Empty where any text or only numbers are allowed.
-
     Examples
     --------
     >>> from wearsim.input.schema import CaseTables
@@ -99,18 +65,7 @@ def words(field: FieldInfo) -> tuple[str, ...]:
 
 
 def parts(annotation: Any) -> Iterator[Any]:
-    """Give a type and all types that it is made of.
-
-    Parameters
-    ----------
-    annotation : object
-        Of a key; of a choice of words the words are no types.
-
-    Yields
-    ------
-    object
-        The type, then its parts.
-    """
+    """Give a type and all types that it is made of."""
     yield annotation
     if get_origin(annotation) is not Literal:
         for inner in get_args(annotation):
@@ -118,18 +73,7 @@ def parts(annotation: Any) -> Iterator[Any]:
 
 
 def tables_in(annotation: Any) -> Iterator[type[Table]]:
-    """Give the tables that a type is made of.
-
-    Parameters
-    ----------
-    annotation : object
-        Of a key.
-
-    Yields
-    ------
-    type
-        Itself, or those in a list or a choice.
-    """
+    """Give the tables that a type is made of."""
     for part in parts(annotation):
         if isinstance(part, type) and issubclass(part, Table):
             yield part

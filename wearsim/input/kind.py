@@ -26,18 +26,7 @@ _BELONGS_TO = {
 
 
 def mechanism_kind(case: Resolution) -> str:
-    """Return the kind of mechanism, and name the keys that belong to another one.
-
-    Parameters
-    ----------
-    case : Resolution
-        The case so far.
-
-    Returns
-    -------
-    str
-        ``strand``, ``prescribed`` or ``wrap``: as given, else by the tooth form.
-    """
+    """Return the kind of mechanism, and name the keys that belong to another one."""
     tables = case.tables
     profile = tables.sprocket.profile if tables.sprocket else ""
     kind = tables.mechanism.kind

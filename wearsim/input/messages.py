@@ -14,17 +14,7 @@ _MOST_SHOWN = 20
 
 
 class Faults:
-    """What is wrong with one input, collected in one pass.
-
-    Parameters
-    ----------
-    file : str
-        Name of the input for the messages.
-    text : str
-        Its text, empty where it does not come from a file.
-    overrides : iterable of str
-        Dotted keys that were set on the command line.
-    """
+    """What is wrong with one input, collected in one pass."""
 
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
         self.file = file
@@ -40,15 +30,7 @@ class Faults:
         return len(self._found)
 
     def add(self, key: str, message: str) -> None:
-        """Add a fault of a key.
-
-        Parameters
-        ----------
-        key : str
-            Dotted key; tables of an array count from 1.
-        message : str
-            What must hold, what it is, what to do.
-        """
+        """Add a fault of a key."""
         if key.partition(".")[0] in self._distrusted:
             return
         if any(key == given or key.startswith(f"{given}.") for given in self.overrides):
@@ -59,15 +41,7 @@ class Faults:
         self._found.append(Fault(message, key, self.file, self._lines[key]))
 
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
-        """Add everything that pydantic found.
-
-        Parameters
-        ----------
-        error : pydantic.ValidationError
-            What it raised.
-        model : type
-            The model it was raised for, whose keys are proposed for unknown ones.
-        """
+        """Add everything that pydantic found."""
         names = known_keys(model)
         for entry in error.errors(include_url=False):
             key = ".".join(
@@ -82,23 +56,11 @@ class Faults:
             self.add(key, _message(dict(entry), key, names))
 
     def distrust(self, tables: Iterable[str]) -> None:
-        """Take no more faults of some tables: they may only follow from those already found.
-
-        Parameters
-        ----------
-        tables : iterable of str
-            Their names.
-        """
+        """Take no more faults of some tables: they may only follow from those already found."""
         self._distrusted = set(tables)
 
     def check(self) -> None:
-        """Raise if anything was found.
-
-        Raises
-        ------
-        CaseError
-            With all faults in the order of their lines, at most twenty and a count.
-        """
+        """Raise if anything was found."""
         if not self._found:
             return
         ordered = sorted(self._found, key=lambda fault: (fault.line == 0, fault.line))
@@ -109,18 +71,7 @@ class Faults:
 
 
 def known_keys(model: type[BaseModel]) -> list[str]:
-    """Return the dotted names of all tables and keys of a model.
-
-    Parameters
-    ----------
-    model : type
-        A pydantic model.
-
-    Returns
-    -------
-    list of str
-        In the order of the model.
-    """
+    """Return the dotted names of all tables and keys of a model."""
     names = []
     for name, field in model.model_fields.items():
         names.append(name)
@@ -160,9 +111,7 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
 
 
 def _length_message(found: Mapping[str, Any], kind: str) -> str:
-    word, count = (
-        ("least", found["min_length"]) if kind == "too_short" else ("most", found["max_length"])
-    )
+    word, count = ("least", found["min_length"]) if kind == "too_short" else ("most", found["max_length"])
     one, many = ("key", "keys") if found["field_type"] == "Dictionary" else ("value", "values")
     return f"must hold at {word} {count} {one if count == 1 else many} (holds {found['actual_length']})"
 
@@ -192,21 +141,7 @@ def _similar(key: str, names: list[str]) -> str:
 
 
 def line_of(text: str, key: str) -> int:
-    """Return the line of a key in a TOML text.
-
-    Parameters
-    ----------
-    text : str
-        A valid TOML document, or nothing.
-    key : str
-        Dotted key, tables of an array counted from 1; where it is not there, the line of the
-        first key of its table counts, or that of the header in an array of tables.
-
-    Returns
-    -------
-    int
-        Line from 1; 0 where neither key nor table is in the text.
-    """
+    """Return the line of a key in a TOML text."""
     if not text:
         return 0
     parts = key.split(".")

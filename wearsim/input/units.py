@@ -38,23 +38,6 @@ def _registry() -> "pint.UnitRegistry[Any]":
 def convert(text: str, unit: str) -> float:
     """Convert a number with a unit, written as a string, into another unit.
 
-    Parameters
-    ----------
-    text : str
-        Such as ``"1 inch"``.
-    unit : str
-        Unit of the result.
-
-    Returns
-    -------
-    float
-        The number in that unit.
-
-    Raises
-    ------
-    ValueError
-        The text is not a number with a unit of the same kind.
-
     Examples
     --------
     >>> convert("1 inch", "mm")
@@ -118,10 +101,7 @@ def _schema(with_unit: bool, **limits: float) -> dict[str, Any]:
 
 
 Positive = Annotated[
-    float,
-    BeforeValidator(_number),
-    Field(gt=0.0),
-    WithJsonSchema(_schema(True, exclusiveMinimum=0.0)),
+    float, BeforeValidator(_number), Field(gt=0.0), WithJsonSchema(_schema(True, exclusiveMinimum=0.0))
 ]
 """A quantity above zero, in the unit of its key."""
 
@@ -131,10 +111,7 @@ NotNegative = Annotated[
 """A quantity of at least zero, in the unit of its key."""
 
 PositiveNumber = Annotated[
-    float,
-    BeforeValidator(_number),
-    Field(gt=0.0),
-    WithJsonSchema(_schema(False, exclusiveMinimum=0.0)),
+    float, BeforeValidator(_number), Field(gt=0.0), WithJsonSchema(_schema(False, exclusiveMinimum=0.0))
 ]
 """A number above zero without a unit."""
 
@@ -148,10 +125,7 @@ def _numbers(value: object, info: ValidationInfo) -> tuple[float, ...]:
 
 
 Speed = Annotated[
-    float,
-    BeforeValidator(_number),
-    Field(ge=1e-6),
-    WithJsonSchema(_schema(True, minimum=1e-6)),
+    float, BeforeValidator(_number), Field(ge=1e-6), WithJsonSchema(_schema(True, minimum=1e-6))
 ]
 """Speed of a wheel that turns [rpm]: at least once in two years."""
 

@@ -63,10 +63,24 @@ def depth_change(depth: Vector, before: Vector) -> float:
 
 @kernel(
     int64(
-        STEP_FUNCTION, CONTACT_FUNCTION, TABLE, VECTOR, TABLE, VECTOR, VECTOR, int64, float64,
-        int64, TABLE, TABLE, TABLE, VECTOR, VECTOR, CUBE,
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        TABLE,
+        VECTOR,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        int64,
+        float64,
+        int64,
+        TABLE,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        CUBE,
     )
-)  # fmt: skip
+)
 def run_once(
     make_step: Callable[..., float],
     contact: Callable[..., None],
@@ -89,9 +103,25 @@ def run_once(
     clock[:] = 0.0
     state[:] = start
     status = wear_in_steps(
-        make_step, contact, state, constants, columns, numbers[MODULUS], law, numbers[DIFFUSION],
-        ends, numbers[LIMIT], tolerance, numbers[HORIZON_TIME], most, work, increments, clock, times, path,
-    )  # fmt: skip
+        make_step,
+        contact,
+        state,
+        constants,
+        columns,
+        numbers[MODULUS],
+        law,
+        numbers[DIFFUSION],
+        ends,
+        numbers[LIMIT],
+        tolerance,
+        numbers[HORIZON_TIME],
+        most,
+        work,
+        increments,
+        clock,
+        times,
+        path,
+    )
     if status in (DEPTH_REACHED, HORIZON):
         last = (int(clock[WRITTEN]) - 1) % times.size
         before = (last - 1) % times.size
@@ -105,10 +135,24 @@ def run_once(
 
 @kernel(
     void(
-        STEP_FUNCTION, CONTACT_FUNCTION, CUBE, TABLE, CUBE, TABLE, TABLE, int64, int64, TABLE,
-        TABLE, VECTOR, VECTOR, CUBE, CUBE, TABLE,
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        CUBE,
+        TABLE,
+        CUBE,
+        TABLE,
+        TABLE,
+        int64,
+        int64,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        CUBE,
+        CUBE,
+        TABLE,
     )
-)  # fmt: skip
+)
 def wear_many(
     make_step: Callable[..., float],
     contact: Callable[..., None],
@@ -136,14 +180,7 @@ def wear_many(
     """
     for i in range(starts.shape[0]):
         flank_rate(
-            contact,
-            starts[i],
-            starts[i, 2],
-            constants[i],
-            columns[i],
-            numbers[i, MODULUS],
-            laws[i],
-            work,
+            contact, starts[i], starts[i, 2], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
         )
         wide = widest(work)
         tolerance = PART_OF_TOLERANCE * numbers[i, LIFE_TOLERANCE]
@@ -152,9 +189,23 @@ def wear_many(
         found[i, STATUS] = RUNNING
         while tolerance >= TIGHTEST and found[i, STATUS] == RUNNING:
             status = run_once(
-                make_step, contact, starts[i], constants[i], columns[i], numbers[i], laws[i], ends,
-                tolerance, most, worn[i, :3], work, increments, clock, times, path,
-            )  # fmt: skip
+                make_step,
+                contact,
+                starts[i],
+                constants[i],
+                columns[i],
+                numbers[i],
+                laws[i],
+                ends,
+                tolerance,
+                most,
+                worn[i, :3],
+                work,
+                increments,
+                clock,
+                times,
+                path,
+            )
             if status == ended and status in (DEPTH_REACHED, HORIZON):
                 if status == HORIZON:
                     change = depth_change(worn[i, 2], worn[i, 3])
@@ -167,14 +218,7 @@ def wear_many(
             # Where the steps do not suffice a tighter run takes even more.
             tolerance = 0.0 if status == RUNNING else 0.1 * tolerance
         status = flank_rate(
-            contact,
-            worn[i, :3],
-            worn[i, 2],
-            constants[i],
-            columns[i],
-            numbers[i, MODULUS],
-            laws[i],
-            work,
+            contact, worn[i, :3], worn[i, 2], constants[i], columns[i], numbers[i, MODULUS], laws[i], work
         )
         if status != RUNNING:
             found[i, STATUS] = RUNNING

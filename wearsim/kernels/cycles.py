@@ -21,10 +21,22 @@ CYCLES_ROWS = 10
 
 @kernel(
     int64(
-        CONTACT_FUNCTION, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE,
-        float64, VECTOR, float64, float64, float64, int64, VECTOR,
+        CONTACT_FUNCTION,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        TABLE,
+        TABLE,
+        float64,
+        VECTOR,
+        float64,
+        float64,
+        float64,
+        int64,
+        VECTOR,
     )
-)  # fmt: skip
+)
 def run_cycles(
     contact: Callable[..., None],
     x: Vector,
@@ -57,8 +69,7 @@ def run_cycles(
     done[0] = 0.0
     for update in range(updates):
         flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared)
-        contact(x, y, normal_x, normal_y, curvature, depth, constants, columns,
-                load, slip, speed, relative)  # fmt: skip
+        contact(x, y, normal_x, normal_y, curvature, depth, constants, columns, load, slip, speed, relative)
         wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
         soften(depth, law, step)
         if cycles_per_update != 1.0:

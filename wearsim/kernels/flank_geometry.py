@@ -39,12 +39,7 @@ def _end_frame(
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
 def flank_frame(
-    x: Vector,
-    y: Vector,
-    normal_x: Vector,
-    normal_y: Vector,
-    curvature: Vector,
-    spacing_squared: Vector,
+    x: Vector, y: Vector, normal_x: Vector, normal_y: Vector, curvature: Vector, spacing_squared: Vector
 ) -> None:
     """Write normal, signed curvature and squared spacing at every point.
 

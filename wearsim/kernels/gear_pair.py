@@ -135,6 +135,7 @@ def gear_pair_contact(
             next_gap += worn_gap(depth, columns, place + pitch, ahead)
         if last_gap < math.inf:
             last_gap += worn_gap(depth, columns, place - pitch, behind)
-        turn = turned(torque / stiffness, own, lever, next_gap, columns[NEXT_LEVER, j],
-                      last_gap, columns[LAST_LEVER, j])  # fmt: skip
+        turn = turned(
+            torque / stiffness, own, lever, next_gap, columns[NEXT_LEVER, j], last_gap, columns[LAST_LEVER, j]
+        )
         load[j] = stiffness * max(0.0, turn * lever - own)

@@ -48,13 +48,7 @@ def local_compliance(coefficients: Vector) -> float:
 
 @kernel(float64(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
 def roller_gap(
-    x: Vector,
-    y: Vector,
-    recess: Vector,
-    constants: Vector,
-    gap: Vector,
-    cosine: Vector,
-    sine: Vector,
+    x: Vector, y: Vector, recess: Vector, constants: Vector, gap: Vector, cosine: Vector, sine: Vector
 ) -> float:
     """Write gap, ``recess`` added, and direction of every cell along the roller's radius.
 
@@ -77,12 +71,7 @@ def roller_gap(
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
 def displacement(
-    force: Vector,
-    cosine: Vector,
-    sine: Vector,
-    wear: Vector,
-    coefficients: Vector,
-    displaced: Vector,
+    force: Vector, cosine: Vector, sine: Vector, wear: Vector, coefficients: Vector, displaced: Vector
 ) -> None:
     """Write how far the cells recede by forces on them, elastically and by wear.
 
@@ -124,13 +113,7 @@ def scale_to_load(force: Vector, cosine: Vector, load: float) -> None:
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, float64, VECTOR))
 def overlap_force(
-    gap: Vector,
-    cosine: Vector,
-    width: Vector,
-    wear: Vector,
-    local: float,
-    load: float,
-    force: Vector,
+    gap: Vector, cosine: Vector, width: Vector, wear: Vector, local: float, load: float, force: Vector
 ) -> None:
     """Write a first guess: pressure in proportion to the overlap of roller and profile.
 
@@ -165,12 +148,7 @@ def overlap_force(
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
 def imbalance(
-    force: Vector,
-    deformed: Vector,
-    cosine: Vector,
-    mobility: Vector,
-    pressed: Vector,
-    state: Vector,
+    force: Vector, deformed: Vector, cosine: Vector, mobility: Vector, pressed: Vector, state: Vector
 ) -> None:
     """Find the approach, the cells that may move, and how far the forces are from balance.
 
@@ -242,8 +220,14 @@ def first_force(
             last = j + 1 if force[j] > 0.0 else last
         if last > first:
             scale_to_load(force, cosine, load)
-            displacement(force[first:last], cosine[first:last], sine[first:last],
-                         wear[first:last], coefficients, displaced[first:last])  # fmt: skip
+            displacement(
+                force[first:last],
+                cosine[first:last],
+                sine[first:last],
+                wear[first:last],
+                coefficients,
+                displaced[first:last],
+            )
             for j in range(first, last):
                 if force[j] > 0.0:
                     through += force[j] * (gap[j] - level * cosine[j])
@@ -262,12 +246,7 @@ def first_force(
 
 @kernel(int64(VECTOR, VECTOR, TABLE, int64, int64, VECTOR))
 def balance_forces(
-    coefficients: Vector,
-    constants: Vector,
-    work: Vector,
-    first: int,
-    last: int,
-    state: Vector,
+    coefficients: Vector, constants: Vector, work: Vector, first: int, last: int, state: Vector
 ) -> int:
     """Bring the forces of the cells from ``first`` to before ``last`` into balance.
 
@@ -277,8 +256,11 @@ def balance_forces(
     set of cells comes back. Returns the iterations; ``state`` as `imbalance` leaves it.
     """
     gap, cosine, sine, wear = (
-        work[0][first:last], work[1][first:last], work[2][first:last], work[3][first:last],
-    )  # fmt: skip
+        work[0][first:last],
+        work[1][first:last],
+        work[2][first:last],
+        work[3][first:last],
+    )
     mobility, force, deformed = work[4][first:last], work[5][first:last], work[6][first:last]
     step, response, pressed = work[7][first:last], work[8][first:last], work[9][first:last]
     trial, trial_deformed = work[10][first:last], work[11][first:last]
@@ -322,9 +304,7 @@ def balance_forces(
                     deformed[j] = trial_deformed[j]
                 continue
             length = reach
-        for j in range(
-            n
-        ):  # the force that ends the step must vanish exactly, or it ends all others
+        for j in range(n):  # the force that ends the step must vanish exactly, or it ends all others
             gone = step[j] < 0.0 and -force[j] / step[j] <= length
             force[j] = 0.0 if gone else max(force[j] + length * step[j], 0.0)
         for j in range(n):
@@ -404,11 +384,7 @@ def line_contact(
     return CONVERGED if result[1] <= constants[6] else NOT_CONVERGED
 
 
-@kernel(
-    int64(
-        VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR, TABLE, VECTOR,
-    )
-)  # fmt: skip
+@kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR, TABLE, VECTOR))
 def power_contact(
     x: Vector,
     y: Vector,
@@ -450,8 +426,9 @@ def power_contact(
                 at = max(pressure[j], floor)
                 compliance[j] = exponent * wear_factor[j] * at ** (exponent - 1.0)
                 recess[j] = (1.0 - exponent) * wear_factor[j] * at**exponent
-        status = line_contact(x, y, width, compliance, recess, coefficients, constants,
-                              pressure, work, result)  # fmt: skip
+        status = line_contact(
+            x, y, width, compliance, recess, coefficients, constants, pressure, work, result
+        )
         iterations += result[6]
         if status != CONVERGED and status != NOT_CONVERGED:
             break

@@ -116,8 +116,20 @@ def flank_rate(
     curvature, pressure, depth per cycle.
     """
     flank_frame(state[0], state[1], work[0], work[1], work[2], work[3])
-    contact(state[0], state[1], work[0], work[1], work[2], state[2], constants, columns,
-            work[4], work[5], work[6], work[7])  # fmt: skip
+    contact(
+        state[0],
+        state[1],
+        work[0],
+        work[1],
+        work[2],
+        state[2],
+        constants,
+        columns,
+        work[4],
+        work[5],
+        work[6],
+        work[7],
+    )
     wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
     soften(layer, law, work[9])
     return update_status(work[4], work[7], work[9], work[3], 0.0)

@@ -74,13 +74,7 @@ def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> in
 
 @kernel(void(VECTOR, VECTOR, TABLE, float64, VECTOR, TABLE, VECTOR))
 def roller_locus(
-    x: Vector,
-    y: Vector,
-    base: Vector,
-    radius: float,
-    work: Vector,
-    locus: Vector,
-    touched: Vector,
+    x: Vector, y: Vector, base: Vector, radius: float, work: Vector, locus: Vector, touched: Vector
 ) -> None:
     """Move every node of a base line towards the outline until the roller touches it.
 

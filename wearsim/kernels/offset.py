@@ -88,10 +88,21 @@ def offset_failures(work: Vector) -> int:
 
 @kernel(
     int64(
-        VECTOR, VECTOR, VECTOR, VECTOR, TABLE, TABLE, float64, VECTOR, float64, float64, float64,
-        int64, VECTOR,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        TABLE,
+        TABLE,
+        float64,
+        VECTOR,
+        float64,
+        float64,
+        float64,
+        int64,
+        VECTOR,
     )
-)  # fmt: skip
+)
 def run_offset_cycles(
     x: Vector,
     y: Vector,

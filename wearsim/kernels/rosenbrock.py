@@ -35,21 +35,37 @@ MOST_RATIO = 1e3
 """Of the third entry of an end row to that of the row beside it, which eliminates it."""
 
 STAGES = 4
-# fmt: off
+
 STATE = (
-    0.0, 0.0, 0.0,
-    2.0, 0.0, 0.0,
-    1.4192173174557645, -0.2592322116729697, 0.0,
-    4.18476048231916, -0.28519201735549593, 2.294280360279042,
+    0.0,
+    0.0,
+    0.0,
+    2.0,
+    0.0,
+    0.0,
+    1.4192173174557645,
+    -0.2592322116729697,
+    0.0,
+    4.18476048231916,
+    -0.28519201735549593,
+    2.294280360279042,
 )
 RIGHT = (
-    0.0, 0.0, 0.0,
-    -4.588560720558084, 0.0, 0.0,
-    -4.18476048231916, 0.28519201735549593, 0.0,
-    -6.368179200128357, -6.795620944466836, 2.870098604331056,
+    0.0,
+    0.0,
+    0.0,
+    -4.588560720558084,
+    0.0,
+    0.0,
+    -4.18476048231916,
+    0.28519201735549593,
+    0.0,
+    -6.368179200128357,
+    -6.795620944466836,
+    2.870098604331056,
 )
 ERROR = (0.27774994764796823, -1.403239895175999, 1.772630127667551, 0.5)
-# fmt: on
+
 """Rows of the stages in the increments u = Gamma k, which spares products with the matrix.
 
 A stage stands at y + STATE u and solves (I - gamma h A) u = gamma (h f + RIGHT u); the result is
@@ -75,8 +91,20 @@ def slope_rate(
         work[0, j] = start[4, j] - TURN * start[5, j]
         work[1, j] = start[5, j] + TURN * start[4, j]
         work[2, j] = start[7, j]
-    contact(start[0], start[1], work[0], work[1], work[2], start[2], constants, columns,
-            work[4], work[5], work[6], work[7])  # fmt: skip
+    contact(
+        start[0],
+        start[1],
+        work[0],
+        work[1],
+        work[2],
+        start[2],
+        constants,
+        columns,
+        work[4],
+        work[5],
+        work[6],
+        work[7],
+    )
     wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
     soften(start[2], law, work[9])
     for j in range(n):

@@ -17,26 +17,13 @@ CUBE = float64[:, :, ::1]
 # x, y, normal_x, normal_y, curvature, depth, constants, columns
 #   -> load_per_width, slip, sliding_speed, relative_curvature
 # A mechanism may also overwrite the normals: they are the direction a point recedes in.
-CONTACT = void(
-    VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, VECTOR, VECTOR, VECTOR, VECTOR
-)
+CONTACT = void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, VECTOR, VECTOR, VECTOR, VECTOR)
 CONTACT_FUNCTION = types.FunctionType(CONTACT)
 
 # contact, state of the path, constants, columns, modulus, law, diffusion, whether the ends bend,
 # length of the step, work -> state after it, with the greatest error of a depth; work
 STEP = float64(
-    CONTACT_FUNCTION,
-    TABLE,
-    VECTOR,
-    TABLE,
-    float64,
-    VECTOR,
-    float64,
-    int64,
-    float64,
-    TABLE,
-    TABLE,
-    TABLE,
+    CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64, float64, TABLE, TABLE, TABLE
 )
 STEP_FUNCTION = types.FunctionType(STEP)
 

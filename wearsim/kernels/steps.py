@@ -178,10 +178,26 @@ def pass_layer(start: Vector, state: Vector, law: Vector) -> None:
 
 @kernel(
     int64(
-        STEP_FUNCTION, CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64,
-        float64, float64, float64, int64, TABLE, TABLE, VECTOR, VECTOR, CUBE,
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        TABLE,
+        VECTOR,
+        TABLE,
+        float64,
+        VECTOR,
+        float64,
+        int64,
+        float64,
+        float64,
+        float64,
+        int64,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        CUBE,
     )
-)  # fmt: skip
+)
 def wear_in_steps(
     make_step: Callable[..., float],
     contact: Callable[..., None],
@@ -244,17 +260,27 @@ def wear_in_steps(
         grown = MOST
         while True:
             step = clock[STEP]
-            error = make_step(contact, here, constants, columns, modulus, law, diffusion, ends,
-                              step, work, state, increments) / (tolerance * depth_limit)  # fmt: skip
+            error = make_step(
+                contact,
+                here,
+                constants,
+                columns,
+                modulus,
+                law,
+                diffusion,
+                ends,
+                step,
+                work,
+                state,
+                increments,
+            ) / (tolerance * depth_limit)
             part = 1.0
             if error <= 1.0:
                 error = math.nan if keep_removed(here, state, step) > 0 else error
                 part = part_to_layer(here, state, law, tolerance * depth_limit)
             if error <= 1.0 and part == 1.0:
                 pass_layer(here, state, law)
-                status = flank_rate(
-                    contact, state, state[2], constants, columns, modulus, law, work
-                )
+                status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
             clock[RATES] += 5.0
             if error <= 1.0 and part == 1.0 and status not in (CONFORMING, BROKEN):
                 break

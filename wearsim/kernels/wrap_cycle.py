@@ -43,9 +43,7 @@ _TOLERANCE = 1e-9
 LOOSEST = 1e-2
 
 # numbers of a cycle
-WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST, SHIFT = (
-    range(9)
-)
+WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST, SHIFT = range(9)
 CYCLE_NUMBERS = 9
 
 
@@ -57,10 +55,22 @@ def engaged(wrap_angle: float, pitch_angle: float, phase: float) -> int:
 
 @kernel(
     int64(
-        _TABLES, TABLE, int64, int64, int64, float64, VECTOR, VECTOR, _TABLES, TABLE, TABLE, VECTOR,
-        VECTOR, TABLE,
+        _TABLES,
+        TABLE,
+        int64,
+        int64,
+        int64,
+        float64,
+        VECTOR,
+        VECTOR,
+        _TABLES,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        TABLE,
     )
-)  # fmt: skip
+)
 def wrap_events(
     loci: Vector,
     touched: Vector,
@@ -107,9 +117,19 @@ def wrap_events(
                     for i in range(rollers):
                         position[i] = numbers[START] if attempt < 2 else numbers[LOWEST]
                 status = solve_wrap(
-                    loci[0], loci[bodies - 1], configuration, rollers, constants, tight, slack,
-                    _TOLERANCE * constants[TIGHT_TENSION], position, work, tension, force,
-                )  # fmt: skip
+                    loci[0],
+                    loci[bodies - 1],
+                    configuration,
+                    rollers,
+                    constants,
+                    tight,
+                    slack,
+                    _TOLERANCE * constants[TIGHT_TENSION],
+                    position,
+                    work,
+                    tension,
+                    force,
+                )
                 if status == SEATED:
                     break
             if status == STALLED:
@@ -121,9 +141,7 @@ def wrap_events(
             base = (configuration * phases + step) * most
             for i in range(most):
                 events[EVENT_LOAD, base + i] = 0.0
-            place_rollers(
-                loci[0], loci[bodies - 1], configuration, rollers, position, 0.0, gap_work
-            )
+            place_rollers(loci[0], loci[bodies - 1], configuration, rollers, position, 0.0, gap_work)
             for i in range(rollers):
                 event, body = base + i, (i + configuration) % bodies
                 k = min(int(position[i]), touched.shape[1] - 2)
@@ -132,9 +150,7 @@ def wrap_events(
                 events[EVENT_CENTRE_Y, event] = gap_work[CENTRE_Y, i]
                 events[EVENT_NORMAL_X, event] = gap_work[NORMAL_X, i]
                 events[EVENT_NORMAL_Y, event] = gap_work[NORMAL_Y, i]
-                events[EVENT_TOUCHED, event] = (1.0 - part) * touched[body, k] + part * touched[
-                    body, k + 1
-                ]
+                events[EVENT_TOUCHED, event] = (1.0 - part) * touched[body, k] + part * touched[body, k + 1]
                 pressed = force[i] > _TOLERANCE * constants[TIGHT_TENSION]
                 events[EVENT_LOAD, event] = force[i] / numbers[FACE_WIDTH] if pressed else 0.0
                 events[EVENT_COUNT, event] = count

@@ -35,13 +35,7 @@ _HANGING = 1e-4
 
 @kernel(void(TABLE, TABLE, int64, int64, VECTOR, float64, TABLE))
 def place_rollers(
-    locus: Vector,
-    other: Vector,
-    first: int,
-    rollers: int,
-    position: Vector,
-    pitch_angle: float,
-    work: Vector,
+    locus: Vector, other: Vector, first: int, rollers: int, position: Vector, pitch_angle: float, work: Vector
 ) -> None:
     """Write place, first and second derivative and normal of every roller on its locus.
 
@@ -120,10 +114,7 @@ def balance(
             for j in range(i):
                 tension[j + 1] = pull_t
         else:
-            ex, ey = (
-                work[CENTRE_X, i] - work[CENTRE_X, before],
-                work[CENTRE_Y, i] - work[CENTRE_Y, before],
-            )
+            ex, ey = (work[CENTRE_X, i] - work[CENTRE_X, before], work[CENTRE_Y, i] - work[CENTRE_Y, before])
             length = math.sqrt(ex * ex + ey * ey)
             spring = stiffness / links
             pull = spring * (length - natural)
@@ -200,11 +191,7 @@ def residual(rollers: int, work: Vector) -> float:
     return worst
 
 
-@kernel(
-    int64(
-        TABLE, TABLE, int64, int64, VECTOR, float64, float64, float64, VECTOR, TABLE, VECTOR, VECTOR
-    )
-)
+@kernel(int64(TABLE, TABLE, int64, int64, VECTOR, float64, float64, float64, VECTOR, TABLE, VECTOR, VECTOR))
 def settle(
     locus: Vector,
     other: Vector,
@@ -276,9 +263,7 @@ def lift_off(rollers: int, tolerance: float, work: Vector) -> int:
     worst, which = -tolerance, -1
     for i in range(rollers):
         if work[_ALOFT, i] == 0.0:
-            pressing = -(
-                work[_FORCE_X, i] * work[NORMAL_X, i] + work[_FORCE_Y, i] * work[NORMAL_Y, i]
-            )
+            pressing = -(work[_FORCE_X, i] * work[NORMAL_X, i] + work[_FORCE_Y, i] * work[NORMAL_Y, i])
             if pressing < worst:
                 worst, which = pressing, i
     if which < 0:
@@ -303,12 +288,7 @@ def nearest_node(locus: Vector, x: float, y: float, allowed: float) -> float:
 
 @kernel(void(int64, int64, VECTOR, float64, float64, TABLE))
 def hang_rollers(
-    first: int,
-    rollers: int,
-    constants: Vector,
-    tight_angle: float,
-    slack_angle: float,
-    work: Vector,
+    first: int, rollers: int, constants: Vector, tight_angle: float, slack_angle: float, work: Vector
 ) -> None:
     """Write the places of the rollers aloft.
 
@@ -352,13 +332,7 @@ def hang_rollers(
 
 @kernel(int64(TABLE, TABLE, int64, int64, VECTOR, VECTOR, TABLE))
 def seat_again(
-    locus: Vector,
-    other: Vector,
-    first: int,
-    rollers: int,
-    constants: Vector,
-    position: Vector,
-    work: Vector,
+    locus: Vector, other: Vector, first: int, rollers: int, constants: Vector, position: Vector, work: Vector
 ) -> int:
     """Put rollers back on the tooth that hang inside it, for good; return how many."""
     angle, back = constants[PITCH_ANGLE], 0
@@ -391,11 +365,7 @@ def drag(rollers: int, friction: float, work: Vector) -> float:
     return change
 
 
-@kernel(
-    int64(
-        TABLE, TABLE, int64, int64, VECTOR, float64, float64, float64, VECTOR, TABLE, VECTOR, VECTOR
-    )
-)
+@kernel(int64(TABLE, TABLE, int64, int64, VECTOR, float64, float64, float64, VECTOR, TABLE, VECTOR, VECTOR))
 def solve_wrap(
     locus: Vector,
     other: Vector,
@@ -427,9 +397,19 @@ def solve_wrap(
     status = STALLED
     for _ in range(_MOST_ROUNDS):
         status = settle(
-            locus, other, first, rollers, constants, tight_angle, slack_angle, tolerance,
-            position, work, tension, force,
-        )  # fmt: skip
+            locus,
+            other,
+            first,
+            rollers,
+            constants,
+            tight_angle,
+            slack_angle,
+            tolerance,
+            position,
+            work,
+            tension,
+            force,
+        )
         if status == JUMPED:
             break
         lifted = lift_off(rollers, tolerance, work)

@@ -30,9 +30,16 @@ UNWORN_ROWS = 6
 
 # numbers of a step
 (
-    MATE_RADIUS, COEFFICIENT, PRESSURE_EXPONENT, SPEED_EXPONENT, CYCLES, REACH, TOLERANCE,
-    CASE_DEPTH, CORE_FACTOR,
-) = range(9)  # fmt: skip
+    MATE_RADIUS,
+    COEFFICIENT,
+    PRESSURE_EXPONENT,
+    SPEED_EXPONENT,
+    CYCLES,
+    REACH,
+    TOLERANCE,
+    CASE_DEPTH,
+    CORE_FACTOR,
+) = range(9)
 NUMBERS = 9
 
 # what a step found
@@ -58,9 +65,7 @@ def worn_width(depth: Vector, unworn: Vector, first: int, last: int, width: Vect
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, TABLE, int64, int64))
-def recede(
-    area: Vector, depth: Vector, x: Vector, y: Vector, unworn: Vector, first: int, last: int
-) -> None:
+def recede(area: Vector, depth: Vector, x: Vector, y: Vector, unworn: Vector, first: int, last: int) -> None:
     """Write depth and points from the area worn off per length of the unworn outline.
 
     Along the normals of an outline of curvature kappa the area is d - kappa d^2/2.
@@ -85,9 +90,7 @@ def place_roller(event: int, events: Vector, numbers: Vector, constants: Vector)
 
 
 @kernel(int64(VECTOR, VECTOR, int64, int64, VECTOR, VECTOR))
-def touches_beyond(
-    x: Vector, y: Vector, first: int, last: int, constants: Vector, result: Vector
-) -> int:
+def touches_beyond(x: Vector, y: Vector, first: int, last: int, constants: Vector, result: Vector) -> int:
     """Return 1 where a roller pressed on the cells from ``first`` to before ``last`` may touch others.
 
     The cells that may press must not reach an end of these, and all others must lie farther
@@ -145,17 +148,26 @@ def wear_event(
             soft = depth[body, j] > numbers[CASE_DEPTH]
             factor[j] = worn * numbers[CORE_FACTOR] if soft else worn
         status = power_contact(
-            x[body][first:last], y[body][first:last], width[first:last], factor[first:last], exponent,
-            coefficients, constants, pressures[event][first:last], work[3:], result,
-        )  # fmt: skip
+            x[body][first:last],
+            y[body][first:last],
+            width[first:last],
+            factor[first:last],
+            exponent,
+            coefficients,
+            constants,
+            pressures[event][first:last],
+            work[3:],
+            result,
+        )
         if attempt == 1:
             break
         if status != CONVERGED:
             for j in range(first, last):
                 pressures[event, j] = 0.0
-        elif touches_beyond(
-            x[body][low:high], y[body][low:high], first - low, last - low, constants, result
-        ) == 0:  # fmt: skip
+        elif (
+            touches_beyond(x[body][low:high], y[body][low:high], first - low, last - low, constants, result)
+            == 0
+        ):
             break
     findings[UNBALANCED] += 0.0 if status == CONVERGED else 1.0
     if status != CONVERGED and status != NOT_CONVERGED:
@@ -202,6 +214,5 @@ def wear_events(
         event = count - 1 - i if backwards == 1 else i
         if events[EVENT_LOAD, event] > 0.0:
             wear_event(
-                event, events, x, y, area, depth, unworn, coefficients, numbers, pressures, work,
-                findings,
-            )  # fmt: skip
+                event, events, x, y, area, depth, unworn, coefficients, numbers, pressures, work, findings
+            )

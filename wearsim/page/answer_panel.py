@@ -16,13 +16,7 @@ from wearsim.result import Life, WearResult
 
 
 class AnswerPanel:
-    """The answer in the place where it is made.
-
-    Parameters
-    ----------
-    palette : mapping
-        Colours of its charts.
-    """
+    """The answer in the place where it is made."""
 
     def __init__(self, palette: Palette) -> None:
         self._palette = palette
@@ -44,13 +38,7 @@ class AnswerPanel:
             place.set_visibility(False)
 
     def show_faults(self, faults: Sequence[Fault]) -> None:
-        """Show what is wrong with the input, or nothing.
-
-        Parameters
-        ----------
-        faults : sequence of Fault
-            Everything wrong with it.
-        """
+        """Show what is wrong with the input, or nothing."""
         self._faults.set_visibility(bool(faults))
         self._faults.clear()
         with self._faults:
@@ -63,13 +51,7 @@ class AnswerPanel:
             place.classes("ws-old")
 
     def show_life(self, result: WearResult) -> None:
-        """Show the life and everything in words.
-
-        Parameters
-        ----------
-        result : WearResult
-            Of the present input.
-        """
+        """Show the life and everything in words."""
         self._fill_life(result)
         self._fill_text(result)
         for place in (self._life, self._text):
@@ -77,26 +59,14 @@ class AnswerPanel:
             place.classes(remove="ws-old")
 
     def show_loads(self, chart: Chart | None) -> None:
-        """Show what the teeth carry, or nothing.
-
-        Parameters
-        ----------
-        chart : Chart or None
-            Of the present input.
-        """
+        """Show what the teeth carry, or nothing."""
         self._loads = chart
         self._load.set_visibility(chart is not None)
         self._show_charts(self._load, [] if chart is None else [chart])
         self._load.classes(remove="ws-old")
 
     def show_pictures(self, pictures: Pictures) -> None:
-        """Show charts, sketch and margins.
-
-        Parameters
-        ----------
-        pictures : Pictures
-            Of the present input.
-        """
+        """Show charts, sketch and margins."""
         self._pictures = pictures
         self._show_charts(self._teeth, pictures.tooth)
         self._show_charts(self._charts, pictures.charts)
@@ -107,13 +77,7 @@ class AnswerPanel:
             place.classes(remove="ws-old")
 
     def paint(self, palette: Palette) -> None:
-        """Draw the charts in other colours.
-
-        Parameters
-        ----------
-        palette : mapping
-            The colours.
-        """
+        """Draw the charts in other colours."""
         self._palette = palette
         if self._loads is not None:
             self._show_charts(self._load, [self._loads])
@@ -188,9 +152,7 @@ class AnswerPanel:
                         meter = ui.element("meter").props("min=0 max=1 low=0.7 high=0.95 optimum=0")
                         meter.props["value"] = round(one.used, 4)
                         meter.props["aria-label"] = f"used part of {one.name}"
-                        ui.label(
-                            f"{one.value} of {one.limit} {one.unit} ({100.0 * one.used:.0f} %)"
-                        )
+                        ui.label(f"{one.value} of {one.limit} {one.unit} ({100.0 * one.used:.0f} %)")
 
 
 def _text(tag: str, text: str) -> ui.element:

@@ -30,105 +30,33 @@ class StaleError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Pictures:
-    """What an answer looks like.
+    """What an answer looks like."""
 
-    Attributes
-    ----------
-    tooth : list of Chart
-        The flank before and after.
-    charts : list of Chart
-        Depth, pressure and sliding along the flank, and wear over time.
-    sketch : Sketch or None
-        The drive to scale, where it is known.
-    margins : list of Margin
-        How near every limit is.
-    """
-
-    tooth: list[Chart]
-    charts: list[Chart]
-    sketch: Sketch | None
-    margins: list[Margin]
+    tooth: list[Chart]  # the flank before and after
+    charts: list[Chart]  # depth, pressure and sliding along the flank, and wear over time
+    sketch: Sketch | None  # the drive to scale, where it is known
+    margins: list[Margin]  # how near every limit is
 
 
 def faults_of(error: WearsimError) -> tuple[Fault, ...]:
-    """Return what is wrong, each as the command line prints it.
-
-    Parameters
-    ----------
-    error : WearsimError
-        What was raised.
-
-    Returns
-    -------
-    tuple of Fault
-        At least one.
-    """
+    """Return what is wrong, each as the command line prints it."""
     return error.faults if isinstance(error, CaseError) else (Fault(str(error)),)
 
 
 def edited_case(source: CaseText, file: CaseFile) -> Case:
-    """Return the case of an input whose title tells what is not yet in its file.
-
-    Parameters
-    ----------
-    source : CaseText
-        The input.
-    file : CaseFile
-        What it held when it was last read or written.
-
-    Returns
-    -------
-    Case
-        As `load_case` gives it but for the title.
-
-    Raises
-    ------
-    CaseError
-        Everything that is wrong with the input.
-    """
+    """Return the case of an input whose title tells what is not yet in its file."""
     case = load_case(source)
     tables, written = tables_of(source.text) or {}, tables_of(file.text) or {}
     return replace(case, title=retitled(tables, written).get("title") or case.title)
 
 
 def is_slow(case: Case) -> bool:
-    """Whether the life of a case takes so long that an estimate helps.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    bool
-        True on a wrap.
-    """
+    """Whether the life of a case takes so long that an estimate helps."""
     return isinstance(case.drive, WrapDrive)
 
 
 def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:
-    """Return a first estimate of a life that takes seconds, on few points and with long steps.
-
-    Parameters
-    ----------
-    source : CaseText
-        The input.
-    case : Case
-        Its case.
-    is_stale : callable
-        Whether nobody waits for it any more.
-
-    Returns
-    -------
-    WearResult or None
-        None where there is no quick way.
-
-    Raises
-    ------
-    StaleError
-        Nobody waits for it any more.
-    """
+    """Return a first estimate of a life that takes seconds, on few points and with long steps."""
     rough = []
     for key, most in _ROUGH.items():
         table, _, name = key.partition(".")
@@ -144,49 +72,14 @@ def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> Wear
 
 
 def life(case: Case, is_stale: Callable[[], bool], progress: Callable[[float], None]) -> WearResult:
-    """Wear a case, as ``wearsim life`` does.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    is_stale : callable
-        Whether nobody waits for it any more.
-    progress : callable
-        Told how much is done, from 0 to 1.
-
-    Returns
-    -------
-    WearResult
-        Its result.
-
-    Raises
-    ------
-    WearsimError
-        The calculation failed.
-    StaleError
-        Nobody waits for it any more.
-    """
+    """Wear a case, as ``wearsim life`` does."""
     if is_stale():
         raise StaleError
     return simulate(case, _watch(is_stale, progress))
 
 
 def pictures(case: Case, result: WearResult) -> Pictures:
-    """Return what a result looks like.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    result : WearResult
-        Its result.
-
-    Returns
-    -------
-    Pictures
-        Charts, a sketch and margins.
-    """
+    """Return what a result looks like."""
     label: Sequence[str] = [result.case]
     return Pictures(
         tooth_charts(result),
@@ -196,9 +89,7 @@ def pictures(case: Case, result: WearResult) -> Pictures:
     )
 
 
-def _watch(
-    is_stale: Callable[[], bool], progress: Callable[[float], None]
-) -> Callable[[float], None]:
+def _watch(is_stale: Callable[[], bool], progress: Callable[[float], None]) -> Callable[[float], None]:
     """Tell of progress, or end a run that nobody waits for."""
 
     def told(part: float) -> None:

@@ -10,21 +10,12 @@ from wearsim.report.html.charts import Chart
 
 Palette = Mapping[str, str]
 
-_CONFIG = {
-    "displaylogo": False,
-    "modeBarButtonsToRemove": ["lasso2d", "select2d", "autoScale2d"],
-}
+_CONFIG = {"displaylogo": False, "modeBarButtonsToRemove": ["lasso2d", "select2d", "autoScale2d"]}
 
 
 @cache
 def palettes() -> tuple[Palette, Palette]:
-    """Return the colours of the report's pages by their roles.
-
-    Returns
-    -------
-    tuple of mapping
-        On a light and on a dark page.
-    """
+    """Return the colours of the report's pages by their roles."""
     style = resources.files("wearsim.report.html").joinpath("style.css").read_text("utf-8")
     blocks = re.findall(r":root \{(.*?)\}", style, flags=re.DOTALL)
     light, dark = (dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block)) for block in blocks[:2])
@@ -32,28 +23,11 @@ def palettes() -> tuple[Palette, Palette]:
 
 
 def figure(chart: Chart, palette: Palette, factor: float = 1.0) -> dict[str, Any]:
-    """Return a chart for ``ui.plotly``.
-
-    Parameters
-    ----------
-    chart : Chart
-        The chart.
-    palette : mapping
-        Its colours.
-    factor : float
-        By which the depth of a flank is enlarged, where it has a slider for that.
-
-    Returns
-    -------
-    dict
-        With data, layout and config.
-    """
+    """Return a chart for ``ui.plotly``."""
     content = chart.content
     traces, slider = content["data"], chart.slider
     if slider:
-        for trace, places in zip(
-            traces[slider["first"] :], _enlarged(slider, factor), strict=False
-        ):
+        for trace, places in zip(traces[slider["first"] :], _enlarged(slider, factor), strict=False):
             trace["x"], trace["y"] = places
     return {
         "data": [_painted(trace, palette) for trace in traces],
@@ -81,11 +55,7 @@ def _furnished(layout: dict[str, Any], palette: Palette) -> dict[str, Any]:
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": palette["page"],
         "font": font,
-        "hoverlabel": {
-            "bgcolor": palette["panel"],
-            "bordercolor": palette["line"],
-            "font": font,
-        },
+        "hoverlabel": {"bgcolor": palette["panel"], "bordercolor": palette["line"], "font": font},
     }
     for name in layout:
         if re.match(r"[xy]axis", name):

@@ -13,15 +13,7 @@ from wearsim.report.html.sketch import Sketch
 
 
 class ChartView:
-    """A chart in the place where it is made.
-
-    Parameters
-    ----------
-    chart : Chart
-        What it shows first.
-    palette : mapping
-        Its colours.
-    """
+    """A chart in the place where it is made."""
 
     def __init__(self, chart: Chart, palette: Palette) -> None:
         self._chart, self._palette = chart, palette
@@ -35,15 +27,7 @@ class ChartView:
         self.show(chart, palette)
 
     def show(self, chart: Chart, palette: Palette) -> None:
-        """Show a chart of the same kind, with the depth enlarged as the user chose.
-
-        Parameters
-        ----------
-        chart : Chart
-            The chart.
-        palette : mapping
-            Its colours.
-        """
+        """Show a chart of the same kind, with the depth enlarged as the user chose."""
         self._chart, self._palette = chart, palette
         self._title.text = chart.title[0].upper() + chart.title[1:]
         self._plot.props["aria-label"] = chart.alt
@@ -60,9 +44,7 @@ class ChartView:
             ui.label("Depth enlarged")
             self._slider = ui.slider(min=1, max=slider["most"], value=slider["factor"])
             self._slider.props('aria-label="Depth enlarged"')
-            self._slider.on(
-                "update:model-value", lambda event: self._choose(event.args), throttle=0.05
-            )
+            self._slider.on("update:model-value", lambda event: self._choose(event.args), throttle=0.05)
             self._times = ui.label().classes("ws-times")
             self._depth = ui.label().classes("ws-muted")
 
@@ -93,13 +75,7 @@ class SketchView:
             self._drawing = ui.html("", sanitize=False)
 
     def show(self, sketch: Sketch | None) -> None:
-        """Show a drive, or nothing.
-
-        Parameters
-        ----------
-        sketch : Sketch or None
-            What is drawn; None where nothing is known of it.
-        """
+        """Show a drive, or nothing."""
         self._place.set_visibility(sketch is not None)
         if sketch is not None:
             # The template escapes every text.
@@ -108,21 +84,8 @@ class SketchView:
 
 
 def style(palettes: tuple[Palette, Palette]) -> str:
-    """Return the rules of the page.
-
-    Parameters
-    ----------
-    palettes : tuple of mapping
-        Colours on a light and on a dark page.
-
-    Returns
-    -------
-    str
-        CSS; sketches look as in reports.
-    """
-    named = [
-        "".join(f"--{name}: {colour};" for name, colour in palette.items()) for palette in palettes
-    ]
+    """Return the rules of the page."""
+    named = ["".join(f"--{name}: {colour};" for name, colour in palette.items()) for palette in palettes]
     reports = resources.files("wearsim.report.html").joinpath("style.css").read_text("utf-8")
     sketches = [line for line in reports.splitlines() if line.startswith((".sketch", ".notes"))]
     own = resources.files("wearsim.page").joinpath("style.css").read_text("utf-8")

@@ -7,20 +7,7 @@ from nicegui import ui
 
 
 async def choose(question: str, answers: Sequence[str]) -> str | None:
-    """Ask for one of several answers.
-
-    Parameters
-    ----------
-    question : str
-        What is to be decided.
-    answers : sequence of str
-        The buttons, the harmless one last.
-
-    Returns
-    -------
-    str or None
-        The answer; None where the question was closed.
-    """
+    """Ask for one of several answers."""
     with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
         ui.label(question)
         with ui.row():
@@ -32,18 +19,7 @@ async def choose(question: str, answers: Sequence[str]) -> str | None:
 
 
 async def ask_name(name: str) -> str | None:
-    """Ask for the name of a file.
-
-    Parameters
-    ----------
-    name : str
-        A proposal.
-
-    Returns
-    -------
-    str or None
-        What was typed; None where nothing is to be written.
-    """
+    """Ask for the name of a file."""
     with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
         field = ui.input("File name", value=name).props("outlined dense autofocus spellcheck=false")
         field.on("keydown.enter", lambda: dialog.submit(field.value))
@@ -56,18 +32,7 @@ async def ask_name(name: str) -> str | None:
 
 
 async def ask_export(formats: Sequence[str], states: Sequence[str]) -> tuple[str, str] | None:
-    """Ask what is to be exported.
-
-    Parameters
-    ----------
-    formats, states : sequence of str
-        Of the file, and of the wheel.
-
-    Returns
-    -------
-    tuple of str or None
-        A format and a state.
-    """
+    """Ask what is to be exported."""
     with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
         ui.label("The wheel for CAD").classes("ws-caption")
         form = ui.select(list(formats), label="Format", value=formats[0]).props("outlined dense")

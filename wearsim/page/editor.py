@@ -11,15 +11,7 @@ from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerPanel
-from wearsim.page.answers import (
-    StaleError,
-    edited_case,
-    estimate,
-    faults_of,
-    is_slow,
-    life,
-    pictures,
-)
+from wearsim.page.answers import StaleError, edited_case, estimate, faults_of, is_slow, life, pictures
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.fields import Field
@@ -44,17 +36,7 @@ tell();
 
 
 class CasePage:
-    """A page of its own: no other one knows its input.
-
-    Parameters
-    ----------
-    file : CaseFile
-        The file of the case.
-    text : str
-        What the page begins with.
-    stopping : threading.Event
-        Set when the server ends.
-    """
+    """A page of its own: no other one knows its input."""
 
     def __init__(self, file: CaseFile, text: str, stopping: threading.Event) -> None:
         self._text, self._stopping = text, stopping
@@ -83,9 +65,11 @@ class CasePage:
                         self._form = FormPanel(self._typed, self._add_table, self._remove_table)
                     with ui.tab_panel(source):
                         self._source = ui.codemirror(
-                            self._text, language="TOML", line_wrapping=True,
+                            self._text,
+                            language="TOML",
+                            line_wrapping=True,
                             on_change=lambda event: self._edit(event.value, "TOML"),
-                        ).classes("ws-source")  # fmt: skip
+                        ).classes("ws-source")
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
                 self._answer = AnswerPanel(palettes()[0])
 

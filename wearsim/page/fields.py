@@ -14,34 +14,16 @@ from wearsim.quantities import quantities
 
 @dataclass(frozen=True)
 class Field:
-    """A key of an input file as the form shows it.
+    """A key of an input file as the form shows it."""
 
-    Attributes
-    ----------
-    key : str
-        Dotted; tables of a list by their numbers from 1.
-    unit, meaning : str
-        Of the quantity.
-    choices : tuple of str
-        All words that it may hold; empty where it holds more than words.
-    proposals : tuple of str
-        Words of the catalogue that it may hold.
-    is_text : bool
-        Whether what is typed is a text whatever it looks like.
-    required : bool
-        Whether its table must hold it.
-    default : str
-        What the schema takes where it is left out.
-    """
-
-    key: str
-    unit: str
-    meaning: str
-    choices: tuple[str, ...]
-    proposals: tuple[str, ...]
-    is_text: bool
-    required: bool
-    default: str
+    key: str  # dotted; tables of a list by their numbers from 1
+    unit: str  # of the quantity
+    meaning: str  # of the quantity
+    choices: tuple[str, ...]  # all words that it may hold; empty where it holds more than words
+    proposals: tuple[str, ...]  # words of the catalogue that it may hold
+    is_text: bool  # whether what is typed is a text whatever it looks like
+    required: bool  # whether its table must hold it
+    default: str  # what the schema takes where it is left out
 
     @property
     def table(self) -> str:
@@ -56,17 +38,6 @@ class Field:
 
 def form_fields(data: Mapping[str, Any]) -> dict[str, list[Field]]:
     """Return the fields of an input file by their tables.
-
-    Parameters
-    ----------
-    data : mapping
-        What stands in it; of a list of tables there are as many as it has.
-
-    Returns
-    -------
-    dict
-        Fields by the dotted name of their table, in the order of the schema; a list of tables
-        has its name with ``[]`` even where it is empty, and then each table by its number.
 
     Examples
     --------
@@ -88,18 +59,6 @@ def form_fields(data: Mapping[str, Any]) -> dict[str, list[Field]]:
 
 def table_meaning(data: Mapping[str, Any], name: str) -> str:
     """Return what a table is about.
-
-    Parameters
-    ----------
-    data : mapping
-        What stands in the input file.
-    name : str
-        Dotted name of the table.
-
-    Returns
-    -------
-    str
-        A sentence of the schema, empty for what stands above all tables.
 
     Examples
     --------

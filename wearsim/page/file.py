@@ -9,21 +9,11 @@ from wearsim.files import write_file
 
 @dataclass(frozen=True)
 class CaseFile:
-    """A file and what it held when it was last read or written.
+    """A file and what it held when it was last read or written."""
 
-    Attributes
-    ----------
-    path : pathlib.Path
-        Its place, there or not.
-    content : bytes or None
-        None where it was not there.
-    ends : str
-        What ends its lines when it is written.
-    """
-
-    path: Path
-    content: bytes | None
-    ends: str = "\n"
+    path: Path  # its place, there or not
+    content: bytes | None  # none where it was not there
+    ends: str = "\n"  # what ends its lines when it is written
 
     @property
     def text(self) -> str:
@@ -38,38 +28,11 @@ class CaseFile:
         return _content(self.path) != self.content
 
     def renamed(self, path: Path) -> "CaseFile":
-        """Return a file of another name that is to be written with the same line ends.
-
-        Parameters
-        ----------
-        path : pathlib.Path
-            Its place, taken or not.
-
-        Returns
-        -------
-        CaseFile
-            One that was not there, so that one that is there has changed.
-        """
+        """Return a file of another name that is to be written with the same line ends."""
         return replace(self, path=path, content=None)
 
     def saved(self, text: str) -> "CaseFile":
-        """Write the file, whatever the disk holds.
-
-        Parameters
-        ----------
-        text : str
-            All of it.
-
-        Returns
-        -------
-        CaseFile
-            As it is on disk now; line ends of Windows are kept, a mark before the text is not.
-
-        Raises
-        ------
-        OutputError
-            It cannot be written.
-        """
+        """Write the file, whatever the disk holds."""
         content = text.replace("\r\n", "\n").replace("\n", self.ends).encode("utf-8", "replace")
         # A link stays one: what it leads to is replaced.
         write_file(self.path.resolve(), content, force=True)
@@ -77,23 +40,7 @@ class CaseFile:
 
 
 def read_file(path: Path) -> CaseFile:
-    """Return a file as it is on disk.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Its place.
-
-    Returns
-    -------
-    CaseFile
-        What it holds.
-
-    Raises
-    ------
-    CaseError
-        It is not there or holds no UTF-8 text.
-    """
+    """Return a file as it is on disk."""
     try:
         content = path.read_bytes()
         file = CaseFile(path, content, "\r\n" if b"\r\n" in content else "\n")
@@ -107,40 +54,12 @@ def read_file(path: Path) -> CaseFile:
 
 
 def new_file(path: Path) -> CaseFile:
-    """Return a file that is to be written.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Its place, taken or not.
-
-    Returns
-    -------
-    CaseFile
-        One that was not there, so that one that is there has changed.
-    """
+    """Return a file that is to be written."""
     return CaseFile(path, None)
 
 
 def named_beside(path: Path, name: str) -> Path:
     """Return the place of a file in the folder of another, which paths in the case are relative to.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The other file.
-    name : str
-        A file name; ``.toml`` is added where it is missing.
-
-    Returns
-    -------
-    pathlib.Path
-        Its place.
-
-    Raises
-    ------
-    OutputError
-        It is no name, or one of another folder.
 
     Examples
     --------

@@ -17,17 +17,7 @@ _LOOK = "outlined dense stack-label hide-bottom-space"
 
 
 class FormPanel:
-    """Fields by their tables, in the place where it is made.
-
-    Parameters
-    ----------
-    on_edit : callable
-        Told a field and what was typed into it.
-    on_add : callable
-        Told the name of a list of tables that is to have one more.
-    on_remove : callable
-        Told the name of a list of tables and the number of the one to be removed.
-    """
+    """Fields by their tables, in the place where it is made."""
 
     def __init__(
         self,
@@ -47,17 +37,7 @@ class FormPanel:
         self._broken.classes("ws-broken").set_visibility(False)
 
     def show(self, data: Mapping[str, Any] | None, values: Mapping[str, str], typing: str) -> None:
-        """Show what an input file holds.
-
-        Parameters
-        ----------
-        data : mapping or None
-            Its tables; None where it is not TOML.
-        values : mapping
-            What stands at each key.
-        typing : str
-            Key of the field that is being typed into, which is left alone.
-        """
+        """Show what an input file holds."""
         self._broken.set_visibility(data is None)
         self._body.set_visibility(data is not None)
         if data is None:
@@ -77,13 +57,7 @@ class FormPanel:
                 self._fill(element, self._fields[key], values.get(key, ""))
 
     def show_taken(self, inputs: Mapping[str, Any]) -> None:
-        """Show in empty fields what a case takes there.
-
-        Parameters
-        ----------
-        inputs : mapping
-            All tables of the case with every default taken.
-        """
+        """Show in empty fields what a case takes there."""
         self._taken_inputs = inputs
         for key, element in self._inputs.items():
             taken = _taken(inputs, key) or self._fields[key].default
@@ -91,13 +65,7 @@ class FormPanel:
                 element.props.set_optional("placeholder", taken or None)
 
     def show_faults(self, faults: Sequence[Fault]) -> None:
-        """Show each fault beside its field.
-
-        Parameters
-        ----------
-        faults : sequence of Fault
-            Everything wrong with the input.
-        """
+        """Show each fault beside its field."""
         texts: dict[str, str] = {}
         for fault in faults:
             key = fault.key
@@ -132,9 +100,7 @@ class FormPanel:
                 given = one_of_list or any(field.key in self._values for field in fields)
                 shown = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
                 table = ui.expansion(shown, caption=table_meaning(data, name), value=given)
-                self._fill_when_open(
-                    table.classes("ws-table"), fields, partial(self._add_table, name)
-                )
+                self._fill_when_open(table.classes("ws-table"), fields, partial(self._add_table, name))
 
     def _fill_when_open(
         self, group: Any, fields: Sequence[Field], fill: Callable[[Sequence[Field]], None]
@@ -178,9 +144,7 @@ class FormPanel:
         head, _, number = name.partition(".")
         if number.isdigit():
             ui.button(
-                "Remove this table",
-                icon="delete",
-                on_click=lambda: self._on_remove(head, int(number)),
+                "Remove this table", icon="delete", on_click=lambda: self._on_remove(head, int(number))
             ).props("flat")
 
     def _input(self, field: Field) -> Any:
@@ -189,9 +153,7 @@ class FormPanel:
         choices = _choices(field)
         element: Any
         if choices:
-            element = ui.select(
-                _with(choices, value), label=label, value=value or None, clearable=True
-            )
+            element = ui.select(_with(choices, value), label=label, value=value or None, clearable=True)
         else:
             element = ui.input(label, value=value, autocomplete=list(field.proposals))
             element.props("autocomplete=off spellcheck=false")

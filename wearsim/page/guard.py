@@ -18,13 +18,6 @@ class Guard:
 
     A page of another site can send requests to this machine, and by a name that it lets point
     here even read the answers. Its browser then names that site in ``Origin`` or ``Host``.
-
-    Parameters
-    ----------
-    app : callable
-        ASGI application to be guarded, with its websockets.
-    port : int
-        Port of the loopback address that it is served on.
     """
 
     def __init__(self, app: Application, port: int) -> None:

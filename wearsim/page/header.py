@@ -7,19 +7,10 @@ from nicegui import ui
 
 
 class Header:
-    """The bar of the page.
-
-    Parameters
-    ----------
-    on_save, on_save_as, on_export : callable
-        What its buttons do.
-    """
+    """The bar of the page."""
 
     def __init__(
-        self,
-        on_save: Callable[[], Any],
-        on_save_as: Callable[[], Any],
-        on_export: Callable[[], Any],
+        self, on_save: Callable[[], Any], on_save_as: Callable[[], Any], on_export: Callable[[], Any]
     ) -> None:
         with ui.header().classes("ws-header"):
             with ui.element("div").classes("ws-file"):
@@ -39,49 +30,21 @@ class Header:
                     button.props(f'flat dense no-caps aria-label="{text}"')
 
     def show_file(self, name: str, dirty: bool) -> None:
-        """Show which file is edited.
-
-        Parameters
-        ----------
-        name : str
-            Of the file.
-        dirty : bool
-            Whether it holds something else.
-        """
+        """Show which file is edited."""
         self._name.text = name
         self._dirty.set_visibility(dirty)
 
     def show_life(self, text: str) -> None:
-        """Show the life, of whichever input the state says.
-
-        Parameters
-        ----------
-        text : str
-            Such as ``2 713 h``.
-        """
+        """Show the life, of whichever input the state says."""
         self._hours.text = text
 
     def show_state(self, state: str, text: str) -> None:
-        """Show how the life belongs to the present input.
-
-        Parameters
-        ----------
-        state : str
-            ``computing``, ``estimate``, ``drawing``, ``current`` or ``old``.
-        text : str
-            The same in words.
-        """
+        """Show how the life belongs to the present input."""
         self._state.text = text
         self._hours.props["data-state"] = state
         self._state.props["data-state"] = state
 
     def show_progress(self, percent: int) -> None:
-        """Show how far the calculation is.
-
-        Parameters
-        ----------
-        percent : int
-            From 0 to 100.
-        """
+        """Show how far the calculation is."""
         lead = self._state.text.partition(" (")[0]
         self._state.text = f"{lead} ({percent} %)"

@@ -12,21 +12,6 @@ ADDRESS = "127.0.0.1"
 def loopback_socket(port: int) -> socket.socket:
     """Return a socket that browsers of this machine can connect to.
 
-    Parameters
-    ----------
-    port : int
-        0 for any free one.
-
-    Returns
-    -------
-    socket.socket
-        Bound and listening.
-
-    Raises
-    ------
-    OutputError
-        The port is taken or not allowed.
-
     Examples
     --------
     >>> with loopback_socket(0) as listener:

@@ -15,29 +15,11 @@ from wearsim.page.threads import in_thread
 from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv")
-_STATES: dict[str, tuple[State, ...]] = {
-    "new": ("new",),
-    "worn": ("worn",),
-    "both": ("new", "worn"),
-}
+_STATES: dict[str, tuple[State, ...]] = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
 
 
 class Keeper:
-    """The file of a page.
-
-    Parameters
-    ----------
-    file : CaseFile
-        Where the case comes from.
-    text : callable
-        Gives the input that the page holds.
-    found : callable
-        Gives case and result of that input; None where they are not there.
-    on_reload : callable
-        Told what the disk holds where the user wants that.
-    on_change : callable
-        Called when the file has another name or content.
-    """
+    """The file of a page."""
 
     def __init__(
         self,

@@ -22,20 +22,8 @@ _RECONNECT = 3600.0
 """Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""
 
 
-def serve(
-    opened: Callable[[], tuple[CaseFile, str]], listener: socket.socket, warm: tuple[str, ...]
-) -> None:
-    """Serve pages until the program is interrupted.
-
-    Parameters
-    ----------
-    opened : callable
-        Gives the file of a new page and the text that it begins with.
-    listener : socket.socket
-        Bound and listening.
-    warm : tuple of str
-        Cases to be worn beforehand, so that the first answer does not wait for compilers.
-    """
+def serve(opened: Callable[[], tuple[CaseFile, str]], listener: socket.socket, warm: tuple[str, ...]) -> None:
+    """Serve pages until the program is interrupted."""
     stopping = threading.Event()
     ui.page("/", title="wearsim", dark=None)(partial(_page, opened, stopping))
     app.on_shutdown(stopping.set)

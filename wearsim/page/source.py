@@ -10,18 +10,7 @@ from tomlkit.items import Item, String, Table
 
 
 def tables_of(text: str) -> dict[str, Any] | None:
-    """Return the tables of an input file.
-
-    Parameters
-    ----------
-    text : str
-        All of it.
-
-    Returns
-    -------
-    dict or None
-        None where it is not TOML.
-    """
+    """Return the tables of an input file."""
     try:
         tomlkit.parse(text)
         return tomllib.loads(text)
@@ -31,16 +20,6 @@ def tables_of(text: str) -> dict[str, Any] | None:
 
 def shown_values(text: str) -> dict[str, str]:
     r"""Return what stands at each key, as the form shows it.
-
-    Parameters
-    ----------
-    text : str
-        A valid TOML document.
-
-    Returns
-    -------
-    dict
-        Text by dotted key, tables of a list by their numbers from 1; strings without quotes.
 
     Examples
     --------
@@ -52,23 +31,6 @@ def shown_values(text: str) -> dict[str, str]:
 
 def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
     r"""Return an input file with another value at a key.
-
-    Parameters
-    ----------
-    text : str
-        A valid TOML document.
-    key : str
-        Dotted, tables of a list by their numbers from 1; a table that is missing is added.
-    typed : str
-        TOML value, else a string, as ``--set`` takes it; nothing removes the key, and its table
-        with it where that holds nothing else.
-    is_text : bool
-        Whether it is a string whatever it looks like.
-
-    Returns
-    -------
-    str
-        Everything else as it was, comments too.
 
     Examples
     --------
@@ -93,18 +55,6 @@ def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
 def with_table(text: str, name: str) -> str:
     r"""Return an input file with one more table in a list of tables.
 
-    Parameters
-    ----------
-    text : str
-        A valid TOML document.
-    name : str
-        Of the list.
-
-    Returns
-    -------
-    str
-        With an empty table at its end.
-
     Examples
     --------
     >>> with_table("title = 'A'\n", "duty")
@@ -121,22 +71,7 @@ def with_table(text: str, name: str) -> str:
 
 
 def without_table(text: str, name: str, number: int) -> str:
-    """Return an input file without one of the tables of a list.
-
-    Parameters
-    ----------
-    text : str
-        A valid TOML document.
-    name : str
-        Of the list.
-    number : int
-        Which one, from 1.
-
-    Returns
-    -------
-    str
-        Without the list where that was its only table.
-    """
+    """Return an input file without one of the tables of a list."""
     document: Any = tomlkit.parse(text)
     if len(document[name]) == 1:
         document.remove(name)

@@ -9,18 +9,7 @@ Found = TypeVar("Found")
 
 
 async def in_thread(work: Callable[[], Found]) -> Found:
-    """Wait for work that runs in a thread of its own.
-
-    Parameters
-    ----------
-    work : callable
-        The work.
-
-    Returns
-    -------
-    object
-        What it returns; what it raises is raised.
-    """
+    """Wait for work that runs in a thread of its own."""
     loop = asyncio.get_running_loop()
     done: asyncio.Future[Found] = loop.create_future()
 

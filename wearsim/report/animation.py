@@ -26,26 +26,7 @@ _LONGEST_TITLE = 150
 
 
 def animation(result: WearResult, form: str, frames: int, seconds: float, width: int) -> bytes:
-    """Return the wear of a run as a moving picture.
-
-    Parameters
-    ----------
-    result : WearResult
-        The run.
-    form : str
-        ``gif``, ``webp`` or ``png``.
-    frames : int
-        How many, from the new flank to the end of the run; at least 2.
-    seconds : float
-        What they take, but that the last one stays for longer.
-    width : int
-        Of the picture [pixels].
-
-    Returns
-    -------
-    bytes
-        A file that repeats for ever; the same for the same run with the same versions.
-    """
+    """Return the wear of a run as a moving picture."""
     title = textwrap.shorten(result.title, _LONGEST_TITLE, placeholder=" ...")
     life = f"life {hours(result.life)}, {ending(result)}"
     factors = " and ".join(str(flank.factor) for flank in worn_flanks(result))
@@ -58,24 +39,7 @@ def animation(result: WearResult, form: str, frames: int, seconds: float, width:
 
 
 def images(result: WearResult, heading: str, frames: int, width: int) -> Iterator[Image.Image]:
-    """Give the frames: one picture, of which only what moves is drawn again.
-
-    Parameters
-    ----------
-    result : WearResult
-        The run.
-    heading : str
-        What stands above all of them.
-    frames : int
-        How many, at least 2.
-    width : int
-        Of the picture [pixels].
-
-    Yields
-    ------
-    PIL.Image.Image
-        In red, green and blue.
-    """
+    """Give the frames: one picture, of which only what moves is drawn again."""
     inches = _WIDTH if len(worn_flanks(result)) == 1 else _WIDTH_OF_GEARS
     figure = Figure(figsize=(inches, _HEIGHT), dpi=width / inches, layout="constrained")
     canvas: Any = FigureCanvasAgg(figure)  # its methods have no types

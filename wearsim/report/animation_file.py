@@ -35,24 +35,7 @@ _XMP = (
 
 
 def encoded(frames: Iterable[Image.Image], form: str, seconds: float, text: str) -> bytes:
-    """Return frames as a file that repeats for ever.
-
-    Parameters
-    ----------
-    frames : iterable of PIL.Image.Image
-        At least two of one size, in red, green and blue.
-    form : str
-        One of `FORMATS`.
-    seconds : float
-        What they take together, but that the last one stays for longer.
-    text : str
-        What there is to see, kept in the file.
-
-    Returns
-    -------
-    bytes
-        The same for the same frames.
-    """
+    """Return frames as a file that repeats for ever."""
     first, *rest = _few_colours(list(frames))
     stream = io.BytesIO()
     first.save(
@@ -69,18 +52,6 @@ def encoded(frames: Iterable[Image.Image], form: str, seconds: float, text: str)
 
 def durations(frames: int, seconds: float) -> list[int]:
     """Return how long each frame stays, in whole hundredths of a second as GIF has them.
-
-    Parameters
-    ----------
-    frames : int
-        How many.
-    seconds : float
-        What they take together, but that the last one stays for longer.
-
-    Returns
-    -------
-    list of int
-        Milliseconds.
 
     Examples
     --------

@@ -23,47 +23,16 @@ _FAR = 4.0
 
 @dataclass(frozen=True)
 class Moving:
-    """What moves in a panel.
+    """What moves in a panel."""
 
-    Attributes
-    ----------
-    artists : list of matplotlib.artist.Artist
-        From the back to the front.
-    show : callable
-        Moves them to the frame of a number from 0.
-    """
-
-    artists: list[Artist]
-    show: Callable[[int], None]
+    artists: list[Artist]  # from the back to the front
+    show: Callable[[int], None]  # moves them to the frame of a number from 0
 
 
 def flank_panel(
-    panel: Axes,
-    result: WearResult,
-    flank: WornFlank,
-    points: tuple[Vector, Vector, Vector],
-    time: Vector,
+    panel: Axes, result: WearResult, flank: WornFlank, points: tuple[Vector, Vector, Vector], time: Vector
 ) -> Moving:
-    """Draw the new flank; the worn one moves.
-
-    Parameters
-    ----------
-    panel : matplotlib.axes.Axes
-        Empty.
-    result : WearResult
-        The run.
-    flank : WornFlank
-        The flank.
-    points : tuple of numpy.ndarray
-        Its x, y and depth in every frame [mm].
-    time : numpy.ndarray
-        Running time of every frame [h].
-
-    Returns
-    -------
-    Moving
-        The worn flank with the depth enlarged, its deepest point, and the title.
-    """
+    """Draw the new flank; the worn one moves."""
     x, y = flank.enlarged(*points[:2])
     depth = points[2]
     if flank.name != "wheel":
@@ -106,27 +75,8 @@ def _frame(panel: Axes, flank: WornFlank, x: Vector, y: Vector) -> None:
     panel.legend(loc="lower left", fontsize=8)
 
 
-def depth_panel(
-    panel: Axes, result: WearResult, depths: Mapping[str, Vector], time: Vector
-) -> Moving:
-    """Draw limits of the depth; its curves grow.
-
-    Parameters
-    ----------
-    panel : matplotlib.axes.Axes
-        Empty.
-    result : WearResult
-        The run.
-    depths : mapping of str to numpy.ndarray
-        Greatest depth of every flank in every frame [mm].
-    time : numpy.ndarray
-        Running time of every frame [h].
-
-    Returns
-    -------
-    Moving
-        A curve for each flank, dotted for a wheel.
-    """
+def depth_panel(panel: Axes, result: WearResult, depths: Mapping[str, Vector], time: Vector) -> Moving:
+    """Draw limits of the depth; its curves grow."""
     _limits(panel, result, ("critical_depth_mm", "wheel_critical_depth_mm"), depths.values())
     styles = {"wheel": ":"}
     curves = {}
@@ -146,22 +96,7 @@ def depth_panel(
 
 
 def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
-    """Draw the limit of a chain's elongation; its curve grows.
-
-    Parameters
-    ----------
-    panel : matplotlib.axes.Axes
-        Empty.
-    result : WearResult
-        The run of a wrap.
-    time : numpy.ndarray
-        Running time of every frame [h].
-
-    Returns
-    -------
-    Moving
-        The curve.
-    """
+    """Draw the limit of a chain's elongation; its curve grows."""
     hours = result.history_columns["time_hours"]
     grown = result.history_columns["elongation_percent"]
     _limits(panel, result, ("elongation_percent",), [grown])
@@ -176,9 +111,7 @@ def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
     return Moving([curve], _show)
 
 
-def _limits(
-    panel: Axes, result: WearResult, names: tuple[str, ...], curves: Iterable[Vector]
-) -> None:
+def _limits(panel: Axes, result: WearResult, names: tuple[str, ...], curves: Iterable[Vector]) -> None:
     """Draw the limits that the curves come near to, and fix what is seen upwards."""
     top = max(float(curve.max()) for curve in curves)
     near = [state.limit for state in result.limits if state.name in names]

@@ -24,53 +24,19 @@ _LEAST_AREA = 1e-10
 
 
 def hours(life: Life | LowerBound) -> str:
-    """Return a life in hours, a bound with its sign.
-
-    Parameters
-    ----------
-    life : Life or LowerBound
-        A life.
-
-    Returns
-    -------
-    str
-        Such as ``2 650 h`` or ``> 8 000 h``.
-    """
+    """Return a life in hours, a bound with its sign."""
     if isinstance(life, Life):
         return f"{grouped(life.hours)} h"
     return f"> {grouped(life.hours_run)} h"
 
 
 def headline(result: WearResult) -> str:
-    """Return the life in hours, with the word where the drive is overloaded.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    str
-        Such as ``2 650 h`` or ``2 650 h (overloaded)``.
-    """
+    """Return the life in hours, with the word where the drive is overloaded."""
     return f"{hours(result.life)} (overloaded)" if result.overloaded else hours(result.life)
 
 
 def limit_text(name: str, value: float) -> str:
     """Return a limit in words.
-
-    Parameters
-    ----------
-    name : str
-        Key of the limit with its unit.
-    value : float
-        In that unit.
-
-    Returns
-    -------
-    str
-        Such as ``critical depth 0.34 mm``.
 
     Examples
     --------
@@ -82,18 +48,7 @@ def limit_text(name: str, value: float) -> str:
 
 
 def limit_name(name: str) -> tuple[str, str]:
-    """Return the key of a limit as words and its unit.
-
-    Parameters
-    ----------
-    name : str
-        Key of the limit.
-
-    Returns
-    -------
-    tuple of str
-        Such as ``critical depth`` and ``mm``.
-    """
+    """Return the key of a limit as words and its unit."""
     if name == JUMPING:
         return "slack tension needed not to jump", "N"
     words, _, unit = name.rpartition("_")
@@ -101,20 +56,7 @@ def limit_name(name: str) -> tuple[str, str]:
 
 
 def limit_state(state: LimitState, inputs: Mapping[str, Any]) -> str:
-    """Return in words how far a limit is used.
-
-    Parameters
-    ----------
-    state : LimitState
-        The limit and what its quantity has come to.
-    inputs : mapping
-        Tables of the case.
-
-    Returns
-    -------
-    str
-        Such as ``elongation_percent 2 of 3``, or what `jumping` says.
-    """
+    """Return in words how far a limit is used."""
     if state.name == JUMPING:
         whose = "allowed" if JUMPING in inputs["stop"] else "there"
         return jumping(state.value, state.limit, whose)
@@ -123,20 +65,6 @@ def limit_state(state: LimitState, inputs: Mapping[str, Any]) -> str:
 
 def jumping(needed: float, limit: float, whose: str = "there") -> str:
     """Return in words how sure it is that a chain does not jump.
-
-    Parameters
-    ----------
-    needed : float
-        Slack tension below which it jumps [N].
-    limit : float
-        Slack tension that there is, or that the user allows to be needed [N], above 0.
-    whose : str
-        ``there`` or ``allowed``.
-
-    Returns
-    -------
-    str
-        With both tensions and the factor between them.
 
     Examples
     --------
@@ -156,36 +84,12 @@ def jumping(needed: float, limit: float, whose: str = "there") -> str:
 
 
 def slack_needed(needed: float, limit: float) -> str:
-    """Return the slack tension below which a chain jumps, without digits where it is next to none.
-
-    Parameters
-    ----------
-    needed, limit : float
-        That tension, and what it is compared with [N].
-
-    Returns
-    -------
-    str
-        Such as ``5`` or ``below 0.06``.
-    """
+    """Return the slack tension below which a chain jumps, without digits where it is next to none."""
     return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
 
 
 def answer(result: WearResult, source: str) -> str:
-    """Return the answer of one case as ``wearsim life`` prints it.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    source : str
-        The case as the user named it, for the next command.
-
-    Returns
-    -------
-    str
-        Several lines, at most a hundred characters wide.
-    """
+    """Return the answer of one case as ``wearsim life`` prints it."""
     rows = [
         *findings(result),
         ("Assumes", numbered(result.assumptions)),
@@ -196,18 +100,7 @@ def answer(result: WearResult, source: str) -> str:
 
 
 def findings(result: WearResult) -> list[tuple[str, str]]:
-    """Return what a run has found, the life first; before it that the drive is overloaded.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    list of tuple of str
-        Labels with their texts.
-    """
+    """Return what a run has found, the life first; before it that the drive is overloaded."""
     return [
         *(((OVERLOADED, overload_text(result)),) if result.overloaded else ()),
         ("Life", _life(result)),
@@ -221,19 +114,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
 
 
 def overload_text(result: WearResult) -> str:
-    """Return by how much a drive is outside the ratings of its load.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    str
-        Such as ``plate fatigue 118.2 % of the rating; the hours are for wear only``; empty where
-        it is overloaded by none.
-    """
+    """Return by how much a drive is outside the ratings of its load."""
     if not result.overloaded:
         return ""
     used = ", ".join(
@@ -265,18 +146,7 @@ def _removed(result: WearResult) -> str:
 
 
 def governing_text(result: WearResult) -> str:
-    """Return which of wear and contact fatigue comes first, and the others.
-
-    Parameters
-    ----------
-    result : WearResult
-        Of a case with contact fatigue.
-
-    Returns
-    -------
-    str
-        Such as ``wear, 254 h (contact fatigue of the sprocket never)``.
-    """
+    """Return which of wear and contact fatigue comes first, and the others."""
     lives = {
         "wear": hours(result.life),
         **{
@@ -314,22 +184,7 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
 
 
 def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0) -> str:
-    """Return a life in the measures that a case gives factors for, in words.
-
-    Parameters
-    ----------
-    inputs : mapping
-        Tables of the case.
-    life : Life or LowerBound
-        The life.
-    before : float
-        Running time from ``start_date`` until it begins [h].
-
-    Returns
-    -------
-    str
-        Such as ``30 000 km, 125 days, until 2026-05-06``; empty without factors.
-    """
+    """Return a life in the measures that a case gives factors for, in words."""
     text = ", ".join(
         f"until {value}" if isinstance(value, str) else f"{grouped(value)} {name}"
         for name, value in service_measures(inputs, life.hours_run, before).items()
@@ -344,18 +199,7 @@ def _service(result: WearResult) -> list[tuple[str, str]]:
 
 
 def ending(result: WearResult) -> str:
-    """Return in words what ended a life, or what is worn off where nothing did.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    str
-        Such as ``until 0.306 mm is worn off``.
-    """
+    """Return in words what ended a life, or what is worn off where nothing did."""
     if not isinstance(result.life, Life):
         return f"{result.max_depth:.3g} mm is worn off by then"
     return {
@@ -364,9 +208,7 @@ def ending(result: WearResult) -> str:
         "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
         "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
         "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",
-        "over_pins_change_mm": (
-            f"until the measurement over pins is {result.stop_value:.3g} mm less"
-        ),
+        "over_pins_change_mm": (f"until the measurement over pins is {result.stop_value:.3g} mm less"),
         "min_slack_tension_N": (
             f"until the chain needs a slack tension of {result.stop_value:.3g} N on the worn teeth"
             if "min_slack_tension_N" in result.inputs["stop"]

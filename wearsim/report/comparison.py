@@ -16,20 +16,7 @@ if TYPE_CHECKING:
 
 
 def comparison_table(results: list[WearResult]) -> pd.DataFrame:
-    """Return one row per result.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one; the first is what the others are compared with.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Life and its band [h] (nan where only a bound is known, which stands under
-        ``..._at_least``), ratio to the first, the limit that ended it, with contact fatigue what
-        governs and its hours, peak pressure, removed area, where the deepest point is.
-    """
+    """Return one row per result."""
     import pandas as pd  # takes 0.3 s, and a page of one drive has no table
 
     first = results[0].life
@@ -50,9 +37,7 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
                 "stop": result.stop,
                 "stop_value": result.stop_value,
                 "governing_life": result.governing if result.fatigue else None,
-                **life_keys(
-                    "governing_life_hours", result.earliest_life if result.fatigue else None
-                ),
+                **life_keys("governing_life_hours", result.earliest_life if result.fatigue else None),
                 "initial_peak_pressure_MPa": result.initial_peak_pressure,
                 "final_peak_pressure_MPa": result.final_peak_pressure,
                 "removed_area_mm2": float(result.history_columns["removed_area_mm2"][-1]),
@@ -67,23 +52,17 @@ def comparison_table(results: list[WearResult]) -> pd.DataFrame:
 
 
 def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[str]]]:
-    """Return the comparison in words, bounds with their sign.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-
-    Returns
-    -------
-    tuple of list of str and list of list of str
-        Heads of the columns, and the cells of a row per result; where contact fatigue was asked
-        for, a last column with what governs.
-    """
+    """Return the comparison in words, bounds with their sign."""
     head = [
-        "case", "life", "limit", "at low / high wear", "ratio to first", "peak pressure, MPa",
-        "removed area, mm2", "deepest, mm",
-    ]  # fmt: skip
+        "case",
+        "life",
+        "limit",
+        "at low / high wear",
+        "ratio to first",
+        "peak pressure, MPa",
+        "removed area, mm2",
+        "deepest, mm",
+    ]
     rows = []
     for result, row in zip(results, comparison_table(results).to_dict("records"), strict=True):
         ratio = row["ratio_to_first"]
@@ -107,39 +86,15 @@ def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[st
 
 
 def comparison_text(results: list[WearResult]) -> str:
-    """Return the comparison as a Markdown table, bounds with their sign.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-
-    Returns
-    -------
-    str
-        A row per result.
-    """
+    """Return the comparison as a Markdown table, bounds with their sign."""
     head, rows = comparison_cells(results)
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += [
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows
-    ]
+    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows]
     return "\n".join(lines)
 
 
 def differing_limits(results: list[WearResult]) -> str:
-    """Return a warning that results were run to different values of the same limit.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-
-    Returns
-    -------
-    str
-        Such limits with the case of each value; empty where they agree.
-    """
+    """Return a warning that results were run to different values of the same limit."""
     cases: dict[str, dict[str, list[str]]] = {}
     for result in results:
         for state in result.limits:
@@ -155,46 +110,16 @@ def differing_limits(results: list[WearResult]) -> str:
 
 
 def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
-    """Return results whose titles tell them apart.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        Results, some perhaps with the same title.
-    names : list of str
-        What the user called each of them.
-
-    Returns
-    -------
-    list of WearResult
-        The name is added to a title that comes more than once.
-    """
+    """Return results whose titles tell them apart."""
     titles = [result.title for result in results]
     return [
-        replace(result, title=f"{result.title} [{name}]")
-        if titles.count(result.title) > 1
-        else result
+        replace(result, title=f"{result.title} [{name}]") if titles.count(result.title) > 1 else result
         for result, name in zip(results, names, strict=True)
     ]
 
 
 def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str:
-    """Write tables and figures into a folder, all of it or nothing.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one; titles are the labels.
-    folder : pathlib.Path
-        New folder.
-    force : bool
-        Replace a folder that is there.
-
-    Returns
-    -------
-    str
-        The Markdown table.
-    """
+    """Write tables and figures into a folder, all of it or nothing."""
     text = comparison_text(results)
     with new_folder(folder, force) as place:
         comparison_table(results).to_csv(place / "summary.csv", index=False)
@@ -212,9 +137,7 @@ def _page(results: list[WearResult], table: str) -> str:
     for result in results:
         parts.append(f"## {result.title}")
         parts.append("\n".join(f"- warning: {text}" for text in result.warnings) or "No warnings.")
-        parts.append(
-            "\n".join(f"{i}. {text}" for i, text in enumerate(result.assumptions, start=1))
-        )
+        parts.append("\n".join(f"{i}. {text}" for i, text in enumerate(result.assumptions, start=1)))
     pictures = ("flanks", "along_flank", "depth_over_hours")
     parts.append("\n".join(f"![{name.replace('_', ' ')}]({name}.svg)" for name in pictures))
     return "\n\n".join(parts) + "\n"

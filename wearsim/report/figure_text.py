@@ -4,16 +4,6 @@
 def literal(text: str) -> str:
     r"""Return a text that a figure shows as it is.
 
-    Parameters
-    ----------
-    text : str
-        A title or the like, whose dollar signs are no formulas.
-
-    Returns
-    -------
-    str
-        For matplotlib.
-
     Examples
     --------
     >>> print(literal("3 $ an hour"))

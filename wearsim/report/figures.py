@@ -25,58 +25,20 @@ _LEGEND = 0.24
 """Part of the height of the same picture that is left free for the legend."""
 
 
-def comparison_figures(
-    results: list[WearResult], stems: Container[str] = FIGURES
-) -> dict[str, Figure]:
-    """Return the figures of a comparison by file stem.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-    stems : container of str
-        Which of `FIGURES` are drawn.
-
-    Returns
-    -------
-    dict
-        In the order of `FIGURES`.
-    """
+def comparison_figures(results: list[WearResult], stems: Container[str] = FIGURES) -> dict[str, Figure]:
+    """Return the figures of a comparison by file stem."""
     drawn = (flanks_figure, along_flank_figure, depth_figure)
     return {stem: draw(results) for stem, draw in zip(FIGURES, drawn, strict=True) if stem in stems}
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> None:
-    """Write a figure as PNG and as SVG, the same bytes for the same figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-    folder : pathlib.Path
-        Folder that exists.
-    name : str
-        File stem.
-    """
+    """Write a figure as PNG and as SVG, the same bytes for the same figure."""
     for kind in ("png", "svg"):
         (folder / f"{name}.{kind}").write_bytes(picture_bytes(figure, kind))
 
 
 def picture_bytes(figure: Figure, kind: str) -> bytes:
-    """Return a figure as the content of a file, the same bytes for the same figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-    kind : str
-        ``png`` or ``svg``.
-
-    Returns
-    -------
-    bytes
-        All of the file.
-    """
+    """Return a figure as the content of a file, the same bytes for the same figure."""
     target = io.BytesIO()
     metadata = {"Date": None} if kind == "svg" else None
     with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
@@ -85,18 +47,7 @@ def picture_bytes(figure: Figure, kind: str) -> bytes:
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:
-    """Return the flanks new and at the end of their lives, the depth enlarged, with the roller.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one; a panel each.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Square panels of equal scale on both axes; enlargement and depth stand in the legends.
-    """
+    """Return the flanks new and at the end of their lives, the depth enlarged, with the roller."""
     columns = min(3, len(results))
     rows = -(-len(results) // columns)
     layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.1)
@@ -144,49 +95,28 @@ def _draw_mate(panel: Axes, result: WearResult, flank: WornFlank) -> tuple[float
     new, deepest = flank.new, flank.deepest
     panel.add_patch(Circle(centre, abs(radius), fill=False, color="grey", linestyle="--"))
     way = math.copysign(min(abs(radius), flank.extent), radius)
-    place = (
-        new.x[deepest] + way * new.normal_x[deepest],
-        new.y[deepest] + way * new.normal_y[deepest],
-    )
+    place = (new.x[deepest] + way * new.normal_x[deepest], new.y[deepest] + way * new.normal_y[deepest])
     panel.text(*place, name, color="grey", ha="center", va="center", clip_on=True)
     return abs(radius), *centre
 
 
 def along_flank_figure(results: list[WearResult]) -> Figure:
-    """Return depth, pressure and sliding speed along the flanks at the end of their lives.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Pressure and sliding of the new flank are dashed, the depth of a mating wheel is dotted.
-    """
+    """Return depth, pressure and sliding speed along the flanks at the end of their lives."""
     shown = [("depth_mm", "depth, mm")]
     if any("pressure_MPa" in result.flank_columns for result in results):
-        shown += [
-            ("pressure_MPa", "Hertz pressure, MPa"),
-            ("sliding_speed_mm_per_s", "sliding speed, mm/s"),
-        ]
+        shown += [("pressure_MPa", "Hertz pressure, MPa"), ("sliding_speed_mm_per_s", "sliding speed, mm/s")]
     figure = Figure(figsize=(8.0, 2.2 + 2.1 * len(shown)), layout="constrained")
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False).ravel()
     for result in results:
         first, last = snapshot(result, 0), at_life(result)
-        (line,) = panels[0].plot(
-            last["arc_length_mm"], last["depth_mm"], label=literal(result.title)
-        )
+        (line,) = panels[0].plot(last["arc_length_mm"], last["depth_mm"], label=literal(result.title))
         if "wheel_depth_mm" in last:
             wheel = last["arc_length_mm"], last["wheel_depth_mm"]
             panels[0].plot(*wheel, ":", color=line.get_color(), lw=1.2)
         for panel, (name, _) in zip(panels[1:], shown[1:], strict=True):
             if name in last:
                 panel.plot(last["arc_length_mm"], last[name], color=line.get_color())
-                panel.plot(
-                    first["arc_length_mm"], first[name], "--", color=line.get_color(), lw=0.9
-                )
+                panel.plot(first["arc_length_mm"], first[name], "--", color=line.get_color(), lw=0.9)
     for panel, (_, label) in zip(panels, shown, strict=True):
         panel.set_ylabel(label)
         panel.grid(alpha=0.3)
@@ -197,25 +127,12 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
         panels[0].set_title(text, fontsize=9, loc="left")
     if len(shown) > 1:
         panels[1].set_title("solid: at the end of the life, dashed: new", fontsize=9, loc="left")
-    panels[-1].set_xlabel(
-        "arc length from the root of the flank (from the gap's right tip on a wrap), mm"
-    )
+    panels[-1].set_xlabel("arc length from the root of the flank (from the gap's right tip on a wrap), mm")
     return figure
 
 
 def depth_figure(results: list[WearResult]) -> Figure:
-    """Return the greatest depth against running time.
-
-    Parameters
-    ----------
-    results : list of WearResult
-        At least one.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        A dot marks a limit of the sprocket, an open arrow a run that ends before it.
-    """
+    """Return the greatest depth against running time."""
     shown = [("max_depth_mm", "greatest depth, mm")]
     if any("elongation_percent" in result.history_columns for result in results):
         shown.append(("elongation_percent", "elongation of the chain, %"))

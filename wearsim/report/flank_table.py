@@ -9,31 +9,11 @@ from wearsim.geometry.profile import Profile, Vector
 
 
 def profile_table(case: Case) -> pd.DataFrame:
-    """Return the points of a flank with what follows from them.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a sprocket on a strand.
-
-    Returns
-    -------
-    pandas.DataFrame
-        One row per node, root to tip; the frame is the sprocket's with the gap's centre
-        line on +y, curvature is convex positive. For an evolute flank all values are
-        the closed form's at the integrated points.
-
-    Raises
-    ------
-    CaseError
-        The case has no sprocket.
-    """
+    """Return the points of a flank with what follows from them."""
     if isinstance(case.drive, WrapDrive):
         return _gap_table(case.drive)
     if not isinstance(case.drive, StrandDrive):
-        message = (
-            "the case must have a sprocket, a table of loads or gears have none: nothing to write"
-        )
+        message = "the case must have a sprocket, a table of loads or gears have none: nothing to write"
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     flank, strand = case.drive.profile, case.drive.tooth.strand
     if case.inputs["sprocket"]["profile"] == "evolute":

@@ -24,18 +24,7 @@ _ROUND = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def case_of(result: WearResult) -> Case:
-    """Return the case that a result was calculated for.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result, perhaps read from a folder that has moved since.
-
-    Returns
-    -------
-    Case
-        From the inputs and the files that the result keeps.
-    """
+    """Return the case that a result was calculated for."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in result.input_files.items():
             (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
@@ -44,18 +33,6 @@ def case_of(result: WearResult) -> Case:
 
 def enlargement(depth: float, extent: float) -> int:
     """Return a round factor that makes a depth visible beside a flank.
-
-    Parameters
-    ----------
-    depth : float
-        Greatest depth [mm].
-    extent : float
-        Larger side of the box around the flank [mm].
-
-    Returns
-    -------
-    int
-        From 1 to 1000; the enlarged depth is at most 0.12 of the extent unless the factor is 1.
 
     Examples
     --------
@@ -66,20 +43,7 @@ def enlargement(depth: float, extent: float) -> int:
 
 
 def touching_circle(result: WearResult, arc_length: float) -> tuple[float, str]:
-    """Return the radius of what touches the flank at a place, and what it is.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    arc_length : float
-        Along the unworn flank [mm].
-
-    Returns
-    -------
-    tuple of float and str
-        Radius [mm], below 0 if hollow; ``roller`` or ``wheel``.
-    """
+    """Return the radius of what touches the flank at a place, and what it is."""
     if "gear" in result.inputs:
         last = snapshot(result, -1)
         place = float(np.interp(arc_length, last["arc_length_mm"], last["path_mm"]))
@@ -94,18 +58,7 @@ def touching_circle(result: WearResult, arc_length: float) -> tuple[float, str]:
 
 
 def outline(result: WearResult) -> tuple[Vector, Vector]:
-    """Return points of the new wheel, or of the teeth beside a gap.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        x and y [mm]; empty where only a flank is known.
-    """
+    """Return points of the new wheel, or of the teeth beside a gap."""
     if result.inputs["mechanism"]["kind"] == "wrap":
         return _beside_gap(result)
     sprocket = result.inputs.get("sprocket", {})
@@ -130,18 +83,7 @@ def _beside_gap(result: WearResult) -> tuple[Vector, Vector]:
 
 
 def life_time(result: WearResult) -> str:
-    """Return the time at which pictures show a flank as worn, and what it is.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    str
-        Such as ``15 150 h (life)``: that of the answer, on a wrap perhaps the chain's.
-    """
+    """Return the time at which pictures show a flank as worn, and what it is."""
     what = "life" if isinstance(result.life, Life) else "limit not reached"
     if result.stop == "elongation_percent":
         what += ", ended by the chain"
@@ -149,18 +91,7 @@ def life_time(result: WearResult) -> str:
 
 
 def at_life(result: WearResult) -> dict[str, Vector]:
-    """Return the columns of the flank at the end of the life; of the kind of gap that wears most.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result; the run of a wrap may go on after the life of its chain.
-
-    Returns
-    -------
-    dict
-        Arrays by the names of the columns of ``flank.csv``, on the line between two snapshots.
-    """
+    """Return the columns of the flank at the end of the life; of the kind of gap that wears most."""
     times, end = np.unique(result.flank_columns["cycles"]), result.life.cycles_run
     last = int(np.clip(np.searchsorted(times, end), 1, times.size - 1))
     part = min(1.0, float((end - times[last - 1]) / (times[last] - times[last - 1])))
@@ -169,20 +100,7 @@ def at_life(result: WearResult) -> dict[str, Vector]:
 
 
 def snapshot(result: WearResult, index: int) -> dict[str, Vector]:
-    """Return the columns of the flank at one snapshot; of the kind of gap that wears most.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    index : int
-        0 for the new flank, -1 for the end of the run.
-
-    Returns
-    -------
-    dict
-        Arrays by the names of the columns of ``flank.csv``.
-    """
+    """Return the columns of the flank at one snapshot; of the kind of gap that wears most."""
     columns = flanks(result, index)
     if "gap_kind" not in columns:
         return columns
@@ -192,20 +110,7 @@ def snapshot(result: WearResult, index: int) -> dict[str, Vector]:
 
 
 def flanks(result: WearResult, index: int) -> dict[str, Vector]:
-    """Return the columns of all flanks at one snapshot.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    index : int
-        0 for the new flanks, -1 for the end of the run.
-
-    Returns
-    -------
-    dict
-        Arrays by the names of the columns of ``flank.csv``.
-    """
+    """Return the columns of all flanks at one snapshot."""
     cycles = result.flank_columns["cycles"]
     at = cycles == np.unique(cycles)[index]
     return {name: values[at] for name, values in result.flank_columns.items()}

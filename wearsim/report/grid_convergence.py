@@ -8,18 +8,7 @@ from wearsim.wear.accuracy import LEAST_ORDER, MOST_ORDER, GridStudy
 
 
 def grid_json(grid: GridStudy) -> dict[str, Any]:
-    """Return a study of three grids as ``wearsim life --verify-grid --json`` prints it.
-
-    Parameters
-    ----------
-    grid : GridStudy
-        The study.
-
-    Returns
-    -------
-    dict
-        Points, quantity and values, order, error and whether that is Richardson's.
-    """
+    """Return a study of three grids as ``wearsim life --verify-grid --json`` prints it."""
     return {
         "nodes": list(grid.points),
         "quantity": grid.quantity,
@@ -31,18 +20,7 @@ def grid_json(grid: GridStudy) -> dict[str, Any]:
 
 
 def grid_text(grid: GridStudy) -> str:
-    """Return a study of three grids as ``wearsim life --verify-grid`` prints it.
-
-    Parameters
-    ----------
-    grid : GridStudy
-        The study.
-
-    Returns
-    -------
-    str
-        At most a hundred characters wide.
-    """
+    """Return a study of three grids as ``wearsim life --verify-grid`` prints it."""
     nodes = ", ".join(map(str, grid.points))
     values = ", ".join(f"{value:.7g}" for value in grid.values)
     unit = "cycles" if grid.quantity == "cycles" else "mm deep"

@@ -12,18 +12,6 @@ _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 def grouped(value: float, digits: int = 4) -> str:
     """Return a number with few digits and thousands set apart, as one reads it aloud.
 
-    Parameters
-    ----------
-    value : float
-        Any finite number.
-    digits : int
-        Significant digits.
-
-    Returns
-    -------
-    str
-        Such as ``15 150``.
-
     Examples
     --------
     >>> grouped(15149.24)
@@ -38,18 +26,7 @@ def grouped(value: float, digits: int = 4) -> str:
 
 
 def row(label: str, text: str) -> str:
-    """Return one line of an answer, folded under its label.
-
-    Parameters
-    ----------
-    label, text : str
-        What stands on the left and on the right.
-
-    Returns
-    -------
-    str
-        Lines of at most a hundred characters.
-    """
+    """Return one line of an answer, folded under its label."""
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
         text,
@@ -64,16 +41,6 @@ def row(label: str, text: str) -> str:
 def numbered(assumptions: tuple[str, ...]) -> str:
     """Return assumptions with their numbers; the defaults taken share the last one.
 
-    Parameters
-    ----------
-    assumptions : tuple of str
-        Of a result.
-
-    Returns
-    -------
-    str
-        One text.
-
     Examples
     --------
     >>> numbered(("all teeth alike", "run.method = advance (default)", "wear.law = archard (default)"))
@@ -87,16 +54,6 @@ def numbered(assumptions: tuple[str, ...]) -> str:
 
 def told_apart(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
     """Return what a result takes for granted, and the defaults it takes.
-
-    Parameters
-    ----------
-    assumptions : tuple of str
-        Of a result.
-
-    Returns
-    -------
-    tuple of list of str
-        The two kinds, each in its order.
 
     Examples
     --------

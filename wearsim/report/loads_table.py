@@ -20,18 +20,7 @@ _COLUMNS = (
 
 
 def loads_columns(found: ToothLoads) -> dict[str, list[float]]:
-    """Return the columns of the table, in the units of their names.
-
-    Parameters
-    ----------
-    found : ToothLoads
-        Loads of one or several links kinds at the tight end.
-
-    Returns
-    -------
-    dict
-        A list of one number a tooth for each column.
-    """
+    """Return the columns of the table, in the units of their names."""
     loads = found.loads
     values = (
         loads.tension,
@@ -46,18 +35,7 @@ def loads_columns(found: ToothLoads) -> dict[str, list[float]]:
 
 
 def loads_json(found: ToothLoads) -> dict[str, Any]:
-    """Return the loads as ``wearsim loads --json`` prints them.
-
-    Parameters
-    ----------
-    found : ToothLoads
-        The loads.
-
-    Returns
-    -------
-    dict
-        ``teeth``, a row for each tooth from the tight end, and what belongs to all.
-    """
+    """Return the loads as ``wearsim loads --json`` prints them."""
     columns = loads_columns(found)
     teeth = [
         {"tooth": row + 1, **{name: values[row] for name, values in columns.items()}}
@@ -79,18 +57,7 @@ def loads_json(found: ToothLoads) -> dict[str, Any]:
 
 
 def loads_table(found: ToothLoads) -> str:
-    """Return the loads as ``wearsim loads`` prints them.
-
-    Parameters
-    ----------
-    found : ToothLoads
-        The loads.
-
-    Returns
-    -------
-    str
-        Several lines, at most a hundred characters wide.
-    """
+    """Return the loads as ``wearsim loads`` prints them."""
     columns = loads_columns(found)
     lines = [
         f"{found.title}: {found.loads.force.size} rollers in a wrap of {found.wrap_degrees:.1f} degrees, "

@@ -15,18 +15,7 @@ _WIDTH = 100
 
 
 def rating_json(case: Case) -> dict[str, Any]:
-    """Return the ratings of a case as ``wearsim check --json`` prints them.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    dict
-        ``rating``, one object a finding, and ``notes``; empty where no chain wraps the sprocket.
-    """
+    """Return the ratings of a case as ``wearsim check --json`` prints them."""
     if not isinstance(case.drive, WrapDrive):
         return {}
     keys = ("name", "value", "limit", "unit", "ok", "source", "note", "load")
@@ -41,18 +30,7 @@ RATING_HEAD = ["rating", "value", "allowed", "margin", "used", "whose rule"]
 
 
 def rating_cells(ratings: Sequence[Finding]) -> list[list[str]]:
-    """Return the ratings of a result in words, those outside marked.
-
-    Parameters
-    ----------
-    ratings : sequence of Finding
-        Of a result.
-
-    Returns
-    -------
-    list of list of str
-        The cells of a row per rating.
-    """
+    """Return the ratings of a result in words, those outside marked."""
     rows = []
     for finding in ratings:
         unit = f" {finding.unit}" if finding.unit else ""
@@ -72,35 +50,12 @@ def rating_cells(ratings: Sequence[Finding]) -> list[list[str]]:
 
 
 def rule(finding: Finding) -> str:
-    """Return whose rule a rating is, which load it is about, and why it is only indicative.
-
-    Parameters
-    ----------
-    finding : Finding
-        A rating.
-
-    Returns
-    -------
-    str
-        One line.
-    """
+    """Return whose rule a rating is, which load it is about, and why it is only indicative."""
     return "; ".join(text for text in (finding.source, finding.load, finding.note) if text)
 
 
 def rating_table(case: Case) -> str:
-    """Return the ratings of a case as ``wearsim check`` prints them.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    str
-        A line for each finding and each note, at most a hundred characters wide; empty where no
-        chain wraps the sprocket.
-    """
+    """Return the ratings of a case as ``wearsim check`` prints them."""
     found = rating(case)
     if not found:
         return ""
@@ -128,35 +83,12 @@ def rating_table(case: Case) -> str:
 
 
 def notes_text(case: Case) -> str:
-    """Return `drive_notes` as ``wearsim check`` prints them.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    str
-        At most a hundred characters wide; empty where no chain wraps the sprocket.
-    """
+    """Return `drive_notes` as ``wearsim check`` prints them."""
     return "\n".join(_folded(text, "  drive    ", " " * 11) for text in drive_notes(case))
 
 
 def drive_notes(case: Case) -> list[str]:
-    """Return what a designer asks of a chain drive that no rule limits.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    list of str
-        Links and centre distance, wrap, speed and pull, polygon effect, who meets whom; empty
-        where no chain wraps the sprocket.
-    """
+    """Return what a designer asks of a chain drive that no rule limits."""
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return []
@@ -194,6 +126,4 @@ def _meetings(case: Case, drive: WrapDrive) -> str:
 
 
 def _folded(text: str, first: str, other: str) -> str:
-    return textwrap.fill(
-        text, _WIDTH, initial_indent=first, subsequent_indent=other, break_on_hyphens=False
-    )
+    return textwrap.fill(text, _WIDTH, initial_indent=first, subsequent_indent=other, break_on_hyphens=False)

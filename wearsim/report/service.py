@@ -7,25 +7,8 @@ from typing import Any
 from wearsim.result import Life, LowerBound, WearResult
 
 
-def service_measures(
-    inputs: Mapping[str, Any], hours: float, before: float = 0.0
-) -> dict[str, float | str]:
+def service_measures(inputs: Mapping[str, Any], hours: float, before: float = 0.0) -> dict[str, float | str]:
     """Return hours of running in the measures that a case gives factors for.
-
-    Parameters
-    ----------
-    inputs : mapping
-        Tables of the case.
-    hours : float
-        Running time [h].
-    before : float
-        Running time from ``start_date`` until these hours begin [h].
-
-    Returns
-    -------
-    dict
-        Some of ``km``, ``tonnes``, ``days`` and ``date`` (the day on which the hours end);
-        none after the year 9999.
 
     Examples
     --------
@@ -52,41 +35,14 @@ def service_measures(
 
 
 def life_json(result: WearResult) -> dict[str, Any]:
-    """Return the answer as ``wearsim life --json`` prints it.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    dict
-        Its summary; with ``service`` where the case has that table, with ``service_at_least`` where
-        only a bound of the life is known.
-    """
+    """Return the answer as ``wearsim life --json`` prints it."""
     return result.summary() | service_keys(result.inputs, result.life)
 
 
 def service_keys(
     inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0
 ) -> dict[str, dict[str, float | str]]:
-    """Return a life in the measures of a machine in service under the key that says what it is.
-
-    Parameters
-    ----------
-    inputs : mapping
-        Tables of the case.
-    life : Life or LowerBound
-        The life.
-    before : float
-        Running time from ``start_date`` until it begins [h].
-
-    Returns
-    -------
-    dict
-        Empty where the case has no table [service].
-    """
+    """Return a life in the measures of a machine in service under the key that says what it is."""
     if not inputs.get("service"):
         return {}
     key = "service" if isinstance(life, Life) else "service_at_least"

@@ -12,23 +12,13 @@ from wearsim.result import WearResult
 
 @dataclass(frozen=True, eq=False)
 class WornFlank:
-    """A flank that wears; ``S`` snapshots of ``N`` points.
+    """A flank that wears; ``S`` snapshots of ``N`` points."""
 
-    Attributes
-    ----------
-    name : str
-        ``tooth``, or of gears ``pinion`` and ``wheel``.
-    cycles : numpy.ndarray, shape (S,)
-        Loading cycles of the snapshots, from 0.
-    x, y, depth : numpy.ndarray, shape (S, N)
-        Points and the depth worn off there [mm].
-    """
-
-    name: str
-    cycles: Vector
-    x: Vector
-    y: Vector
-    depth: Vector
+    name: str  # `tooth`, or of gears `pinion` and `wheel`
+    cycles: Vector  # loading cycles of the snapshots, from 0, shape (S,)
+    x: Vector  # points and the depth worn off there [mm], shape (S, N)
+    y: Vector  # points and the depth worn off there [mm], shape (S, N)
+    depth: Vector  # points and the depth worn off there [mm], shape (S, N)
 
     @cached_property
     def new(self) -> Profile:
@@ -51,40 +41,17 @@ class WornFlank:
         return enlargement(float(self.depth[-1].max()), self.extent)
 
     def at(self, cycles: Vector) -> tuple[Vector, Vector, Vector]:
-        """Return the flank at some times, linear in them between two snapshots.
-
-        Parameters
-        ----------
-        cycles : numpy.ndarray, shape (T,)
-            From 0 to that of the last snapshot.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            x, y and depth [mm], each of shape (T, N); of a snapshot its own numbers.
-        """
+        """Return the flank at some times, linear in them between two snapshots."""
         after = np.clip(np.searchsorted(self.cycles, cycles), 1, self.cycles.size - 1)
         first, last = self.cycles[after - 1], self.cycles[after]
         part = ((cycles - first) / (last - first))[:, None]
         x, y, depth = (
-            (1.0 - part) * values[after - 1] + part * values[after]
-            for values in (self.x, self.y, self.depth)
+            (1.0 - part) * values[after - 1] + part * values[after] for values in (self.x, self.y, self.depth)
         )
         return x, y, depth
 
     def until(self, cycles: float) -> "WornFlank":
-        """Return the flank as it wears up to a time.
-
-        Parameters
-        ----------
-        cycles : float
-            Loading cycles, above 0.
-
-        Returns
-        -------
-        WornFlank
-            Its last snapshot is that of the time.
-        """
+        """Return the flank as it wears up to a time."""
         end = np.array([min(cycles, self.cycles[-1])])
         before, last = self.cycles < end[0], self.at(end)
         x, y, depth = (
@@ -94,51 +61,18 @@ class WornFlank:
         return WornFlank(self.name, np.append(self.cycles[before], end), x, y, depth)
 
     def enlarged(self, x: Vector, y: Vector) -> tuple[Vector, Vector]:
-        """Return points with their distance from the new flank enlarged.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray, shape (..., N)
-            The worn flank [mm].
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            x and y [mm].
-        """
+        """Return points with their distance from the new flank enlarged."""
         new_x, new_y = self.x[0], self.y[0]
         return new_x + self.factor * (x - new_x), new_y + self.factor * (y - new_y)
 
 
 def flanks_of_life(result: WearResult) -> list[WornFlank]:
-    """Return the flank up to the end of the life, of gears those of both wheels.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result; the run of a wrap may go on after the life of its chain.
-
-    Returns
-    -------
-    list of WornFlank
-        One or two.
-    """
+    """Return the flank up to the end of the life, of gears those of both wheels."""
     return [flank.until(result.life.cycles_run) for flank in worn_flanks(result)]
 
 
 def worn_flanks(result: WearResult) -> list[WornFlank]:
-    """Return the flank of a run, of gears those of both wheels.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result; of a wrap the kind of gap that wears most is taken.
-
-    Returns
-    -------
-    list of WornFlank
-        One or two.
-    """
+    """Return the flank of a run, of gears those of both wheels."""
     columns = result.flank_columns
     size = snapshot(result, 0)["depth_mm"].size
     rows: slice | Vector = slice(None)
@@ -147,9 +81,7 @@ def worn_flanks(result: WearResult) -> list[WornFlank]:
     cycles = columns["cycles"][rows].reshape(-1, size)[:, 0]
 
     def _flank(name: str, start: str) -> WornFlank:
-        x, y, depth = (
-            columns[start + part][rows].reshape(-1, size) for part in ("x_mm", "y_mm", "depth_mm")
-        )
+        x, y, depth = (columns[start + part][rows].reshape(-1, size) for part in ("x_mm", "y_mm", "depth_mm"))
         return WornFlank(name, cycles, x, y, depth)
 
     if "wheel_x_mm" in columns:
@@ -158,20 +90,7 @@ def worn_flanks(result: WearResult) -> list[WornFlank]:
 
 
 def mate(result: WearResult, flank: WornFlank) -> tuple[tuple[float, float], float, str]:
-    """Return the circle that touches the new flank where it wears most.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    flank : WornFlank
-        Its first one.
-
-    Returns
-    -------
-    tuple
-        Centre [mm], radius [mm], below 0 if hollow, and what it is: ``roller`` or ``wheel``.
-    """
+    """Return the circle that touches the new flank where it wears most."""
     new, deepest = flank.new, flank.deepest
     place = float(snapshot(result, -1)["arc_length_mm"][deepest])
     radius, name = touching_circle(result, place)

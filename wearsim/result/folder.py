@@ -23,24 +23,45 @@ if TYPE_CHECKING:
 SCHEMA_VERSION = 1
 
 _HISTORY = (
-    "cycles", "time_hours", "max_depth_mm", "peak_pressure_MPa", "max_sliding_speed_mm_per_s",
-    "removed_area_mm2", "worn_contact_ratio",
-)  # fmt: skip
+    "cycles",
+    "time_hours",
+    "max_depth_mm",
+    "peak_pressure_MPa",
+    "max_sliding_speed_mm_per_s",
+    "removed_area_mm2",
+    "worn_contact_ratio",
+)
 _FLANK = (
-    "cycles", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm", "pressure_MPa",
-    "sliding_speed_mm_per_s", "load_per_width_N_per_mm", "relative_curvature_per_mm",
-)  # fmt: skip
+    "cycles",
+    "node",
+    "arc_length_mm",
+    "x_mm",
+    "y_mm",
+    "depth_mm",
+    "pressure_MPa",
+    "sliding_speed_mm_per_s",
+    "load_per_width_N_per_mm",
+    "relative_curvature_per_mm",
+)
 
 HISTORY_COLUMNS = {
     "strand": _HISTORY,
     "prescribed": _HISTORY,
     "gear_pair": _HISTORY,
     "wrap": (
-        "cycles", "time_hours", "max_depth_mm", "elongation_percent", "roller_wear_mm", "chain",
-        "peak_pressure_MPa", "max_sliding_speed_mm_per_s", "removed_area_mm2", "tip_land_mm",
+        "cycles",
+        "time_hours",
+        "max_depth_mm",
+        "elongation_percent",
+        "roller_wear_mm",
+        "chain",
+        "peak_pressure_MPa",
+        "max_sliding_speed_mm_per_s",
+        "removed_area_mm2",
+        "tip_land_mm",
         "over_pins_mm",
     ),
-}  # fmt: skip
+}
 FLANK_COLUMNS = {
     "strand": _FLANK,
     "prescribed": _FLANK,
@@ -60,26 +81,7 @@ FILE_KEYS = (
 
 
 def write_result(result: WearResult, folder: Path, force: bool, parquet: bool) -> None:
-    """Write a result into a folder.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    folder : pathlib.Path
-        New folder.
-    force : bool
-        Replace a folder that is there.
-    parquet : bool
-        Write both tables as Parquet files too.
-
-    Raises
-    ------
-    OutputError
-        The folder is there, or cannot be written.
-    CaseError
-        pyarrow is not installed, which Parquet needs.
-    """
+    """Write a result into a folder."""
     with new_folder(folder, force) as place:
         lives = {name: asdict(getattr(result, name)) for name in ("life", "life_low", "life_high")}
         parts = {name: asdict(life) for name, life in result.parts.items()}
@@ -109,23 +111,7 @@ def _lock(result: WearResult) -> str:
 
 
 def read_result(folder: Path) -> dict[str, Any]:
-    """Return the fields of a result that was written.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Folder with result.json.
-
-    Returns
-    -------
-    dict
-        Arguments of WearResult.
-
-    Raises
-    ------
-    OutputError
-        The folder does not hold a complete result of this version.
-    """
+    """Return the fields of a result that was written."""
     try:
         return _stored(folder)
     except OutputError:
@@ -152,9 +138,19 @@ def _stored(folder: Path) -> dict[str, Any]:
     inputs = with_files(lock, "")
     kind = inputs["mechanism"]["kind"]
     same = (
-        "case", "title", "band", "stop", "stop_value", "cycles_run", "hours_run", "speed_rpm",
-        "method", "updates", "numerical_error", "life_tolerance",
-    )  # fmt: skip
+        "case",
+        "title",
+        "band",
+        "stop",
+        "stop_value",
+        "cycles_run",
+        "hours_run",
+        "speed_rpm",
+        "method",
+        "updates",
+        "numerical_error",
+        "life_tolerance",
+    )
     return {
         **{name: stored[name] for name in same},
         **{name: _life(life) for name, life in stored["lives"].items()},
@@ -194,20 +190,7 @@ def _named(inputs: Mapping[str, Any]) -> list[str]:
 
 
 def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
-    """Return the tables of a case with the CSV files that they name in another folder.
-
-    Parameters
-    ----------
-    inputs : mapping
-        Tables of the case.
-    folder : str
-        Folder of the files, empty for beside the case.
-
-    Returns
-    -------
-    dict
-        The tables, with new paths for the files.
-    """
+    """Return the tables of a case with the CSV files that they name in another folder."""
     moved = dict(inputs)
     for table, key in FILE_KEYS:
         if key in inputs.get(table, {}):
@@ -231,6 +214,5 @@ def _read_columns(path: Path, names: tuple[str, ...]) -> dict[str, Vector]:
     table = np.loadtxt(rows, delimiter=",", comments=None, ndmin=2)
     columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
     return {
-        name: cells.astype(int) if name in ("node", "gap_kind") else cells
-        for name, cells in columns.items()
+        name: cells.astype(int) if name in ("node", "gap_kind") else cells for name, cells in columns.items()
     }

@@ -154,11 +154,7 @@ def first_life(wear: Life | LowerBound, fatigue: Mapping[str, Life | LowerBound]
     'sprocket_fatigue'
     >>> first_life(LowerBound(6000.0, 1.0), {"sprocket_fatigue": Life(9000.0, 1.5)})
     """
-    reached = {
-        name: life.hours
-        for name, life in {"wear": wear, **fatigue}.items()
-        if isinstance(life, Life)
-    }
+    reached = {name: life.hours for name, life in {"wear": wear, **fatigue}.items() if isinstance(life, Life)}
     first = min(reached, key=lambda name: reached[name], default=None)
     if first is None or reached[first] > wear.hours_run:
         return None

@@ -9,36 +9,12 @@ from wearsim.quantities import quantities
 
 
 def pyarrow() -> Any:
-    """Return the library that writes Parquet.
-
-    Returns
-    -------
-    module
-        pyarrow.
-
-    Raises
-    ------
-    CaseError
-        It is not installed.
-    """
+    """Return the library that writes Parquet."""
     return library("pyarrow", "parquet", "--parquet")
 
 
 def write_parquet(path: Path, columns: Mapping[str, Any]) -> None:
-    """Write a table; the unit of each column stands in the metadata of its field.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        New file.
-    columns : mapping
-        Arrays by name.
-
-    Raises
-    ------
-    CaseError
-        pyarrow is not installed.
-    """
+    """Write a table; the unit of each column stands in the metadata of its field."""
     arrow = pyarrow()
     from pyarrow import parquet
 

@@ -29,101 +29,49 @@ NAMES_FILE = tuple(f"{table}.{key}" for table, key in FILE_KEYS)
 
 @dataclass(frozen=True)
 class Engine:
-    """What the numbers depend on beside the input.
+    """What the numbers depend on beside the input."""
 
-    Attributes
-    ----------
-    version : str
-        Of wearsim.
-    kernels : str
-        Hash of the compiled functions' sources, of numba and of Python.
-    """
-
-    version: str
-    kernels: str
+    version: str  # of wearsim
+    kernels: str  # hash of the compiled functions' sources, of numba and of Python
 
 
 @cache
 def engine() -> Engine:
-    """Return the engine of this process.
-
-    Returns
-    -------
-    Engine
-        Equal engines give the same numbers bit for bit on the same kind of processor.
-    """
+    """Return the engine of this process."""
     return Engine(__version__, source_hash())
 
 
 @dataclass(frozen=True)
 class Design:
-    """The cases of a study.
+    """The cases of a study."""
 
-    Attributes
-    ----------
-    name : str
-        Of the case that they come from.
-    tables : mapping
-        Its tables as they were given.
-    files : mapping of str to str
-        Texts of the files that the tables and values name.
-    keys : tuple of str
-        Dotted keys that differ; entries of a list of tables by their numbers from 1.
-    rows : tuple of tuple
-        Values of the keys, a row for each case.
-    """
-
-    name: str
-    tables: Mapping[str, Any]
-    files: Mapping[str, str]
+    name: str  # of the case that they come from
+    tables: Mapping[str, Any]  # its tables as they were given
+    files: Mapping[str, str]  # texts of the files that the tables and values name
+    # dotted keys that differ; entries of a list of tables by their numbers from 1
     keys: tuple[str, ...]
-    rows: tuple[tuple[Any, ...], ...]
+    rows: tuple[tuple[Any, ...], ...]  # values of the keys, a row for each case
 
     def tables_of(self, index: int) -> dict[str, Any]:
-        """Return the tables of one case.
-
-        Parameters
-        ----------
-        index : int
-            Its number from 0.
-
-        Returns
-        -------
-        dict
-            As an input file would give them.
-        """
+        """Return the tables of one case."""
         tables = dict(self.tables)
         for key, value in zip(self.keys, self.rows[index], strict=True):
             tables = replaced(tables, key.split("."), value)
         return tables
 
     def part(self, first: int, count: int) -> "Design":
-        """Return some of the cases.
-
-        Parameters
-        ----------
-        first, count : int
-            Index of the first and their number.
-
-        Returns
-        -------
-        Design
-            Of the same tables and files.
-        """
+        """Return some of the cases."""
         return replace(self, rows=self.rows[first : first + count])
 
     def address(self) -> str:
-        """Return the hash of all that the lives depend on.
-
-        Returns
-        -------
-        str
-            Hexadecimal digits of SHA-256 over the tables, files, keys, rows and the engine.
-        """
+        """Return the hash of all that the lives depend on."""
         content = {
-            "tables": self.tables, "files": self.files, "keys": self.keys, "rows": self.rows,
+            "tables": self.tables,
+            "files": self.files,
+            "keys": self.keys,
+            "rows": self.rows,
             "engine": vars(engine()),
-        }  # fmt: skip
+        }
         return content_hash(content)
 
     @property
@@ -145,16 +93,6 @@ def _wraps(tables: Mapping[str, Any]) -> bool:
 def content_hash(content: Mapping[str, Any]) -> str:
     """Return the hash of plain values that does not depend on the order of keys.
 
-    Parameters
-    ----------
-    content : mapping
-        Tables of an input file and the like.
-
-    Returns
-    -------
-    str
-        Hexadecimal digits of SHA-256.
-
     Examples
     --------
     >>> content_hash({"a": 1, "b": 2.0}) == content_hash({"b": 2.0, "a": 1})
@@ -167,25 +105,6 @@ def content_hash(content: Mapping[str, Any]) -> str:
 
 def replaced(tables: Mapping[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
     """Return tables with one value set, what it does not touch shared.
-
-    Parameters
-    ----------
-    tables : mapping
-        Tables.
-    path : sequence of str
-        Parts of the dotted key.
-    value : object
-        The value.
-
-    Returns
-    -------
-    dict
-        The other tables.
-
-    Raises
-    ------
-    CaseError
-        The key leads through a value or beyond a list.
 
     Examples
     --------
@@ -209,18 +128,6 @@ def replaced(tables: Mapping[str, Any], path: Sequence[str], value: Any) -> dict
 def value_at(tables: Mapping[str, Any], key: str) -> Any:
     """Return the value of a key.
 
-    Parameters
-    ----------
-    tables : mapping
-        Tables.
-    key : str
-        Dotted name; entries of a list of tables by their numbers from 1.
-
-    Returns
-    -------
-    object
-        None where there is none.
-
     Examples
     --------
     >>> value_at({"duty": [{"speed_rpm": 1}]}, "duty.1.speed_rpm")
@@ -236,32 +143,8 @@ def value_at(tables: Mapping[str, Any], key: str) -> Any:
     return found
 
 
-def design(
-    document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str
-) -> Design:
-    """Return the cases of a study with the texts of all their files.
-
-    Parameters
-    ----------
-    document : Document
-        The case that they come from.
-    keys : sequence of str
-        Dotted keys that differ.
-    rows : sequence of sequence
-        Values of the keys, a row for each case.
-    place : str
-        Where the keys stand, for messages.
-
-    Returns
-    -------
-    Design
-        To be run anywhere.
-
-    Raises
-    ------
-    CaseError
-        A key is none of a case, or two files share a name.
-    """
+def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str) -> Design:
+    """Return the cases of a study with the texts of all their files."""
     _check_keys(document, keys, place)
     files: dict[str, str] = {}
     tables: Mapping[str, Any] = document.data
@@ -271,9 +154,7 @@ def design(
             tables = replaced(tables, (table, key), _taken(document, files, given[key]))
     moved = tuple(
         tuple(
-            _taken(document, files, value)
-            if key in NAMES_FILE and isinstance(value, str)
-            else value
+            _taken(document, files, value) if key in NAMES_FILE and isinstance(value, str) else value
             for key, value in zip(keys, row, strict=True)
         )
         for row in rows

@@ -14,25 +14,6 @@ Quantile = Callable[[Vector], Vector]
 def quantile(scatter: Distribution, value: float) -> Quantile:
     """Return the value of a key by its probability.
 
-    Parameters
-    ----------
-    scatter : Distribution
-        How the key scatters.
-    value : float
-        What it is in the case: the median of a log-normal, mean of a normal and mode of a
-        triangular distribution that gives none.
-
-    Returns
-    -------
-    callable
-        From probabilities in (0, 1), shape (n,), to values. Limits below and above cut the
-        distribution off and leave its shape between them.
-
-    Raises
-    ------
-    ValueError
-        The limits leave nothing, or the mode lies outside them.
-
     Examples
     --------
     >>> scatter = Distribution(distribution="lognormal", sigma_ln=0.5)
@@ -78,18 +59,6 @@ def _whole(scatter: Distribution, value: float) -> "stats.distributions.rv_froze
 
 def described(scatter: Distribution, value: float) -> str:
     """Return a distribution in words.
-
-    Parameters
-    ----------
-    scatter : Distribution
-        How the key scatters.
-    value : float
-        What it is in the case.
-
-    Returns
-    -------
-    str
-        Its kind and parameters.
 
     Examples
     --------

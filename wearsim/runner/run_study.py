@@ -22,36 +22,9 @@ Told = Callable[[int, int], None]
 
 
 def run_study(
-    design: Design,
-    workers: Workers,
-    store: Store | None = None,
-    told: Told = lambda done, count: None,
+    design: Design, workers: Workers, store: Store | None = None, told: Told = lambda done, count: None
 ) -> pd.DataFrame:
-    """Run the cases of a study that are not finished yet.
-
-    Parameters
-    ----------
-    design : Design
-        All cases.
-    workers : Workers
-        Where they run. It makes no difference to the numbers.
-    store : Store, optional
-        What is finished; takes what comes.
-    told : callable, optional
-        Told how many cases of all are done.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row for each case in order: its keys, then what came of it.
-
-    Raises
-    ------
-    StudyError
-        No worker can run it, or all die.
-    OutputError
-        A shard cannot be written.
-    """
+    """Run the cases of a study that are not finished yet."""
     done: dict[int, Rows] = {}
     waiting: list[Shard] = []
     for shard in shards(design):

@@ -16,20 +16,6 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     teeth (no wrap, whose chain wears by another coefficient), contact fatigue is not asked for,
     and the coefficient does not change as the drive runs in: the percentile p of the life is
     L k / k_(1-p).
-
-    Parameters
-    ----------
-    result : WearResult
-        A run of the case.
-    case : Case
-        The case.
-    shares : tuple of float
-        The parts, between 0 and 1.
-
-    Returns
-    -------
-    list of float
-        Hours [h]; empty where they do not follow or nothing scatters.
     """
     table = result.inputs.get("uncertainty") or {}
     steady = not isinstance(case.drive, WrapDrive) and case.wear.running_in_factor == 1.0

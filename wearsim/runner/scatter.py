@@ -29,49 +29,23 @@ WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([
 
 @dataclass(frozen=True)
 class Scatter:
-    """A key that scatters.
+    """A key that scatters."""
 
-    Attributes
-    ----------
-    key : str
-        Its dotted name.
-    distribution : Distribution
-        How it scatters.
-    value : float
-        What it is in the case.
-    text : str
-        The distribution in words.
-    """
-
-    key: str
-    distribution: Distribution
-    value: float
-    text: str
+    key: str  # its dotted name
+    distribution: Distribution  # how it scatters
+    value: float  # what it is in the case
+    text: str  # the distribution in words
 
 
 @dataclass(frozen=True)
 class Scattered:
-    """A case and what of it scatters.
+    """A case and what of it scatters."""
 
-    Attributes
-    ----------
-    path : pathlib.Path
-        Its file.
-    case : Case
-        With the values of the file.
-    document : Document
-        The file without [uncertainty], the wear coefficient by its own key.
-    scatters : tuple of Scatter
-        What scatters, independently of one another.
-    assumptions : tuple of str
-        What is taken for granted about that.
-    """
-
-    path: Path
-    case: Case
-    document: Document
-    scatters: tuple[Scatter, ...]
-    assumptions: tuple[str, ...]
+    path: Path  # its file
+    case: Case  # with the values of the file
+    document: Document  # the file without [uncertainty], the wear coefficient by its own key
+    scatters: tuple[Scatter, ...]  # what scatters, independently of one another
+    assumptions: tuple[str, ...]  # what is taken for granted about that
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -79,23 +53,7 @@ class Scattered:
         return tuple(scatter.key for scatter in self.scatters)
 
     def values(self, shares: Vector) -> Vector:
-        """Return values of the keys by their probabilities.
-
-        Parameters
-        ----------
-        shares : numpy.ndarray
-            Probabilities inside (0, 1), shape (n, keys).
-
-        Returns
-        -------
-        numpy.ndarray
-            Of the same shape, in the units of the keys.
-
-        Raises
-        ------
-        CaseError
-            A distribution leaves nothing.
-        """
+        """Return values of the keys by their probabilities."""
         columns, faults = [], []
         for scatter, column in zip(self.scatters, shares.T, strict=True):
             try:
@@ -107,52 +65,13 @@ class Scattered:
         return np.column_stack(columns)
 
     def design(self, shares: Vector) -> Design:
-        """Return the cases at some probabilities of the keys.
-
-        Parameters
-        ----------
-        shares : numpy.ndarray
-            Probabilities inside (0, 1), shape (n, keys).
-
-        Returns
-        -------
-        Design
-            A case for each row.
-
-        Raises
-        ------
-        CaseError
-            A distribution leaves nothing.
-        """
+        """Return the cases at some probabilities of the keys."""
         rows = self.values(shares).tolist()
         return design(self.document, self.keys, rows, str(self.path))
 
 
-def load_scattered(
-    path: Path, overrides: Sequence[str], least_horizon: float | None = None
-) -> Scattered:
-    """Return a case and what of it scatters by its table [uncertainty].
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The case.
-    overrides : sequence of str
-        ``table.key=VALUE``.
-    least_horizon : float, optional
-        What run.horizon_hours is raised to where it is less [h].
-
-    Returns
-    -------
-    Scattered
-        Wear coefficients that the table does not name, of the teeth and on a wrap of the joints,
-        scatter log-normally, by the published scatter.
-
-    Raises
-    ------
-    CaseError
-        The case is wrong, or a key of the table holds no number that could scatter.
-    """
+def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | None = None) -> Scattered:
+    """Return a case and what of it scatters by its table [uncertainty]."""
     document = read_document(path, overrides)
     case = load_case(path, overrides).with_horizon(least_horizon or 0.0)
     given = _given(case)
@@ -173,18 +92,7 @@ def load_scattered(
 
 
 def coefficient_key(case: Case) -> str:
-    """Return the key of a case's wear coefficient.
-
-    Parameters
-    ----------
-    case : Case
-        A case.
-
-    Returns
-    -------
-    str
-        Its life is inversely proportional to this key's value.
-    """
+    """Return the key of a case's wear coefficient."""
     name = "specific_wear_rate_mm2_per_N" if case.wear.law == "archard" else "coefficient"
     return f"wear.{name}"
 
@@ -218,27 +126,11 @@ def _value(case: Case, key: str) -> float:
 
 
 def plain_document(document: Document, case: Case) -> Document:
-    """Return a case in which every value stands that a study changes.
-
-    Parameters
-    ----------
-    document : Document
-        What stands in the file.
-    case : Case
-        The same with all defaults.
-
-    Returns
-    -------
-    Document
-        Without [uncertainty], the wear coefficients by their own keys, files by their whole
-        paths, the horizon that of the case.
-    """
+    """Return a case in which every value stands that a study changes."""
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
     if "condition" in data["wear"]:
         wear = {name: value for name, value in data["wear"].items() if name != "condition"}
-        data = replaced(
-            {**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient
-        )
+        data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
         if isinstance(case.drive, WrapDrive):
             data = replaced(data, _JOINT.split("."), case.drive.joint.coefficient)
     for table, key in FILE_KEYS:

@@ -17,9 +17,16 @@ from wearsim.runner.design import Design, Engine, content_hash, engine
 from wearsim.simulation.simulate_many import CaseLife, simulate_many
 
 COLUMNS = (
-    "case_index", "life_hours", "hours_run", "cycles_run", "stop", "numerical_error", "warnings",
-    "error", "case_sha256",
-)  # fmt: skip
+    "case_index",
+    "life_hours",
+    "hours_run",
+    "cycles_run",
+    "stop",
+    "numerical_error",
+    "warnings",
+    "error",
+    "case_sha256",
+)
 """What is known of a case that has run, or of why it has not."""
 
 Rows = dict[str, list[Any]]
@@ -27,21 +34,11 @@ Rows = dict[str, list[Any]]
 
 @dataclass(frozen=True)
 class Shard:
-    """Some cases of a study.
+    """Some cases of a study."""
 
-    Attributes
-    ----------
-    first : int
-        Index of the first of them in the study.
-    design : Design
-        The cases.
-    engine : Engine
-        That which the study is run with.
-    """
-
-    first: int
-    design: Design
-    engine: Engine
+    first: int  # index of the first of them in the study
+    design: Design  # the cases
+    engine: Engine  # that which the study is run with
 
     @property
     def count(self) -> int:
@@ -55,42 +52,14 @@ class Shard:
 
 
 def shards(design: Design) -> Iterator[Shard]:
-    """Give the shards of a study in order.
-
-    Parameters
-    ----------
-    design : Design
-        All cases.
-
-    Yields
-    ------
-    Shard
-        The next ones.
-    """
+    """Give the shards of a study in order."""
     size = design.cases_per_shard
     for first in range(0, len(design.rows), size):
         yield Shard(first, design.part(first, size), engine())
 
 
 def run_shard(shard: Shard) -> Rows:
-    """Run the cases of a shard, one after another in one thread.
-
-    Parameters
-    ----------
-    shard : Shard
-        The cases.
-
-    Returns
-    -------
-    dict of list
-        `COLUMNS`; a case that failed has an error and no life, one that ran to its horizon no
-        life either.
-
-    Raises
-    ------
-    StudyError
-        This process has another engine than that of the study.
-    """
+    """Run the cases of a shard, one after another in one thread."""
     if engine() != shard.engine:
         raise StudyError(
             f"a worker has wearsim {engine().version} (kernels {engine().kernels}), the study "
@@ -108,18 +77,7 @@ def run_shard(shard: Shard) -> Rows:
 
 
 def loaded_cases(design: Design) -> list[Case | WearsimError]:
-    """Return the cases of a study, or of a part of it.
-
-    Parameters
-    ----------
-    design : Design
-        The cases.
-
-    Returns
-    -------
-    list of Case or WearsimError
-        What is wrong with a case in its place.
-    """
+    """Return the cases of a study, or of a part of it."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in design.files.items():
             (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")

@@ -19,9 +19,14 @@ MANIFEST = "study.json"
 _SHARDS = "shards"
 _FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado", "front")
 _WRITTEN = (
-    "cases.csv", "summary.md", "convergence.csv", "sensitivity.csv", "candidates.csv", "front.csv",
+    "cases.csv",
+    "summary.md",
+    "convergence.csv",
+    "sensitivity.csv",
+    "candidates.csv",
+    "front.csv",
     *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
-)  # fmt: skip
+)
 """Tables and pictures of studies."""
 
 DESIGNS, DESIGN_MARK = "designs", " of wearsim optimise "
@@ -36,44 +41,16 @@ _TEXTS = ("stop", "warnings", "error", "case_sha256")
 
 @dataclass(frozen=True)
 class Store:
-    """The folder of a study.
+    """The folder of a study."""
 
-    Attributes
-    ----------
-    folder : pathlib.Path
-        Its place.
-    """
-
-    folder: Path
+    folder: Path  # its place
 
     def path(self, shard: Shard) -> Path:
-        """Return the place of a shard.
-
-        Parameters
-        ----------
-        shard : Shard
-            Some cases.
-
-        Returns
-        -------
-        pathlib.Path
-            Named by the hash of all that its rows depend on.
-        """
+        """Return the place of a shard."""
         return self.folder / _SHARDS / f"{shard.address}.parquet"
 
     def finished(self, shard: Shard) -> Rows | None:
-        """Return the rows of a shard that was run before.
-
-        Parameters
-        ----------
-        shard : Shard
-            Some cases.
-
-        Returns
-        -------
-        dict of list or None
-            None where it was not, or where the file is damaged, which is then removed.
-        """
+        """Return the rows of a shard that was run before."""
         parquet = library("pyarrow.parquet", "parquet", "--out")
         path = self.path(shard)
         if not path.exists():
@@ -94,27 +71,13 @@ class Store:
         return None
 
     def keep(self, shard: Shard, rows: Rows) -> None:
-        """Write the rows of a shard beside its place, flush them to the disk, and rename.
-
-        Parameters
-        ----------
-        shard : Shard
-            Some cases.
-        rows : dict of list
-            What came of them.
-
-        Raises
-        ------
-        OutputError
-            The disk is full or the folder cannot be written; nothing half-written stays.
-        """
+        """Write the rows of a shard beside its place, flush them to the disk, and rename."""
         arrow = library("pyarrow", "parquet", "--out")
         from pyarrow import parquet
 
         kinds = {name: arrow.string() for name in _TEXTS} | {"case_index": arrow.int64()}
         columns = {
-            name: arrow.array(values, kinds.get(name, arrow.float64()))
-            for name, values in rows.items()
+            name: arrow.array(values, kinds.get(name, arrow.float64())) for name, values in rows.items()
         }
         table = arrow.table(columns).replace_schema_metadata({_HASH: content_hash(rows)})
         path = self.path(shard)
@@ -137,29 +100,7 @@ class Store:
 
 
 def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> Store:
-    """Make the folder of a study, or open it to go on.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        New, empty, or that of the same study.
-    design : Design
-        Its cases.
-    told : mapping
-        What else the manifest tells of the study.
-    force : bool
-        Take the folder of another study.
-
-    Returns
-    -------
-    Store
-        With what is finished.
-
-    Raises
-    ------
-    OutputError
-        The folder holds another study or anything else.
-    """
+    """Make the folder of a study, or open it to go on."""
     text = _manifest(design, told)
     old = _found(folder, text, force)
     if old == text:
@@ -171,45 +112,12 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
 
 
 def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> None:
-    """Raise where a study cannot go into a folder, as `open_store` does.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        New, empty, or that of the same study.
-    design : Design
-        Its cases.
-    told : mapping
-        What else the manifest tells of the study.
-    force : bool
-        Take the folder of another study.
-
-    Raises
-    ------
-    OutputError
-        The folder holds another study or anything else.
-    """
+    """Raise where a study cannot go into a folder, as `open_store` does."""
     _found(folder, _manifest(design, told), force)
 
 
 def own_designs(folder: Path) -> list[Path]:
-    """Return the designs in a folder that wearsim wrote.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Of the best designs, there or not.
-
-    Returns
-    -------
-    list of pathlib.Path
-        Files named by a number that begin as such a design does.
-
-    Raises
-    ------
-    OSError
-        It cannot be read.
-    """
+    """Return the designs in a folder that wearsim wrote."""
     return [path for path in folder.glob("*.toml") if _is_own_design(path)]
 
 

@@ -5,13 +5,7 @@ import re
 import signal
 import socket
 from collections.abc import Iterator
-from concurrent.futures import (
-    BrokenExecutor,
-    Executor,
-    Future,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
-)
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -39,15 +33,9 @@ class Workers(Protocol):
 
 @dataclass(frozen=True)
 class Threads:
-    """Threads of this process; compiled loops run side by side.
+    """Threads of this process; compiled loops run side by side."""
 
-    Attributes
-    ----------
-    count : int
-        How many.
-    """
-
-    count: int
+    count: int  # how many
     losses: tuple[type[BaseException], ...] = ()
 
     @contextmanager
@@ -59,15 +47,9 @@ class Threads:
 
 @dataclass(frozen=True)
 class Processes:
-    """Processes of this machine.
+    """Processes of this machine."""
 
-    Attributes
-    ----------
-    count : int
-        How many.
-    """
-
-    count: int
+    count: int  # how many
     losses: tuple[type[BaseException], ...] = (BrokenExecutor,)
 
     @contextmanager
@@ -101,20 +83,11 @@ def _deaf() -> None:
 
 @dataclass(frozen=True)
 class Cluster:
-    """Workers of a Dask scheduler.
+    """Workers of a Dask scheduler."""
 
-    Attributes
-    ----------
-    address : str or None
-        Such as ``tcp://127.0.0.1:8786``.
-    scheduler_file : pathlib.Path or None
-        File that the scheduler wrote, in place of the address.
-    security : mapping
-        ``tls_ca_file``, ``tls_client_cert`` and ``tls_client_key``, empty without TLS.
-    """
-
-    address: str | None
-    scheduler_file: Path | None
+    address: str | None  # such as `tcp://127.0.0.1:8786`
+    scheduler_file: Path | None  # file that the scheduler wrote, in place of the address
+    # `tls_ca_file`, `tls_client_cert` and `tls_client_key`, empty without TLS
     security: dict[str, str]
 
     @property
@@ -150,13 +123,7 @@ class Cluster:
 
 
 class KeptOpen:
-    """Workers that stay open from one batch of cases to the next, until one of them dies.
-
-    Parameters
-    ----------
-    workers : Workers
-        Where the cases run.
-    """
+    """Workers that stay open from one batch of cases to the next, until one of them dies."""
 
     def __init__(self, workers: Workers) -> None:
         self._workers, self._stack = workers, ExitStack()
@@ -178,20 +145,7 @@ class KeptOpen:
         yield self, self._opened[1]
 
     def submit(self, function: Any, *arguments: Any) -> "Future[Any]":
-        """Return the future of a call.
-
-        Parameters
-        ----------
-        function : callable
-            What is called.
-        *arguments : object
-            What it is called with.
-
-        Returns
-        -------
-        concurrent.futures.Future
-            Of a worker.
-        """
+        """Return the future of a call."""
         assert self._opened is not None
         try:
             future = self._opened[0].submit(function, *arguments)
@@ -226,9 +180,7 @@ def _reach(address: str, place: str) -> None:
     """Find out whether anybody answers, before a client that would try for long."""
     match = re.fullmatch(r"(?:tcp|tls)://\[?([^\]/]+)\]?:(\d{1,5})", address)
     if match is None:
-        raise StudyError(
-            f"{place}: must be an address such as tcp://127.0.0.1:8786, not {address!r}"
-        )
+        raise StudyError(f"{place}: must be an address such as tcp://127.0.0.1:8786, not {address!r}")
     try:
         socket.create_connection((match[1], int(match[2])), timeout=_PATIENCE).close()
     except (OSError, OverflowError) as error:

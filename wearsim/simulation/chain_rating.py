@@ -17,20 +17,6 @@ def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
     The ratings are those of the smaller sprocket, so its teeth and speed follow from the chain's
     speed where the case is about the larger one.
 
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-    load : Block
-        One of its rated loads.
-
-    Returns
-    -------
-    RatedDrive
-        The power is that of the pull, tight less slack strand, at the chain's speed.
-
     Examples
     --------
     >>> import wearsim
@@ -67,19 +53,7 @@ def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
 
 
 def rating(case: Case) -> tuple[Finding, ...]:
-    """Return what the handbooks say about the drive of a case.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    tuple of Finding
-        `assess`, of each rule the load that comes nearest to it, and the limit of elongation;
-        empty where no chain wraps the sprocket.
-    """
+    """Return what the handbooks say about the drive of a case."""
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return ()
@@ -106,18 +80,7 @@ def _by_load(case: Case, drive: WrapDrive) -> list[list[Finding]]:
 
 
 def rules_without_limit(case: Case) -> tuple[str, ...]:
-    """Return the rules that say nothing about the drive of a case: a number or a row is missing.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    tuple of str
-        Names of findings; empty where no chain wraps the sprocket.
-    """
+    """Return the rules that say nothing about the drive of a case: a number or a row is missing."""
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return ()
@@ -126,35 +89,12 @@ def rules_without_limit(case: Case) -> tuple[str, ...]:
 
 
 def rating_warnings(case: Case) -> list[str]:
-    """Return a warning for every rating that the drive of a case is outside of.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    list of str
-        Without the safety against breaking, of which the case itself warns.
-    """
-    return [
-        warning(finding) for finding in rating(case) if not finding.ok and finding.name != _SAFETY
-    ]
+    """Return a warning for every rating that the drive of a case is outside of."""
+    return [warning(finding) for finding in rating(case) if not finding.ok and finding.name != _SAFETY]
 
 
 def warning(finding: Finding) -> str:
     """Return a finding outside its limit in words.
-
-    Parameters
-    ----------
-    finding : Finding
-        The finding.
-
-    Returns
-    -------
-    str
-        Name, value, limit, whose rule, and whether it is only indicative.
 
     Examples
     --------
@@ -177,9 +117,5 @@ def _elongation(drive: WrapDrive) -> Finding:
     # Both to the four digits of the limit that a case takes by default.
     value, limit = (float(f"{100.0 * part:.4g}") for part in (drive.joint.elongation_limit, limit))
     return Finding(
-        "elongation at the end",
-        value,
-        limit,
-        "%",
-        "3 %, 200 % over the teeth of the larger sprocket",
+        "elongation at the end", value, limit, "%", "3 %, 200 % over the teeth of the larger sprocket"
     )

@@ -34,44 +34,23 @@ AnyRun = TypeVar("AnyRun", bound=_Run)
 
 @dataclass(frozen=True, eq=False)
 class Settled(Generic[AnyRun]):
-    """A life on the points that tell it best.
+    """A life on the points that tell it best."""
 
-    Attributes
-    ----------
-    mechanism : Mechanism
-        With the new flank on these points.
-    run : Run
-        What came of it.
-    error : float
-        Relative error by steps and grid; 1 where no other grid has a life to compare with.
-    points, first_error : int and float
-        Of the flank as the case gives it.
-    level : int
-        Times that it was refined.
-    is_compared : bool
-        Whether another grid has a life.
-    """
-
-    mechanism: Mechanism
-    run: AnyRun
+    mechanism: Mechanism  # with the new flank on these points
+    run: AnyRun  # what came of it
+    # relative error by steps and grid; 1 where no other grid has a life to compare with
     error: float
-    points: int
-    first_error: float
-    level: int
-    is_compared: bool
+    points: int  # of the flank as the case gives it
+    first_error: float  # of the flank as the case gives it
+    level: int  # times that it was refined
+    is_compared: bool  # whether another grid has a life
 
     @property
     def _taken(self) -> int:
         return int(self.mechanism.contact.profile.x.size)
 
     def assumptions(self) -> tuple[str, ...]:
-        """Return what was done for the tolerance.
-
-        Returns
-        -------
-        tuple of str
-            At most one; none where the points of the case were good enough.
-        """
+        """Return what was done for the tolerance."""
         if not self.level:
             return ()
         return (
@@ -80,18 +59,7 @@ class Settled(Generic[AnyRun]):
         )
 
     def warnings(self, tolerance: float) -> list[str]:
-        """Return that the error exceeds a tolerance, if it does, and what to do.
-
-        Parameters
-        ----------
-        tolerance : float
-            Relative.
-
-        Returns
-        -------
-        list of str
-            At most one.
-        """
+        """Return that the error exceeds a tolerance, if it does, and what to do."""
         if not self.is_compared:
             return ["the error of the grid could not be estimated on other points, 100 % is stated"]
         if self.error <= tolerance:
@@ -115,25 +83,6 @@ def settle(mechanism: Mechanism, tolerance: float, levels: int) -> Search[AnyRun
 
     A generator, so that flanks may be worn one by one or in batches: it yields those to wear
     next, and is sent what came of them.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        With the flank as the case gives it.
-    tolerance : float
-        Relative, of the life.
-    levels : int
-        Times that the flank may be refined.
-
-    Returns
-    -------
-    Settled
-        The run of least error.
-
-    Yields
-    ------
-    list of Contact
-        Flanks to wear; of the first ones the first must come to an end.
     """
     run, *more = yield [mechanism.contact, *mechanism.other_grids()]
     assert run is not None

@@ -9,47 +9,19 @@ from wearsim.wear.running_in import CONSTANT, RunningIn
 
 
 def wear_law(wear: WearInput, coefficient: float) -> Law:
-    """Return the law of a case with a coefficient of one's own.
-
-    Parameters
-    ----------
-    wear : WearInput
-        The law as it was given.
-    coefficient : float
-        In place of the given one.
-
-    Returns
-    -------
-    Law
-        What the wear engine takes.
-    """
+    """Return the law of a case with a coefficient of one's own."""
     laws: dict[str, Callable[[], Law]] = {
         "archard": lambda: archard(coefficient),
         "power": lambda: power(coefficient, wear.pressure_exponent),
         "drozdov": lambda: drozdov(
-            coefficient,
-            wear.pressure_exponent,
-            wear.hardness,
-            wear.reference_speed,
-            wear.speed_exponent,
+            coefficient, wear.pressure_exponent, wear.hardness, wear.reference_speed, wear.speed_exponent
         ),
     }
     return replace(laws[wear.law](), case_depth=wear.case_depth, core_factor=wear.core_factor)
 
 
 def running_in_assumptions(warp: RunningIn) -> tuple[str, ...]:
-    """Return what running-in takes for granted.
-
-    Parameters
-    ----------
-    warp : RunningIn
-        Of the drive.
-
-    Returns
-    -------
-    tuple of str
-        A sentence, or none without running-in.
-    """
+    """Return what running-in takes for granted."""
     if warp.factor == 1.0:
         return ()
     return (
@@ -59,20 +31,7 @@ def running_in_assumptions(warp: RunningIn) -> tuple[str, ...]:
 
 
 def running_in(wear: WearInput, sliding_per_cycle: float) -> RunningIn:
-    """Return how the law of a case runs in.
-
-    Parameters
-    ----------
-    wear : WearInput
-        The law as it was given.
-    sliding_per_cycle : float
-        Mean path that a loaded point of the new flank slides in a cycle [mm].
-
-    Returns
-    -------
-    RunningIn
-        Constant where nothing else is given.
-    """
+    """Return how the law of a case runs in."""
     if wear.running_in_factor == 1.0 or not sliding_per_cycle > 0.0:
         return CONSTANT
     return RunningIn(wear.running_in_factor, wear.running_in_distance / sliding_per_cycle)

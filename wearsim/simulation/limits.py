@@ -8,37 +8,18 @@ from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.gear_rows import MATE_DEPTH
 from wearsim.result import LimitState
-from wearsim.wear.criteria import (
-    Criterion,
-    depth_criterion,
-    falling,
-    rising,
-    tip_land_criterion,
-)
+from wearsim.wear.criteria import Criterion, depth_criterion, falling, rising, tip_land_criterion
 
 if TYPE_CHECKING:
     from wearsim.geometry.roller_path import RollerPath
 
 
 def tooth_criteria(case: Case) -> tuple[Criterion, ...]:
-    """Return the limits of a worn flank or outline, the critical depth first.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-
-    Returns
-    -------
-    tuple of Criterion
-        All but those of the chain and of what pins measure.
-    """
+    """Return the limits of a worn flank or outline, the critical depth first."""
     drive, more = case.drive, case.more_limits
     found = [depth_criterion(case.critical_depth)]
     if "case_depth_mm" in more:
-        found.append(
-            rising("case_depth_mm", more["case_depth_mm"], lambda x, y, depth: float(depth.max()))
-        )
+        found.append(rising("case_depth_mm", more["case_depth_mm"], lambda x, y, depth: float(depth.max())))
     if isinstance(drive, StrandDrive | WrapDrive):
         if case.min_tip_land:
             found.append(tip_land_criterion(case.min_tip_land, drive.worn_tip_land))
@@ -54,20 +35,7 @@ def tooth_criteria(case: Case) -> tuple[Criterion, ...]:
 
 
 def mate_criteria(case: Case, contact: Contact) -> tuple[Criterion, ...]:
-    """Return the limit of the wheel of a gear pair.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    contact : Contact
-        Its flank and contact, on any grid.
-
-    Returns
-    -------
-    tuple of Criterion
-        One, or none without a wheel.
-    """
+    """Return the limit of the wheel of a gear pair."""
     if not isinstance(case.drive, GearDrive):
         return ()
     ratio, key = contact.columns[MATE_DEPTH], "wheel_critical_depth_mm"
@@ -75,73 +43,27 @@ def mate_criteria(case: Case, contact: Contact) -> tuple[Criterion, ...]:
 
 
 def over_pins(path: "RollerPath", x: Vector, y: Vector, gaps: int) -> float:
-    """Return the measurement over pins of the roller's diameter in two gaps worn alike.
-
-    Parameters
-    ----------
-    path : RollerPath
-        Line of roller centres of the gap.
-    x, y : numpy.ndarray
-        Worn outline [mm].
-    gaps : int
-        Gaps of the wheel.
-
-    Returns
-    -------
-    float
-        M_R [mm]; the pins rest where their centres come nearest to the sprocket's.
-    """
+    """Return the measurement over pins of the roller's diameter in two gaps worn alike."""
     centres = path.worn(x, y).locus
     lowest = float((centres[0] ** 2 + centres[1] ** 2).min()) ** 0.5
     return measurement_over_pins(lowest, 2.0 * path.roller_radius, gaps)
 
 
 def pin_criteria(case: Case, path: "RollerPath") -> tuple[Criterion, ...]:
-    """Return the limit on what a measurement over pins has changed by.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a chain around a sprocket.
-    path : RollerPath
-        Line of roller centres of its gap.
-
-    Returns
-    -------
-    tuple of Criterion
-        One or none.
-    """
+    """Return the limit on what a measurement over pins has changed by."""
     drive, limit = case.drive, case.more_limits.get("over_pins_change_mm")
     if limit is None or not isinstance(drive, WrapDrive):
         return ()
     new = over_pins(path, drive.outline.x.copy(), drive.outline.y.copy(), drive.gaps)
     return (
-        rising(
-            "over_pins_change_mm",
-            limit,
-            lambda x, y, depth: new - over_pins(path, x, y, drive.gaps),
-        ),
+        rising("over_pins_change_mm", limit, lambda x, y, depth: new - over_pins(path, x, y, drive.gaps)),
     )
 
 
 def limit_states(
     criteria: tuple[Criterion, ...], x: Vector, y: Vector, depth: Vector
 ) -> tuple[LimitState, ...]:
-    """Return what the quantity of every limit has come to.
-
-    Parameters
-    ----------
-    criteria : tuple of Criterion
-        The limits.
-    x, y, depth : numpy.ndarray
-        The worn flank [mm].
-
-    Returns
-    -------
-    tuple of LimitState
-        In the order of the criteria.
-    """
+    """Return what the quantity of every limit has come to."""
     return tuple(
-        LimitState(criterion.name, criterion.limit, criterion.value(x, y, depth))
-        for criterion in criteria
+        LimitState(criterion.name, criterion.limit, criterion.value(x, y, depth)) for criterion in criteria
     )

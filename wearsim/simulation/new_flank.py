@@ -8,26 +8,7 @@ from wearsim.contact.hertz import peak_pressure
 
 
 def new_peak_pressure(case: Case) -> float:
-    """Return the highest pressure of a case on its new flanks, without a run.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-
-    Returns
-    -------
-    float
-        Of the heaviest block of its duty, by Hertz's theory, in a seat by that of conforming
-        contact [MPa]; that which `simulate` gives as ``initial_peak_pressure``.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    ConvergenceError
-        A pressure cannot be found.
-    """
+    """Return the highest pressure of a case on its new flanks, without a run."""
     # Kernels compile where their module is imported for the first time: only those needed.
     if isinstance(case.drive, WrapDrive):
         from wearsim.simulation.law_of_case import wear_law
@@ -42,18 +23,7 @@ def new_peak_pressure(case: Case) -> float:
 
 
 def new_contact_pressure(contact: Contact) -> float:
-    """Return the highest pressure on a flank that has not worn, by Hertz's theory.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-
-    Returns
-    -------
-    float
-        At the points of the flank [MPa].
-    """
+    """Return the highest pressure on a flank that has not worn, by Hertz's theory."""
     flank = contact.profile
     touch = contact.engage(flank.x.copy(), flank.y.copy(), np.zeros(flank.x.size))
     relative = np.maximum(touch.relative_curvature, 0.0)

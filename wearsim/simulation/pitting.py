@@ -15,23 +15,7 @@ its share of the cycles."""
 
 
 def pointwise_stresses(case: Case, fatigue: FatigueInput, peak_pressure: float) -> Stresses:
-    """Return the highest pressure on a new flank in every block of the duty.
-
-    Parameters
-    ----------
-    case : Case
-        On a strand or under a table of loads.
-    fatigue : FatigueInput
-        Its load factor.
-    peak_pressure : float
-        On its new flank, under the heaviest block [MPa].
-
-    Returns
-    -------
-    sequence of tuple of float
-        Pairs of a pressure with the load factor [MPa], as it goes with the root of the load, and
-        the block's share of the cycles.
-    """
+    """Return the highest pressure on a new flank in every block of the duty."""
     drive, highest = case.drive, fatigue.load_factor**0.5 * peak_pressure
     if not isinstance(drive, StrandDrive):
         return [(highest, 1.0)]
@@ -45,28 +29,7 @@ def fatigue_parts(
     life: Life | LowerBound,
     sprocket: Life | LowerBound,
 ) -> tuple[dict[str, Life | LowerBound], list[str]]:
-    """Return the lives of a case until pitting.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    fatigue : FatigueInput
-        Its materials.
-    stresses : sequence of tuple of float
-        Pairs of a pressure on the new flank with the load factor [MPa] and its share of the
-        cycles.
-    life, sprocket : Life or LowerBound
-        By wear: of the case, and of its sprocket (or gears) where the chain is replaced.
-
-    Returns
-    -------
-    dict of str to Life or LowerBound
-        ``sprocket_fatigue``, or ``pinion_fatigue`` and ``wheel_fatigue`` in cycles of the pinion;
-        0 h where the stress is allowed at no time, a bound where it always is.
-    list of str
-        Warnings.
-    """
+    """Return the lives of a case until pitting."""
     drive, rate = case.drive, case.cycles_per_hour
     if isinstance(drive, GearDrive):
         endured = gear_fatigue_lives(case, drive, fatigue, stresses[0][0])
@@ -83,16 +46,9 @@ def fatigue_parts(
     return lives, warnings
 
 
-def _early(
-    name: str,
-    found: EnduredHours,
-    life: Life | LowerBound,
-    sprocket: Life | LowerBound,
-) -> list[str]:
+def _early(name: str, found: EnduredHours, life: Life | LowerBound, sprocket: Life | LowerBound) -> list[str]:
     if found.hours == 0.0:
-        return [
-            f"contact fatigue: the stress on the new flank is more than the {name} endures for any time"
-        ]
+        return [f"contact fatigue: the stress on the new flank is more than the {name} endures for any time"]
     if found.bound or found.hours >= sprocket.hours_run:
         return []
     after = f"after {found.hours:.3g} h"

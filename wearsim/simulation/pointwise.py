@@ -22,25 +22,7 @@ from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
 def simulate_points(case: Case) -> WearResult:
-    """Wear the flank of a case on a strand or under a table of loads.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-
-    Returns
-    -------
-    WearResult
-        Complete: life or lower bound, its band, history and worn flanks.
-
-    Raises
-    ------
-    ContactError
-        The contact leaves Hertz's theory or vanishes.
-    ConvergenceError
-        The life would be wrong.
-    """
+    """Wear the flank of a case on a strand or under a table of loads."""
     warnings = list(case.warnings)
     new = pointwise_mechanism(case)
     settled = _settled(case, new, warnings)
@@ -95,37 +77,13 @@ def simulate_points(case: Case) -> WearResult:
 
 
 def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
-    """Run a case on a strand or under a table of loads on three grids.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    life_tolerance : float
-        Relative tolerance of each life.
-
-    Returns
-    -------
-    GridStudy
-        Of the three runs.
-    """
+    """Run a case on a strand or under a table of loads on three grids."""
     tight = replace(case, run=replace(case.run, life_tolerance=life_tolerance))
     return grid_study(pointwise_mechanism(case).contact, lambda grid: task(tight, grid).run()[0])
 
 
 def pointwise_mechanism(case: Case) -> Mechanism:
-    """Return the mechanism of a case that loads every point of a flank once a cycle.
-
-    Parameters
-    ----------
-    case : Case
-        On a strand or under a table of loads.
-
-    Returns
-    -------
-    Mechanism
-        With the flank as it is new.
-    """
+    """Return the mechanism of a case that loads every point of a flank once a cycle."""
     # Kernels compile where they are imported for the first time: each case imports its own.
     drive = case.drive
     if isinstance(drive, StrandDrive):
@@ -171,9 +129,7 @@ def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
         arc_length=table.arc_length,
         load_per_width=table.load_per_width,
         slip=drive.slip_fraction * slip,
-        sliding_speed=drive.slip_fraction * speed
-        if speed is not None
-        else np.full(slip.size, np.nan),
+        sliding_speed=drive.slip_fraction * speed if speed is not None else np.full(slip.size, np.nan),
         flank_curvature=table.flank_curvature,
         roller_radius=0.5 * drive.chain.roller_diameter,
         modulus=case.modulus,
@@ -254,15 +210,11 @@ def _run_on(case: Case, contact: Contact) -> _GridRun | None:
     return _GridRun(asked, run, error)
 
 
-def _tables(
-    case: Case, mechanism: Mechanism, run: Trajectory
-) -> tuple[dict[str, Vector], dict[str, Vector]]:
+def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Return the columns of history.csv and flank.csv."""
     contact = mechanism.contact
     shots, points = run.depth.shape
-    touches = [
-        contact.engage(x, y, depth) for x, y, depth in zip(run.x, run.y, run.depth, strict=True)
-    ]
+    touches = [contact.engage(x, y, depth) for x, y, depth in zip(run.x, run.y, run.depth, strict=True)]
     load = np.array([touch.load_per_width for touch in touches])
     relative = np.array([touch.relative_curvature for touch in touches])
     speed = np.array([touch.sliding_speed for touch in touches])
@@ -275,10 +227,7 @@ def _tables(
         "max_sliding_speed_mm_per_s": speed.max(axis=1),
         "removed_area_mm2": np.array(
             [0.0]
-            + [
-                area_between(run.x[0], run.y[0], x, y)
-                for x, y in zip(run.x[1:], run.y[1:], strict=True)
-            ]
+            + [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x[1:], run.y[1:], strict=True)]
         ),
         "worn_contact_ratio": np.array(
             [mechanism.worn_contact_ratio(x, y) for x, y in zip(run.x, run.y, strict=True)]

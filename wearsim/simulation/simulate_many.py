@@ -155,9 +155,7 @@ class _Job:
             return
 
 
-def simulate_many(
-    cases: Iterable[Case], threads: int | None = None
-) -> Iterator[CaseLife | WearsimError]:
+def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator[CaseLife | WearsimError]:
     """Find the lives of many cases.
 
     Cases on a strand or under a table of loads whose only limit is the critical depth run

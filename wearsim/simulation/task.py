@@ -20,82 +20,27 @@ from wearsim.wear.trajectory import Trajectory
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """A flank to wear.
+    """A flank to wear."""
 
-    Attributes
-    ----------
-    contact : Contact
-        The flank and its contact.
-    law : Law
-        The wear law, for the mean over the duty.
-    criteria : tuple of Criterion
-        Limits, the depth criterion first.
-    running_in : RunningIn
-        Between the cycles run and those of constant coefficient.
-    horizon : float
-        Cycles of constant coefficient at which the run ends in any case.
-    life_tolerance : float
-        Relative tolerance of the life in such cycles.
-    """
-
-    contact: Contact
-    law: Law
-    criteria: tuple[Criterion, ...]
-    running_in: RunningIn
-    horizon: float
-    life_tolerance: float
+    contact: Contact  # the flank and its contact
+    law: Law  # the wear law, for the mean over the duty
+    criteria: tuple[Criterion, ...]  # limits, the depth criterion first
+    running_in: RunningIn  # between the cycles run and those of constant coefficient
+    horizon: float  # cycles of constant coefficient at which the run ends in any case
+    life_tolerance: float  # relative tolerance of the life in such cycles
 
     def run(self) -> tuple[Trajectory, float]:
-        """Wear the flank with step control.
-
-        Returns
-        -------
-        tuple of Trajectory and float
-            The run over the cycles run, and the relative error of its steps in these.
-
-        Raises
-        ------
-        ContactError
-            The contact leaves Hertz's theory or vanishes.
-        ConvergenceError
-            The life would be wrong.
-        """
-        run, change = run_advance(
-            self.contact, self.law, self.criteria, self.horizon, self.life_tolerance
-        )
+        """Wear the flank with step control."""
+        run, change = run_advance(self.contact, self.law, self.criteria, self.horizon, self.life_tolerance)
         return self.run_in(run), change * self.running_in.amplification
 
     def run_in(self, run: Trajectory) -> Trajectory:
-        """Return a run over cycles of constant coefficient over the cycles run.
-
-        Parameters
-        ----------
-        run : Trajectory
-            Of this task.
-
-        Returns
-        -------
-        Trajectory
-            The same flanks, earlier.
-        """
+        """Return a run over cycles of constant coefficient over the cycles run."""
         return replace(run, cycles=self.running_in.running_cycles(run.cycles))
 
 
 def task(case: Case, contact: Contact) -> Task:
-    """Return what a case asks of the wear engine.
-
-    Parameters
-    ----------
-    case : Case
-        On a strand or under a table of loads.
-    contact : Contact
-        Of the new flank, on any of its grids.
-
-    Returns
-    -------
-    Task
-        Until a limit or the horizon of the case.
-    """
+    """Return what a case asks of the wear engine."""
     runs_in = case.wear.running_in_factor != 1.0
     warp = running_in(case.wear, _sliding_per_cycle(case, contact) if runs_in else 0.0)
     return Task(
@@ -115,10 +60,7 @@ def _law(case: Case) -> Law:
     most = case.drive.heaviest
     parts = [
         DutyPart(
-            block.share,
-            block.tension / most.tension,
-            block.speed_rpm / most.speed_rpm,
-            block.wear_factor,
+            block.share, block.tension / most.tension, block.speed_rpm / most.speed_rpm, block.wear_factor
         )
         for block in case.drive.blocks
     ]

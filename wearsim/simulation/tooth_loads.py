@@ -13,70 +13,25 @@ from wearsim.simulation.wrap_mechanism import wrap_mechanism
 
 @dataclass(frozen=True, eq=False)
 class ToothLoads:
-    """What the teeth of a case's wrap carry in one phase.
+    """What the teeth of a case's wrap carry in one phase."""
 
-    Attributes
-    ----------
-    case, title : str
-        Of the case.
-    phase, elongation : float
-        Phase of the pitch, relative elongation of the chain.
-    first_link : str
-        ``inner``, ``outer`` or, where all links are alike, ``any``: the link after tooth 1.
-    loads : WrapLoads
-        One entry a tooth.
-    wrap_degrees : float
-        Wrap angle [deg].
-    face_width : float
-        b [mm].
-    slack, centrifugal : float
-        Tension of the slack strand, and what the chain's speed adds to all [N].
-    smallest_slack : float
-        Slack tension below which the chain jumps [N].
-    assumptions, warnings : tuple of str
-        Of the case.
-    """
-
-    case: str
-    title: str
-    phase: float
-    elongation: float
-    first_link: str
-    loads: WrapLoads
-    wrap_degrees: float
-    face_width: float
-    slack: float
-    centrifugal: float
-    smallest_slack: float
-    assumptions: tuple[str, ...]
-    warnings: tuple[str, ...]
+    case: str  # of the case
+    title: str  # of the case
+    phase: float  # phase of the pitch, relative elongation of the chain
+    elongation: float  # phase of the pitch, relative elongation of the chain
+    first_link: str  # `inner`, `outer` or, where all links are alike, `any`: the link after tooth 1
+    loads: WrapLoads  # one entry a tooth
+    wrap_degrees: float  # wrap angle [deg]
+    face_width: float  # b [mm]
+    slack: float  # tension of the slack strand, and what the chain's speed adds to all [N]
+    centrifugal: float  # tension of the slack strand, and what the chain's speed adds to all [N]
+    smallest_slack: float  # slack tension below which the chain jumps [N]
+    assumptions: tuple[str, ...]  # of the case
+    warnings: tuple[str, ...]  # of the case
 
 
 def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) -> ToothLoads:
-    """Return what the teeth of a sprocket carry that a chain wraps.
-
-    Parameters
-    ----------
-    case : Case
-        A case with ``mechanism.kind = "wrap"``.
-    elongation : float
-        Relative elongation of the chain, from 0.
-    phase : float, optional
-        From 0 (the first roller has just come in) to 1 (the next one is about to); None for
-        that with the largest force, of the phases of the case and both kinds of link.
-
-    Returns
-    -------
-    ToothLoads
-        With an inner link after the first tooth unless the other one loads a tooth more.
-
-    Raises
-    ------
-    CaseError
-        The case has no wrap.
-    ContactError
-        The chain jumps.
-    """
+    """Return what the teeth of a sprocket carry that a chain wraps."""
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         message = "'loads' needs a chain that wraps the sprocket: set kind = 'wrap'"
@@ -84,11 +39,7 @@ def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) 
     mechanism = wrap_mechanism(case, drive)
     firsts = (0, 1) if drive.joint.alternating and elongation > 0.0 and phase is None else (0,)
     phases = [phase] if phase is not None else list(np.linspace(0.0, 1.0, drive.phases + 1))
-    found = [
-        (mechanism.loads(part, elongation, first), part, first)
-        for part in phases
-        for first in firsts
-    ]
+    found = [(mechanism.loads(part, elongation, first), part, first) for part in phases for first in firsts]
     loads, part, first = max(found, key=lambda entry: (float(entry[0].force.max()), entry[1]))
     return ToothLoads(
         case=case.name,
@@ -108,18 +59,7 @@ def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) 
 
 
 def check_hold(case: Case) -> None:
-    """Raise where the chain of a case jumps on new teeth, at no or at its limit of elongation.
-
-    Parameters
-    ----------
-    case : Case
-        Any case; only a chain around a sprocket can jump.
-
-    Raises
-    ------
-    CaseError
-        With the slack tension that would hold it.
-    """
+    """Raise where the chain of a case jumps on new teeth, at no or at its limit of elongation."""
     drive = case.drive
     if not isinstance(drive, WrapDrive):
         return
@@ -129,9 +69,7 @@ def check_hold(case: Case) -> None:
     least = case.more_limits.get("min_slack_tension_N")
     if least is not None and not mechanism.with_slack(least).holds(0.0):
         needed = 1.005 * mechanism.smallest_slack_tension(0.0)  # rounded up
-        message = (
-            f"must be above what a new drive needs not to jump, {needed:.3g} N (got {least:g})"
-        )
+        message = f"must be above what a new drive needs not to jump, {needed:.3g} N (got {least:g})"
         raise CaseError([Fault(message, "stop.min_slack_tension_N", case.name)])
 
 

@@ -17,38 +17,14 @@ _RIDGE = 3.0
 
 
 def few_cycles(cycles: float) -> list[str]:
-    """Return a warning of a life that is hardly one.
-
-    Parameters
-    ----------
-    cycles : float
-        Loading cycles of the life.
-
-    Returns
-    -------
-    list of str
-        One or none.
-    """
+    """Return a warning of a life that is hardly one."""
     if cycles >= _FEW_CYCLES:
         return []
     return [f"the life is only {cycles:.3g} cycles: check the wear coefficient and its unit"]
 
 
 def wide_contact(contact: Contact, half_width: float) -> list[str]:
-    """Return a warning of a contact too wide for half-spaces.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-    half_width : float
-        The greatest of the run [mm].
-
-    Returns
-    -------
-    list of str
-        One or none.
-    """
+    """Return a warning of a contact too wide for half-spaces."""
     if half_width <= _WIDE * contact.roller_radius:
         return []
     return [
@@ -61,20 +37,7 @@ _EDGE = "for that part of a pitch the roller touches the edge of the tip, which 
 
 
 def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
-    """Return a warning of a worn tooth that lets its roller go too early.
-
-    Parameters
-    ----------
-    hours : numpy.ndarray
-        Running times [h].
-    ratio : numpy.ndarray
-        Worn contact ratio at them; nan where it has no meaning.
-
-    Returns
-    -------
-    list of str
-        One or none.
-    """
+    """Return a warning of a worn tooth that lets its roller go too early."""
     if not (ratio < 1.0).any():
         return []
     return [
@@ -84,38 +47,14 @@ def low_contact_ratio(hours: Vector, ratio: Vector) -> list[str]:
 
 
 def low_contact_ratio_in_the_end(ratio: float) -> list[str]:
-    """Return the same warning where only the worn tooth in the end is known.
-
-    Parameters
-    ----------
-    ratio : float
-        Its contact ratio; nan where it has no meaning.
-
-    Returns
-    -------
-    list of str
-        One or none.
-    """
+    """Return the same warning where only the worn tooth in the end is known."""
     if not ratio < 1.0:
         return []
     return [f"the worn contact ratio is {ratio:.3f} in the end, below 1: {_EDGE}"]
 
 
 def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
-    """Return a warning for every limit of the theory that a run passes.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-    history, flank : dict of str to numpy.ndarray
-        Columns of the result.
-
-    Returns
-    -------
-    list of str
-        Sentences for the result.
-    """
+    """Return a warning for every limit of the theory that a run passes."""
     load, relative = flank["load_per_width_N_per_mm"], flank["relative_curvature_per_mm"]
     # Between two steps an interpolated flank may conform where those of both steps do not.
     touching = (load > 0.0) & (relative > 0.0)

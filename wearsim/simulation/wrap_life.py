@@ -44,27 +44,6 @@ def simulate_wrap(
 
     The run goes on to the sprocket's own limit, with a new chain whenever one has grown
     to its limit; chain and sprocket life are both reported and the shorter is the life.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    drive : WrapDrive
-        Its drive.
-    progress : callable, optional
-        Told how much of a run is done, from 0 to 1; from 0 again where another follows.
-
-    Returns
-    -------
-    WearResult
-        Complete: lives, band, history and worn outlines.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps, or nothing slides under load.
-    ConvergenceError
-        A pressure cannot be found, or the run would take too many updates.
     """
     contact = wrap_contact(case, drive)
     law, criteria, horizon = wrap_problem(case, contact)
@@ -108,11 +87,7 @@ def simulate_wrap(
         parts=parts,
         limits=_limits(contact, drive, criteria, run, life),
         ratings=rating(case),
-        assumptions=(
-            *contact.assumptions(),
-            *running_in_assumptions(warp),
-            *case.assumptions,
-        ),
+        assumptions=(*contact.assumptions(), *running_in_assumptions(warp), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -123,20 +98,7 @@ def simulate_wrap(
 
 
 def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
-    """Return what a wrap asks of the wear engine.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    contact : WrapContact
-        Its contact.
-
-    Returns
-    -------
-    tuple
-        Law, limits and the horizon in cycles of constant coefficient.
-    """
+    """Return what a wrap asks of the wear engine."""
     warp = running_in(case.wear, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
     criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
@@ -144,22 +106,7 @@ def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion
 
 
 def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> GridStudy:
-    """Run the sprocket of a wrapped case on three grids.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    drive : WrapDrive
-        Its drive.
-    life_tolerance : float
-        Relative tolerance of each life.
-
-    Returns
-    -------
-    GridStudy
-        Of the three runs.
-    """
+    """Run the sprocket of a wrapped case on three grids."""
     contact = wrap_contact(case, drive)
     run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
     return grid_study(contact.thinned(), run_on)
@@ -173,26 +120,10 @@ def _on_grid(
 
 
 def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
-    """Return the contact events of a chain around a sprocket.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-
-    Returns
-    -------
-    WrapContact
-        For the wear engine.
-    """
+    """Return the contact events of a chain around a sprocket."""
     mechanism = wrap_mechanism(case, drive)
     pull, chain = mechanism.pull, mechanism.chain
-    rolls = (
-        pull.friction_roller_tooth * chain.roller_radius
-        > pull.friction_roller_bush * chain.bush_radius
-    )
+    rolls = pull.friction_roller_tooth * chain.roller_radius > pull.friction_roller_bush * chain.bush_radius
     blocks = tuple(_wrap_block(drive, mechanism, block) for block in drive.blocks)
     layout, joint = drive.layout, drive.joint
     engaged = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
@@ -216,10 +147,7 @@ def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
         blocks=blocks,
         face_width=drive.face_width,
         phases=drive.phases,
-        sliding=Sliding(
-            fraction=drive.slip_fraction,
-            path_fraction=drive.slip_fraction if rolls else 1.0,
-        ),
+        sliding=Sliding(fraction=drive.slip_fraction, path_fraction=drive.slip_fraction if rolls else 1.0),
         modulus=case.modulus,
         same_link_kind=Meetings(engaged, layout.links).same_link_kind,
         elongation_per_cycle=per_loop * engaged / layout.links,
@@ -297,9 +225,7 @@ def _per_cycle(
     return run_dwelling(contact, law, criteria, horizon, 0, cycles, reporting(progress))
 
 
-def _chain_life(
-    case: Case, contact: WrapContact, horizon: float, warp: RunningIn
-) -> Life | LowerBound:
+def _chain_life(case: Case, contact: WrapContact, horizon: float, warp: RunningIn) -> Life | LowerBound:
     """Life of a chain: apart from running-in its joints wear at a constant rate."""
     cycles = contact.cycles_per_chain
     run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
@@ -314,18 +240,14 @@ def _first(
     sprocket: Life | LowerBound,
 ) -> tuple[Life | LowerBound, str, float]:
     """Return the shorter of both lives with the limit that ended it."""
-    if isinstance(chain, Life) and not (
-        isinstance(sprocket, Life) and sprocket.cycles <= chain.cycles
-    ):
+    if isinstance(chain, Life) and not (isinstance(sprocket, Life) and sprocket.cycles <= chain.cycles):
         return chain, "elongation_percent", 100.0 * drive.joint.elongation_limit
     if run.met is not None:
         return sprocket, run.met.name, run.met.limit
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def _scaled(
-    life: Life | LowerBound, factor: float, case: Case, warp: RunningIn
-) -> Life | LowerBound:
+def _scaled(life: Life | LowerBound, factor: float, case: Case, warp: RunningIn) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
     constant = warp.constant_cycles(life.cycles_run)
     scaled = warp.running_cycles(np.array([constant / factor]))
@@ -375,9 +297,7 @@ def _limits(
         LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
         *((rollers,) if contact.roller_area_ratio else ()),
         LimitState(
-            "min_slack_tension_N",
-            contact.slack_limit or drive.slack,
-            min(least, drive.heaviest.tension),
+            "min_slack_tension_N", contact.slack_limit or drive.slack, min(least, drive.heaviest.tension)
         ),
     )
 
@@ -406,9 +326,7 @@ def _tables(
         "removed_area_mm2": np.array(
             [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
         ),
-        "tip_land_mm": np.array(
-            [drive.worn_tip_land(x, y) for x, y in zip(run.x, run.y, strict=True)]
-        ),
+        "tip_land_mm": np.array([drive.worn_tip_land(x, y) for x, y in zip(run.x, run.y, strict=True)]),
         "over_pins_mm": np.array(
             [over_pins(path, x, y, drive.gaps) for x, y in zip(run.x, run.y, strict=True)]
         ),

@@ -6,20 +6,7 @@ from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
 
 
 def wrap_mechanism(case: Case, drive: WrapDrive) -> WrapMechanism:
-    """Return the mechanism of a chain around a sprocket.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-
-    Returns
-    -------
-    WrapMechanism
-        Rollers on the unworn gap, under the largest of the rated tensions.
-    """
+    """Return the mechanism of a chain around a sprocket."""
     radius = 0.5 * drive.chain.roller_diameter
     return WrapMechanism(
         outline=drive.outline,

@@ -5,20 +5,7 @@ from wearsim.errors import CaseError, Fault
 
 
 def check_constant(case: Case, command: str) -> None:
-    """Raise where the wear of a case runs in.
-
-    Parameters
-    ----------
-    case : Case
-        Any case.
-    command : str
-        What needs the constant coefficient, for the message.
-
-    Raises
-    ------
-    CaseError
-        The case has a running-in.
-    """
+    """Raise where the wear of a case runs in."""
     if case.wear.running_in_factor != 1.0:
         message = (
             f"{command!r} scales lives, which holds for a constant coefficient only: remove "

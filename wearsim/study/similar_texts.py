@@ -7,16 +7,6 @@ from collections.abc import Iterable
 def kinds(texts: Iterable[str]) -> list[tuple[str, int]]:
     """Return the first text of each kind, and how many there are of it.
 
-    Parameters
-    ----------
-    texts : iterable of str
-        Warnings or faults of many cases.
-
-    Returns
-    -------
-    list of (str, int)
-        The commonest kind first, of two alike that which came first.
-
     Examples
     --------
     >>> kinds(["below 1 from 3 h on", "too wide", "below 1 from -4.5e3 h on"])

@@ -153,20 +153,7 @@ LEAST_ORDER, MOST_ORDER = 1.5, 2.5
 
 
 def grid_study(contact: AnyContact, run_on: Callable[[AnyContact], Trajectory]) -> GridStudy:
-    """Run a case on all, on half and on a quarter of its points.
-
-    Parameters
-    ----------
-    contact : Contact or Dwelling
-        The flank and its contact.
-    run_on : callable
-        Makes the run on a grid.
-
-    Returns
-    -------
-    GridStudy
-        Of the three runs.
-    """
+    """Run a case on all, on half and on a quarter of its points."""
     half = contact.coarsened()
     grids = [contact, half, half.coarsened()]
     runs = [run_on(grid) for grid in grids]

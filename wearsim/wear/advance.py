@@ -147,11 +147,25 @@ class _Solve:
         times, path = np.empty(_CHUNK), np.empty((_CHUNK, STATE_ROWS, self.state.shape[1]))
         self.clock[WRITTEN] = 0.0
         status = wear_in_steps(
-            rosenbrock_step, contact.kernel, self.state, contact.constants, contact.columns,
-            contact.modulus, problem.law.unit_numbers(contact.kind), problem.diffusion,
-            int(not contact.offset_form), problem.criteria[0].limit, self.tolerance, problem.horizon,
-            _CHUNK, self.work, self.increments, self.clock, times, path,
-        )  # fmt: skip
+            rosenbrock_step,
+            contact.kernel,
+            self.state,
+            contact.constants,
+            contact.columns,
+            contact.modulus,
+            problem.law.unit_numbers(contact.kind),
+            problem.diffusion,
+            int(not contact.offset_form),
+            problem.criteria[0].limit,
+            self.tolerance,
+            problem.horizon,
+            _CHUNK,
+            self.work,
+            self.increments,
+            self.clock,
+            times,
+            path,
+        )
         written = int(self.clock[WRITTEN])
         # The last state of a call is the first of the next.
         new = 1 if self.chunks else 0
@@ -216,31 +230,6 @@ def run_advance(
     The solve is repeated with a tenth of the error per step until two successive lives
     differ by less than a tenth of the asked tolerance. A contact error counts only where
     the tightest solve meets it too.
-
-    Parameters
-    ----------
-    contact : Contact or Dwelling
-        The flank and its contact.
-    law : Law
-        The wear law.
-    criteria : tuple of Criterion
-        Limits, the depth criterion first.
-    horizon : float
-        Loading cycles at which the run ends in any case.
-    life_tolerance : float
-        Relative tolerance of the life.
-
-    Returns
-    -------
-    tuple of Trajectory and float
-        The run, and the relative difference of its last two solves.
-
-    Raises
-    ------
-    ConvergenceError
-        The tolerance cannot be met, or the depth alternates from point to point.
-    ContactError
-        The flank conforms to the roller, or the contact is gone.
     """
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.

@@ -72,19 +72,7 @@ class Worn:
 
 
 def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
-    """Wear flanks under one kind of contact, in one compiled call that holds no lock.
-
-    Parameters
-    ----------
-    flanks : sequence of Flank
-        All with the same contact kernel and numbers of points, constants and columns.
-
-    Returns
-    -------
-    list of Worn or None
-        As `run_advance` finds them, to the bit; None where that raises or the worn flank
-        crosses itself.
-    """
+    """Wear flanks under one kind of contact, in one compiled call that holds no lock."""
     contacts = [flank.contact for flank in flanks]
     one, points = contacts[0], contacts[0].profile.x.size
     starts = np.zeros((len(flanks), 3, points))
@@ -102,13 +90,23 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
     ]
     worn, found = np.empty((len(flanks), 4, points)), np.empty((len(flanks), 4))
     wear_many(
-        rosenbrock_step, one.kernel, starts, np.array([contact.constants for contact in contacts]),
-        np.array([contact.columns for contact in contacts]), np.array(numbers),
+        rosenbrock_step,
+        one.kernel,
+        starts,
+        np.array([contact.constants for contact in contacts]),
+        np.array([contact.columns for contact in contacts]),
+        np.array(numbers),
         np.array([flank.law.unit_numbers(flank.contact.kind) for flank in flanks]),
-        int(not one.offset_form), MOST_STEPS, np.zeros((WORK_ROWS, points)),
-        np.zeros((STAGES, 3 * points)), np.zeros(CLOCK), np.empty(2),
-        np.empty((2, STATE_ROWS, points)), worn, found,
-    )  # fmt: skip
+        int(not one.offset_form),
+        MOST_STEPS,
+        np.zeros((WORK_ROWS, points)),
+        np.zeros((STAGES, 3 * points)),
+        np.zeros(CLOCK),
+        np.empty(2),
+        np.empty((2, STATE_ROWS, points)),
+        worn,
+        found,
+    )
     simple = shapely.is_simple(shapely.linestrings(worn[:, :2].transpose(0, 2, 1)))
     simple &= [
         not turned_over(*np.stack([start[:2], end[:2]], axis=1)).any()
@@ -127,7 +125,5 @@ def advance_many(flanks: Sequence[Flank]) -> list[Worn | None]:
         )
         if row[STATUS] != RUNNING and uncrossed
         else None
-        for row, flank, contact, given, uncrossed in zip(
-            found, worn, contacts, flanks, simple, strict=True
-        )
+        for row, flank, contact, given, uncrossed in zip(found, worn, contacts, flanks, simple, strict=True)
     ]

@@ -127,23 +127,19 @@ class Bodies:
     def state(self) -> "State":
         """Return a copy of all that changes."""
         return State(
-            self.x.copy(), self.y.copy(), self.depth.copy(), self.removed, self.wear,
-            self.cycles, self.chain, float(self.findings[PEAK_PRESSURE]), self.speed,
-        )  # fmt: skip
+            self.x.copy(),
+            self.y.copy(),
+            self.depth.copy(),
+            self.removed,
+            self.wear,
+            self.cycles,
+            self.chain,
+            float(self.findings[PEAK_PRESSURE]),
+            self.speed,
+        )
 
     def step(self, cycles: float) -> float:
-        """Wear for so many cycles at once.
-
-        Parameters
-        ----------
-        cycles : float
-            How many.
-
-        Returns
-        -------
-        float
-            The most that any point receded [mm].
-        """
+        """Wear for so many cycles at once."""
         at = self.contact.at(self.updates)
         table = self.contact.events(self.x, self.y, self.wear, self.memory, at)
         if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
@@ -163,33 +159,11 @@ class Bodies:
         return float((self.depth - before).max())
 
     def joint_cycles(self, until: float) -> float:
-        """Return for how many cycles of constant coefficient the chain in use has worn.
-
-        Parameters
-        ----------
-        until : float
-            Cycles since the start.
-
-        Returns
-        -------
-        float
-            With the running-in of its own joints.
-        """
+        """Return for how many cycles of constant coefficient the chain in use has worn."""
         return self.running_in.renewed(self.chain_new_at, until)
 
     def cycles_to(self, elongation: float) -> float:
-        """Return the cycles from now until the chain in use is longer by so much.
-
-        Parameters
-        ----------
-        elongation : float
-            Relative.
-
-        Returns
-        -------
-        float
-            Of constant coefficient for the teeth.
-        """
+        """Return the cycles from now until the chain in use is longer by so much."""
         worn = self.joint_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
         return self.running_in.until_renewed(self.chain_new_at, worn) - self.cycles
 
@@ -205,23 +179,25 @@ class Bodies:
         self.wear, self.chain, self.chain_new_at = NEW_CHAIN, self.chain + 1, self.cycles
 
     def press(self, table: Rows, cycles: float) -> None:
-        """Let events wear the bodies.
-
-        Parameters
-        ----------
-        table : numpy.ndarray
-            Events of a cycle.
-        cycles : float
-            How many, 0 for none.
-        """
+        """Let events wear the bodies."""
         if self.pressures.shape[0] != table.shape[1]:
             self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
         self.numbers[CYCLES] = cycles
         self.numbers[MATE_RADIUS] = self.contact.roller_radius - self.wear.roller
         wear_events(
-            table, self.updates % 2, self.x, self.y, self.area, self.depth, self.unworn,
-            self.coefficients, self.numbers, self.pressures, self.work, self.findings,
-        )  # fmt: skip
+            table,
+            self.updates % 2,
+            self.x,
+            self.y,
+            self.area,
+            self.depth,
+            self.unworn,
+            self.coefficients,
+            self.numbers,
+            self.pressures,
+            self.work,
+            self.findings,
+        )
         if self.findings[UNBALANCED] > 0.0 or not np.isfinite(self.depth).all():
             raise ConvergenceError(
                 f"wear at cycle {self.cycles:.6g}: the pressure of every roller must be found, but "
@@ -232,32 +208,7 @@ class Bodies:
 def highest_load(
     contact: Dwelling, law: Law, start: Start | None, load_factor: float = 1.0
 ) -> tuple[float, float]:
-    """Return the highest pressure and sliding speed of all events of a cycle.
-
-    Parameters
-    ----------
-    contact : Dwelling
-        The outlines and their contacts.
-    law : Law
-        The wear law.
-    start : Start or None
-        What has worn off them; None for new ones.
-    load_factor : float
-        On the load of every event: pressure goes with its root where the contact is narrow, with
-        the load itself where roller and seat conform.
-
-    Returns
-    -------
-    tuple of float
-        Pressure [MPa] of the outlines as they are, and speed [mm/s]; 0 where nothing is loaded.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    ConvergenceError
-        A pressure cannot be found.
-    """
+    """Return the highest pressure and sliding speed of all events of a cycle."""
     bodies = Bodies(contact, law, start)
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
     table[EVENT_LOAD] *= load_factor
@@ -266,16 +217,5 @@ def highest_load(
 
 
 def highest_speed(table: Rows) -> float:
-    """Return the highest sliding speed of loaded events.
-
-    Parameters
-    ----------
-    table : numpy.ndarray
-        Events of a cycle.
-
-    Returns
-    -------
-    float
-        Speed [mm/s]; 0 where none is loaded.
-    """
+    """Return the highest sliding speed of loaded events."""
     return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max(initial=0.0))

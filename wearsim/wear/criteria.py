@@ -28,35 +28,13 @@ class Criterion:
     falling: bool = False
 
     def value(self, x: Vector, y: Vector, depth: Vector) -> float:
-        """Return what the quantity has come to.
-
-        Parameters
-        ----------
-        x, y, depth : numpy.ndarray
-            The worn flank [mm].
-
-        Returns
-        -------
-        float
-            In the unit of the name.
-        """
+        """Return what the quantity has come to."""
         margin = self.margin(x, y, depth)
         return self.limit + margin if self.falling else self.limit - margin
 
 
 def depth_criterion(critical_depth: float) -> Criterion:
-    """Return the source's criterion, physics.md (12): the deepest point reaches a depth.
-
-    Parameters
-    ----------
-    critical_depth : float
-        I_crit [mm], above 0.
-
-    Returns
-    -------
-    Criterion
-        Named ``critical_depth_mm``.
-    """
+    """Return the source's criterion, physics.md (12): the deepest point reaches a depth."""
     return rising("critical_depth_mm", critical_depth, lambda x, y, depth: float(depth.max()))
 
 
@@ -114,59 +92,18 @@ def falling(name: str, limit: float, value: Callable[[Vector, Vector, Vector], f
     return Criterion(name, limit, lambda x, y, depth: value(x, y, depth) - limit, True)
 
 
-def tip_land_criterion(
-    min_tip_land: float, tip_land: Callable[[Vector, Vector], float]
-) -> Criterion:
-    """Return the criterion that the worn tip keeps a least length.
-
-    Parameters
-    ----------
-    min_tip_land : float
-        Least length [mm].
-    tip_land : callable
-        Length of the tip [mm] that a worn flank (x, y) leaves.
-
-    Returns
-    -------
-    Criterion
-        Named ``min_tip_land_mm``.
-    """
+def tip_land_criterion(min_tip_land: float, tip_land: Callable[[Vector, Vector], float]) -> Criterion:
+    """Return the criterion that the worn tip keeps a least length."""
     return falling("min_tip_land_mm", min_tip_land, lambda x, y, depth: tip_land(x, y))
 
 
 def jump_criterion(slack_tension: float) -> Criterion:
-    """Return the criterion that a chain meets when it jumps on the worn teeth.
-
-    Parameters
-    ----------
-    slack_tension : float
-        Tension of the slack strand [N], which no longer holds it.
-
-    Returns
-    -------
-    Criterion
-        Named ``min_slack_tension_N``; met, whatever the flank.
-    """
+    """Return the criterion that a chain meets when it jumps on the worn teeth."""
     return Criterion("min_slack_tension_N", slack_tension, lambda x, y, depth: 0.0)
 
 
-def first_met(
-    criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector
-) -> Criterion | None:
-    """Return the criterion that a worn flank fails by most, if any.
-
-    Parameters
-    ----------
-    criteria : tuple of Criterion
-        All limits of the case.
-    x, y, depth : numpy.ndarray
-        The worn flank [mm].
-
-    Returns
-    -------
-    Criterion or None
-        None while every limit holds.
-    """
+def first_met(criteria: "tuple[Criterion, ...]", x: Vector, y: Vector, depth: Vector) -> Criterion | None:
+    """Return the criterion that a worn flank fails by most, if any."""
     margins = [(criterion.margin(x, y, depth), criterion) for criterion in criteria]
     worst = min(margins, key=lambda pair: pair[0])
     return worst[1] if worst[0] <= 0.0 else None

@@ -28,35 +28,7 @@ def run_together(
     start: Start | None = None,
     progress: Callable[[float], None] = lambda part: None,
 ) -> list[DwellingTrajectory]:
-    """Run several contacts side by side, each with its own size of steps.
-
-    Parameters
-    ----------
-    contacts : sequence of tuple
-        Outlines with their contacts, and the level of each run.
-    law : Law
-        The wear law.
-    criteria : tuple of Criterion
-        Limits of the outlines, the depth criterion first.
-    horizon : float
-        Cycles at which the runs end in any case.
-    start : Start, optional
-        Worn outlines and a used chain to begin with; contacts on the same points then.
-    progress : callable, optional
-        Told how much of the first run is done, from 0 to 1.
-
-    Returns
-    -------
-    list of DwellingTrajectory
-        In the order of the contacts.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps, or nothing slides under load.
-    ConvergenceError
-        A pressure cannot be found.
-    """
+    """Run several contacts side by side, each with its own size of steps."""
     stop = threading.Event()
 
     def _first(part: float) -> bool:
@@ -88,37 +60,7 @@ def advance_dwelling(
     start: Start | None = None,
     progress: Callable[[float], None] = lambda part: None,
 ) -> tuple[DwellingTrajectory, float]:
-    """Wear outlines and chain by steps that are halved until the life is within its tolerance.
-
-    Parameters
-    ----------
-    contact : Dwelling
-        The outlines and their contacts.
-    law : Law
-        The wear law.
-    criteria : tuple of Criterion
-        Limits of the outlines, the depth criterion first.
-    horizon : float
-        Cycles at which the run ends in any case.
-    life_tolerance : float
-        Relative tolerance of the life.
-    start : Start, optional
-        Worn outlines and a used chain to begin with; new ones otherwise.
-    progress : callable, optional
-        Told how much of each run is done, from 0 to 1.
-
-    Returns
-    -------
-    tuple of DwellingTrajectory and float
-        The finest run, and its relative error by steps and, from new outlines, by points.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps, or nothing slides under load.
-    ConvergenceError
-        A pressure cannot be found.
-    """
+    """Wear outlines and chain by steps that are halved until the life is within its tolerance."""
     first = [(contact, 1), (contact, 0)]
     if start is None:
         first.append((contact.coarsened(), 0))
@@ -143,18 +85,6 @@ def halving_error(runs: Sequence[Trajectory], by_points: float) -> float:
     run of n times the step, 1/(sqrt(n) - 1) may be left.
 
     Equation physics.md (W14).
-
-    Parameters
-    ----------
-    runs : sequence of Trajectory
-        At least two.
-    by_points : float
-        Relative difference of the life on half the points.
-
-    Returns
-    -------
-    float
-        Relative.
     """
     last = len(runs) - 1
     by_steps = max(

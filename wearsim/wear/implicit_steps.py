@@ -87,9 +87,7 @@ class _Record:
         self.count += 1
         if len(self.states) > 2 * SNAPSHOTS + len(self.ends):
             stay = {id(state) for state in (*self.ends, self.states[-1])}
-            self.states = [
-                state for i, state in enumerate(self.states) if i % 2 == 0 or id(state) in stay
-            ]
+            self.states = [state for i, state in enumerate(self.states) if i % 2 == 0 or id(state) in stay]
             self.stride *= 2
 
     def end_chain(self, bodies: Bodies) -> None:
@@ -98,9 +96,7 @@ class _Record:
 
     def trajectory(self, bodies: Bodies, met: Criterion | None) -> DwellingTrajectory:
         states = self.states
-        x, y, depth = (
-            np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth")
-        )
+        x, y, depth = (np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth"))
         worst = int(depth[-1].max(axis=1).argmax())
         return DwellingTrajectory(
             cycles=np.array([state.cycles for state in states]),
@@ -179,18 +175,7 @@ def _done(criteria: tuple[Criterion, ...], bodies: Bodies, horizon: float) -> fl
 
 
 def reporting(progress: Callable[[float], None]) -> Watch:
-    """Return a watch over a run that only tells how much of it is done.
-
-    Parameters
-    ----------
-    progress : callable
-        Told a part from 0 to 1.
-
-    Returns
-    -------
-    callable
-        For ``run_dwelling``.
-    """
+    """Return a watch over a run that only tells how much of it is done."""
 
     def _goes_on(part: float) -> bool:
         progress(part)
@@ -221,38 +206,6 @@ def run_dwelling(
 
     At its elongation limit the chain is replaced by a new one. A run by depth that takes too
     many steps, those of about 60 chains, ends before its horizon.
-
-    Parameters
-    ----------
-    contact : Dwelling
-        The outlines and their contacts.
-    law : Law
-        The wear law.
-    criteria : tuple of Criterion
-        Limits of the outlines, the depth criterion first.
-    horizon : float
-        Cycles at which the run ends in any case.
-    level : int
-        Steps are smaller by half for each level above 0.
-    cycles_per_step : float
-        Cycles of every step; 0 for steps by the depth that they take off.
-    watch : callable, optional
-        Told before every step how much of the run is done, from 0 to 1. Where it returns
-        False the run ends early; what comes back then is not complete.
-    start : Start, optional
-        Worn outlines and a used chain to begin with; new ones otherwise.
-
-    Returns
-    -------
-    DwellingTrajectory
-        The run.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps, or nothing slides under load.
-    ConvergenceError
-        A pressure cannot be found.
     """
     bodies, record = Bodies(contact, law, start), _Record()
     pace = _Pace(criteria[0].limit, level, cycles_per_step)
@@ -304,9 +257,7 @@ def _cut(bodies: Bodies, before: State, allowed: Callable[[], bool]) -> None:
         bodies.y = before.y + part * (after.y - before.y)
         bodies.depth = before.depth + part * (after.depth - before.depth)
         bodies.removed = before.removed + part * (after.removed - before.removed)
-        bodies.wear = ChainWear(
-            *(b + part * (a - b) for b, a in zip(before.wear, after.wear, strict=True))
-        )
+        bodies.wear = ChainWear(*(b + part * (a - b) for b, a in zip(before.wear, after.wear, strict=True)))
         bodies.cycles = before.cycles + part * (after.cycles - before.cycles)
 
     low, high = 0.0, 1.0

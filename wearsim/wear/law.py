@@ -36,9 +36,7 @@ def mean_pressure_factor(exponent: float) -> float:
     >>> round(mean_pressure_factor(2.0), 12)
     0.666666666667
     """
-    return (
-        0.5 * math.sqrt(math.pi) * math.gamma(1.0 + exponent / 2) / math.gamma(1.5 + exponent / 2)
-    )
+    return 0.5 * math.sqrt(math.pi) * math.gamma(1.0 + exponent / 2) / math.gamma(1.5 + exponent / 2)
 
 
 @dataclass(frozen=True)

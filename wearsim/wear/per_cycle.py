@@ -53,9 +53,7 @@ def _compiled_loop(contact: Contact) -> tuple[int, Callable[..., int]]:
 class _Run:
     """State of the flank between blocks of compiled updates."""
 
-    def __init__(
-        self, contact: Contact, law: Law, cycles_per_update: int, depth_limit: float
-    ) -> None:
+    def __init__(self, contact: Contact, law: Law, cycles_per_update: int, depth_limit: float) -> None:
         self.depth_limit = depth_limit
         self.contact = contact
         self.cycles_per_update = float(cycles_per_update)
@@ -102,10 +100,20 @@ class _Run:
         done = np.zeros(1)
         with _interrupts_held():
             status = self.run(
-                self.x, self.y, self.depth, self.contact.constants,
-                self.contact.columns, self.work, self.contact.modulus, self.law, self.diffusion,
-                self.cycles_per_update, depth, updates, done,
-            )  # fmt: skip
+                self.x,
+                self.y,
+                self.depth,
+                self.contact.constants,
+                self.contact.columns,
+                self.work,
+                self.contact.modulus,
+                self.law,
+                self.diffusion,
+                self.cycles_per_update,
+                depth,
+                updates,
+                done,
+            )
         self.updates += int(done[0])
         return int(status)
 
@@ -131,34 +139,7 @@ def run_per_cycle(
     horizon: float,
     cycles_per_update: int,
 ) -> Trajectory:
-    """Wear a flank update by update until a criterion is met or the horizon is reached.
-
-    Parameters
-    ----------
-    contact : Contact or Dwelling
-        The flank and its contact.
-    law : Law
-        The wear law.
-    criteria : tuple of Criterion
-        Limits, the depth criterion first.
-    horizon : float
-        Loading cycles at which the run ends in any case.
-    cycles_per_update : int
-        Cycles that one update of the geometry stands for; 1 is the source's scheme.
-
-    Returns
-    -------
-    Trajectory
-        The run; the last snapshot lies on the limit, found by linear interpolation in
-        the last update.
-
-    Raises
-    ------
-    ConvergenceError
-        An update would break the stability limit, or the depth alternates.
-    ContactError
-        The flank conforms to the roller, or the contact is gone.
-    """
+    """Wear a flank update by update until a criterion is met or the horizon is reached."""
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.
         from wearsim.wear.implicit_steps import run_dwelling
@@ -191,10 +172,7 @@ def run_per_cycle(
 
 
 def _retreat(
-    run: _Run,
-    criteria: tuple[Criterion, ...],
-    snapshot: tuple[float, Vector, Vector, Vector],
-    start: int,
+    run: _Run, criteria: tuple[Criterion, ...], snapshot: tuple[float, Vector, Vector, Vector], start: int
 ) -> None:
     """Go back to the last snapshot and stop right after the first update that meets a limit."""
     low, high = 0, run.updates - start
@@ -206,9 +184,7 @@ def _retreat(
     _replay(run, snapshot, start, high)
 
 
-def _replay(
-    run: _Run, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int
-) -> None:
+def _replay(run: _Run, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
     run.x[:], run.y[:], run.depth[:] = snapshot[1:]
     run.updates = start
     run.wear(np.inf, updates)
@@ -222,9 +198,4 @@ def _on_limit(run: _Run, met: Criterion) -> tuple[float, Vector, Vector, Vector]
     before, after = met.margin(x, y, depth), met.margin(run.x, run.y, run.depth)
     part = before / (before - after) if before > after else 1.0
     cycles = run.cycles - (1.0 - part) * run.cycles_per_update
-    return (
-        cycles,
-        run.x + (x - run.x) * (1 - part),
-        run.y + (y - run.y) * (1 - part),
-        depth + part * step,
-    )
+    return (cycles, run.x + (x - run.x) * (1 - part), run.y + (y - run.y) * (1 - part), depth + part * step)

@@ -69,16 +69,6 @@ class RunningIn:
         """Return the cycles of constant coefficient that wear as much.
 
         Equation physics.md (R2).
-
-        Parameters
-        ----------
-        cycles : float
-            N, cycles run.
-
-        Returns
-        -------
-        float
-            Tau.
         """
         if self.factor == 1.0:
             return cycles
@@ -88,16 +78,6 @@ class RunningIn:
         """Return the cycles after which a drive that runs in has worn as much.
 
         Equation physics.md (R2), solved for N.
-
-        Parameters
-        ----------
-        constant : numpy.ndarray
-            Tau, cycles of constant coefficient.
-
-        Returns
-        -------
-        numpy.ndarray
-            N, by Newton's method from tau/f, from where it rises to the answer: tau is concave.
         """
         tau = np.asarray(constant, dtype=float)
         if self.factor == 1.0:
@@ -139,18 +119,7 @@ class RunningIn:
         return self.constant_cycles(float(end - start))
 
     def until_renewed(self, new_at: float, worn: float) -> float:
-        """Return when a part that was new later has worn so much, the inverse of ``renewed``.
-
-        Parameters
-        ----------
-        new_at, worn : float
-            In cycles of constant coefficient.
-
-        Returns
-        -------
-        float
-            Time in cycles of constant coefficient since the drive was new.
-        """
+        """Return when a part that was new later has worn so much, the inverse of ``renewed``."""
         if self.factor == 1.0 or new_at == 0.0:
             return new_at + worn
         start, run = self.running_cycles(np.array([new_at, worn]))

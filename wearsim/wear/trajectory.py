@@ -40,19 +40,7 @@ class Trajectory:
 
 
 def difference(run: Trajectory, other: Trajectory) -> float:
-    """Return the relative difference of two runs of one case.
-
-    Parameters
-    ----------
-    run, other : Trajectory
-        The runs.
-
-    Returns
-    -------
-    float
-        Of their lives; where a run did not reach its limit of their greatest depths when the
-        first of them ends.
-    """
+    """Return the relative difference of two runs of one case."""
     if run.met is not None and other.met is not None:
         return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
     end = min(float(run.cycles[-1]), float(other.cycles[-1]))
@@ -60,45 +48,14 @@ def difference(run: Trajectory, other: Trajectory) -> float:
 
 
 def depth_at(run: Trajectory, cycles: float) -> float:
-    """Return the greatest depth after so many cycles of a run.
-
-    Parameters
-    ----------
-    run : Trajectory
-        The run.
-    cycles : float
-        Up to its end.
-
-    Returns
-    -------
-    float
-        Depth [mm], on the line between two snapshots.
-    """
+    """Return the greatest depth after so many cycles of a run."""
     return float(np.interp(cycles, run.cycles, run.depth.max(axis=1)))
 
 
 def check_touch(
     contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float, least: float = 0.0
 ) -> None:
-    """Raise where the contact of a worn flank is outside Hertz's theory or gone.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-    x, y, depth : numpy.ndarray
-        The worn flank [mm].
-    cycles : float
-        Loading cycles so far, for the message.
-    least : float
-        Relative curvature [1/mm] up to which the flank is taken to conform.
-
-    Raises
-    ------
-    ContactError
-        The flank conforms to the roller at a loaded point or turns away from it, or no
-        point is loaded.
-    """
+    """Raise where the contact of a worn flank is outside Hertz's theory or gone."""
     touch = contact.engage(x, y, depth)
     pulling = ~(touch.load_per_width >= 0.0)
     if pulling.any():
@@ -128,18 +85,7 @@ def check_touch(
 
 
 def no_sliding(cycles: float) -> ContactError:
-    """Return the error of a flank that is loaded where nothing slides.
-
-    Parameters
-    ----------
-    cycles : float
-        Loading cycles so far.
-
-    Returns
-    -------
-    ContactError
-        With the cycle.
-    """
+    """Return the error of a flank that is loaded where nothing slides."""
     return ContactError(
         f"contact at cycle {cycles:.6g}: the loaded points must slide, but none does: without sliding "
         "there is no wear and no life"
@@ -147,20 +93,7 @@ def no_sliding(cycles: float) -> ContactError:
 
 
 def check_fold(contact: Contact, run: Trajectory) -> None:
-    """Raise where the worn flank crosses itself.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-    run : Trajectory
-        Its wear.
-
-    Raises
-    ------
-    ConvergenceError
-        With the first snapshot that does and the place.
-    """
+    """Raise where the worn flank crosses itself."""
     turned = turned_over(run.x, run.y)
     if turned.any():
         shot, point = np.argwhere(turned)[0]
@@ -181,18 +114,7 @@ def check_fold(contact: Contact, run: Trajectory) -> None:
 
 
 def turned_over(x: Vector, y: Vector) -> NDArray[np.bool_]:
-    """Return where a piece between two points runs against that of the new flank.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Flanks, the new one first [mm], shape (snapshots, points).
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (snapshots, points - 1).
-    """
+    """Return where a piece between two points runs against that of the new flank."""
     dx, dy = np.diff(x, axis=1), np.diff(y, axis=1)
     against: NDArray[np.bool_] = dx * dx[0] + dy * dy[0] <= 0.0
     return against
@@ -203,22 +125,6 @@ def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: 
 
     The second difference over one spacing is compared with that over two, which an
     alternating depth does not enter.
-
-    Parameters
-    ----------
-    contact : Contact
-        The flank and its contact.
-    depth : numpy.ndarray
-        Material removed along the normal [mm].
-    cycles : float
-        Loading cycles so far, for the message.
-    depth_limit : float
-        Depth at which the run ends [mm]; teeth of less than 5e-5 of it do not count.
-
-    Raises
-    ------
-    ConvergenceError
-        Over a stretch of the flank the short difference is far larger than the long one.
     """
     point = sawtooth(np.ascontiguousarray(depth), depth_limit)
     if point < 0:

@@ -77,10 +77,7 @@ class Study:
         found = {}
         for name, runs in self.runs.items():
             drawn = [runs[one] for one in DRAWN if one in runs and runs[one].life > 0.0]
-            found[name] = (
-                [abs(self.error(run)) for run in drawn],
-                [1e3 * run.seconds for run in drawn],
-            )
+            found[name] = ([abs(self.error(run)) for run in drawn], [1e3 * run.seconds for run in drawn])
         return found
 
 

@@ -23,8 +23,16 @@ def work_precision_figure(points):
         for panel, (nodes, methods) in zip(row, by_nodes.items(), strict=True):
             for method, (errors, times) in methods.items():
                 colour, marker, line = STYLES[method]
-                panel.loglog(errors, times, color=colour, marker=marker, linestyle=line,
-                             markersize=4.0, linewidth=1.0, label=method)  # fmt: skip
+                panel.loglog(
+                    errors,
+                    times,
+                    color=colour,
+                    marker=marker,
+                    linestyle=line,
+                    markersize=4.0,
+                    linewidth=1.0,
+                    label=method,
+                )
             panel.axvline(1e-4, color="0.6", linewidth=0.8)
             panel.grid(True, color="0.9", linewidth=0.6)
             panel.set_title(f"{case}, K = {nodes}", fontsize=10)

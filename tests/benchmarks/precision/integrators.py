@@ -107,10 +107,7 @@ def ros2_step(
     for j in range(to.size):
         to[j] = begin[j] + step * first[j]
     work[REPORT, 0] = 2.0
-    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
-        CONFORMING,
-        BROKEN,
-    ):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
         return math.nan
     write_rate(work, second)
     for j in range(to.size):
@@ -145,10 +142,7 @@ def euler_step(
     for j in range(to.size):
         to[j] = begin[j] + half[j]
     work[REPORT, 0] = 2.0
-    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
-        CONFORMING,
-        BROKEN,
-    ):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
         return math.nan
     write_rate(work, other)
     for j in range(to.size):
@@ -185,9 +179,7 @@ def chebyshev_step(
     stages = max(2, 1 + int(math.sqrt(1.0 + 1.54 * step * spectral_radius(start, work[11:15]))))
     w = 1.0 + 2.0 / 13.0 / (stages * stages)
     root, angle = math.sqrt(w * w - 1.0), stages * math.acosh(w)
-    shift = math.sinh(angle) * (w * w - 1.0) / (
-        math.cosh(angle) * stages * root - w * math.sinh(angle)
-    )  # fmt: skip
+    shift = math.sinh(angle) * (w * w - 1.0) / (math.cosh(angle) * stages * root - w * math.sinh(angle))
     write_start_rate(start, first)
     b_older = b_old = 1.0 / (4.0 * w * w)
     t_older, t_old, d_older, d_old, s_older, s_old = 1.0, w, 0.0, 1.0, 0.0, 0.0
@@ -216,10 +208,7 @@ def chebyshev_step(
         t_older, t_old, d_older, d_old, s_older, s_old = t_old, t, d_old, d, s_old, s
         b_older, b_old = b_old, b
     work[REPORT, 0] += 1.0
-    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (
-        CONFORMING,
-        BROKEN,
-    ):
+    if flank_rate(contact, trial, trial[2], constants, columns, modulus, law, work) in (CONFORMING, BROKEN):
         return math.nan
     write_rate(work, rate)
     greatest, total = 0.0, 0.0
@@ -231,14 +220,46 @@ def chebyshev_step(
 
 @kernel(
     int64(
-        STEP_FUNCTION, CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64,
-        float64, float64, float64, VECTOR, TABLE, TABLE, VECTOR, VECTOR, CUBE,
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        TABLE,
+        VECTOR,
+        TABLE,
+        float64,
+        VECTOR,
+        float64,
+        int64,
+        float64,
+        float64,
+        float64,
+        VECTOR,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        CUBE,
     )
-)  # fmt: skip
+)
 def wear_under_control(
-    make_step, contact, state, constants, columns, modulus, law, diffusion, ends, depth_limit,
-    tolerance, end, control, work, increments, clock, times, path,
-):  # fmt: skip
+    make_step,
+    contact,
+    state,
+    constants,
+    columns,
+    modulus,
+    law,
+    diffusion,
+    ends,
+    depth_limit,
+    tolerance,
+    end,
+    control,
+    work,
+    increments,
+    clock,
+    times,
+    path,
+):
     """Wear as ``wear_in_steps`` does, with the powers of the step control handed in."""
     status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
     clock[RATES] += 1.0
@@ -267,14 +288,24 @@ def wear_under_control(
         grown = MOST
         while True:
             step = clock[NEXT_STEP]
-            error = make_step(contact, here, constants, columns, modulus, law, diffusion, ends,
-                              step, work, state, increments) / (tolerance * depth_limit)  # fmt: skip
+            error = make_step(
+                contact,
+                here,
+                constants,
+                columns,
+                modulus,
+                law,
+                diffusion,
+                ends,
+                step,
+                work,
+                state,
+                increments,
+            ) / (tolerance * depth_limit)
             clock[RATES] += work[REPORT, 0]
             if error <= 1.0:
                 error = math.nan if keep_removed(here, state, step) > 0 else error
-                status = flank_rate(
-                    contact, state, state[2], constants, columns, modulus, law, work
-                )
+                status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
                 clock[RATES] += 1.0
             if error <= 1.0 and status not in (CONFORMING, BROKEN):
                 break

@@ -117,10 +117,19 @@ class Compiled:
         work[integrators.REPORT, 0] = STAGES
         clock, times, path = np.zeros(CLOCK), np.zeros(2), np.zeros((2, STATE_ROWS, points))
         given = (
-            self.step, contact.kernel, state, contact.constants, contact.columns, contact.modulus,
-            problem.numbers, problem.diffusion, problem.ends, problem.limit, tolerance,
+            self.step,
+            contact.kernel,
+            state,
+            contact.constants,
+            contact.columns,
+            contact.modulus,
+            problem.numbers,
+            problem.diffusion,
+            problem.ends,
+            problem.limit,
+            tolerance,
             horizon * problem.law.coefficient,
-        )  # fmt: skip
+        )
         if self.control is None:
             function, last = wear_in_steps, 2**62
         else:
@@ -153,14 +162,12 @@ class Rate:
         flank_frame(x, y, *self.frame)
         normal_x, normal_y, curvature = self.frame[:3]
         contact.kernel(
-            x, y, normal_x, normal_y, curvature, depth, contact.constants, contact.columns,
-            *self.touch,
-        )  # fmt: skip
+            x, y, normal_x, normal_y, curvature, depth, contact.constants, contact.columns, *self.touch
+        )
         load, slip, speed, relative = self.touch
         # A trial of the solver may conform where the solution does not.
         np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
-        wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.pressure,
-                   self.step)  # fmt: skip
+        wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.pressure, self.step)
         soften(depth, self.numbers, self.step)
         rate = np.empty((self.step.size, 3))
         rate[:, 0], rate[:, 1], rate[:, 2] = -self.step * normal_x, -self.step * normal_y, self.step
@@ -173,8 +180,16 @@ def _by_scipy(solver, problem, tolerance, **options):
     state = np.zeros(3 * problem.contact.profile.x.size)
     begin = perf_counter()
     fastest = float(rate(0.0, state).max())
-    run = solver(rate, 0.0, state, np.inf, first_step=1e-4 * limit / fastest, rtol=tolerance,
-                 atol=tolerance * limit, **options)  # fmt: skip
+    run = solver(
+        rate,
+        0.0,
+        state,
+        np.inf,
+        first_step=1e-4 * limit / fastest,
+        rtol=tolerance,
+        atol=tolerance * limit,
+        **options,
+    )
     while run.status == "running" and run.y[2::3].max() < limit:
         run.step()
     seconds = perf_counter() - begin
@@ -211,9 +226,21 @@ def by_updates(problem, cycles):
     work, done = np.zeros((10, x.size)), np.zeros(1)
     begin = perf_counter()
     status = run_cycles(
-        contact.kernel, x, y, depth, contact.constants, contact.columns, work, contact.modulus,
-        problem.law.numbers(contact.kind), problem.diffusion, cycles, problem.limit, 2**62, done,
-    )  # fmt: skip
+        contact.kernel,
+        x,
+        y,
+        depth,
+        contact.constants,
+        contact.columns,
+        work,
+        contact.modulus,
+        problem.law.numbers(contact.kind),
+        problem.diffusion,
+        cycles,
+        problem.limit,
+        2**62,
+        done,
+    )
     seconds = perf_counter() - begin
     if status != DEPTH_REACHED:
         return Run(math.nan, int(done[0]), seconds)

@@ -93,10 +93,7 @@ def summary_lines(studies, methods):
             for error in ERRORS:
                 ours = found.milliseconds(OURS, error)
                 times = [found.milliseconds(name, error) for name in methods]
-                cells = [
-                    f"{time:.2f} ({time / ours:.2f})" if math.isfinite(time) else "-"
-                    for time in times
-                ]
+                cells = [f"{time:.2f} ({time / ours:.2f})" if math.isfinite(time) else "-" for time in times]
                 rows.append([case, str(nodes), f"{error:.0e}", *cells])
     yield from table(["case", "K", "life error", *methods], rows)
 
@@ -183,11 +180,7 @@ def conclusion_lines(studies, methods):
     yield "Time to a life error in parts of that of ROS34PW2: mean over the cases, least and most."
     yield ""
     rows = [
-        [
-            name,
-            "strand" if strand else "B9",
-            *(ratio(studies, strand, name, error) for error in ERRORS),
-        ]
+        [name, "strand" if strand else "B9", *(ratio(studies, strand, name, error) for error in ERRORS)]
         for name in methods
         if name != OURS
         for strand in (False, True)
@@ -198,9 +191,7 @@ def conclusion_lines(studies, methods):
         for by_nodes in studies.values():
             for found in by_nodes.values():
                 times = {name: found.milliseconds(name, error) for name in methods}
-                count[
-                    min(times, key=lambda name: times[name] if times[name] > 0 else math.inf)
-                ] += 1
+                count[min(times, key=lambda name: times[name] if times[name] > 0 else math.inf)] += 1
         winners = ", ".join(f"{name} {times}" for name, times in count.items() if times)
         yield f"- life error {error:.0e}, fastest how often of the twelve: {winners}."
     yield (
@@ -236,9 +227,7 @@ def detail_lines(studies, methods, tolerances):
             for tolerance in tolerances:
                 runs = [found.runs[name].get(tolerance) for name in methods]
                 cells = [
-                    f"{number(found.error(run), '.1e')}, {1e3 * run.seconds:.2f}, {run.rates}"
-                    if run
-                    else "-"
+                    f"{number(found.error(run), '.1e')}, {1e3 * run.seconds:.2f}, {run.rates}" if run else "-"
                     for run in runs
                 ]
                 rows.append([f"{tolerance:.0e}", *cells])
@@ -251,9 +240,7 @@ def report(studies, facts, methods, tolerances):
     yield HEAD
     yield ""
     yield f"- date: {date.today().isoformat()}"
-    yield (
-        f"- {platform.system()} on {platform.machine()}, CPython {platform.python_version()}, {versions}"
-    )
+    yield (f"- {platform.system()} on {platform.machine()}, CPython {platform.python_version()}, {versions}")
     yield ""
     yield from goal_lines(studies, facts)
     yield from summary_lines(studies, methods)

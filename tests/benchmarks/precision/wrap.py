@@ -71,9 +71,7 @@ def wrap_lines(levels):
     for place, level in enumerate(levels):
         error = f"{level.life / last - 1.0:.1e}" if place < LEVELS - 1 else "-"
         change = f"{level.life / levels[place - 1].life - 1.0:.1e}" if place else "-"
-        yield (
-            f"| {place} | {level.steps} | {level.life:.5g} | {error} | {change} | {level.seconds:.2f} |"
-        )
+        yield (f"| {place} | {level.steps} | {level.life:.5g} | {error} | {change} | {level.seconds:.2f} |")
     yield ""
     for tolerance in TOLERANCES:
         stop, change = production_level(levels, tolerance)

@@ -100,9 +100,7 @@ class TypeIITooth(ConcaveTooth):
         """
         half = math.pi / self.teeth
         shift = self._height(seat_centre) - 0.5 * self.pitch_diameter
-        return (
-            self.pitch / math.tan(half) + 2.0 * math.cos(half) * shift + 2.0 * self.pointed_height
-        )
+        return self.pitch / math.tan(half) + 2.0 * math.cos(half) * shift + 2.0 * self.pointed_height
 
     def _height(self, seat_centre: SeatCentre) -> float:
         return seat_height(

@@ -162,9 +162,7 @@ class Strand:
 
     def _turned(self, x_fixed: Vector, y_fixed: Vector, x: Vector) -> Vector:
         cosine, sine = np.cos(x / self.centrode_radius), np.sin(x / self.centrode_radius)
-        return np.column_stack(
-            [x_fixed * cosine + y_fixed * sine, -x_fixed * sine + y_fixed * cosine]
-        )
+        return np.column_stack([x_fixed * cosine + y_fixed * sine, -x_fixed * sine + y_fixed * cosine])
 
     def _direction_rate(self, x: Vector) -> Vector:
         """d(alpha - psi)/dx: how fast the normal turns in the sprocket's frame [rad/mm]."""
@@ -190,9 +188,7 @@ class EvoluteFlank:
     profile: Profile
 
 
-def evolute_flank(
-    strand: Strand, contact_end: float, contact_start: float, nodes: int
-) -> EvoluteFlank:
+def evolute_flank(strand: Strand, contact_end: float, contact_start: float, nodes: int) -> EvoluteFlank:
     """Integrate the flank's intrinsic equation d(theta)/ds = 1/rho_t from root to tip.
 
     Nodes lie at equal steps of the roller's way x. On every step the direction
@@ -235,9 +231,7 @@ def evolute_flank(
     turn = half[:, 0] * (strand._direction_rate(at) @ _GAUSS_WEIGHTS)
     first = float(strand.pressure_angle(contact_end)) - contact_end / strand.centrode_radius
     theta_node = first + np.concatenate([[0.0], np.cumsum(turn)])[:-1]
-    theta = theta_node[:, None] + inner_half[..., 0] * (
-        strand._direction_rate(inner_at) @ _GAUSS_WEIGHTS
-    )
+    theta = theta_node[:, None] + inner_half[..., 0] * (strand._direction_rate(inner_at) @ _GAUSS_WEIGHTS)
     arc_rate = -strand.flank_radius(at) * strand._direction_rate(at)
     step_x = half[:, 0] * ((-np.sin(theta) * arc_rate) @ _GAUSS_WEIGHTS)
     step_y = half[:, 0] * ((np.cos(theta) * arc_rate) @ _GAUSS_WEIGHTS)

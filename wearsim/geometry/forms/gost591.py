@@ -172,9 +172,7 @@ def gost591_gap(
     186.6003
     """
     tooth = GostTooth(pitch, roller_diameter, teeth)
-    height = seat_height(
-        seat_centre, 0.5 * tooth.pitch_diameter, tooth.seat_radius, 0.5 * roller_diameter
-    )
+    height = seat_height(seat_centre, 0.5 * tooth.pitch_diameter, tooth.seat_radius, 0.5 * roller_diameter)
     diameter = tooth.outside_diameter if tip_diameter is None else tip_diameter
     return Gap(
         segments=tooth.segments(height, tooth.displacement if displaced else 0.0),

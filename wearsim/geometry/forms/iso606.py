@@ -117,9 +117,7 @@ def gap_form(name: Literal["min", "max"], roller_diameter: float, teeth: int) ->
         )
     if name == "min":
         return GapForm(
-            re_small(roller_diameter, teeth),
-            0.505 * roller_diameter,
-            math.radians(140.0 - 90.0 / teeth),
+            re_small(roller_diameter, teeth), 0.505 * roller_diameter, math.radians(140.0 - 90.0 / teeth)
         )
     if name == "max":
         return GapForm(
@@ -228,9 +226,7 @@ def rim_width(pitch: float, inner_width: float, strands: int = 1) -> float:
     return inner_width * (wide if pitch > 12.7 else narrow)
 
 
-def total_rim_width(
-    pitch: float, inner_width: float, strands: int, transverse_pitch: float
-) -> float:
+def total_rim_width(pitch: float, inner_width: float, strands: int, transverse_pitch: float) -> float:
     """Return the width over all rows of teeth, b_f1 + (n - 1) pt.
 
     Parameters

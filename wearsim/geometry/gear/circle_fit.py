@@ -85,9 +85,7 @@ def fit_circle(points: Vector, weights: Vector | None = None) -> CircleFit:
     v0 = np.array([start[0], start[1], math.sqrt(start[2] + start[0] ** 2 + start[1] ** 2)])
     found = least_squares(_left, v0, _slopes, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
     x, y, radius = (float(value) for value in found.x)
-    return CircleFit(
-        radius, (float(x + middle[0]), float(y + middle[1])), math.sqrt(2.0 * found.cost)
-    )
+    return CircleFit(radius, (float(x + middle[0]), float(y + middle[1])), math.sqrt(2.0 * found.cost))
 
 
 def rack_arc(flank: Flank, end: float) -> CircleFit:

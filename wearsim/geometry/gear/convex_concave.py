@@ -162,9 +162,8 @@ class ConvexConcave:
 
     def _gear(self, teeth: int, head_arc: float, foot_arc: float) -> ConvexConcaveGear:
         return ConvexConcaveGear(
-            teeth, self.module, self.pole_angle, head_arc, foot_arc, self.addendum,
-            0.5 * self.backlash,
-        )  # fmt: skip
+            teeth, self.module, self.pole_angle, head_arc, foot_arc, self.addendum, 0.5 * self.backlash
+        )
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -243,9 +242,7 @@ class ConvexConcave:
             alpha = flank.angle_at_rolled_length(part)
             columns.append((flank.path_coordinate(alpha), alpha, flank.turn(alpha)))
         l, alpha, turn = (np.concatenate(parts) for parts in zip(*columns, strict=True))
-        return LineOfAction(
-            Contacts(self.circles, l, alpha, turn), rolled / self.pinion.pitch_radius
-        )
+        return LineOfAction(Contacts(self.circles, l, alpha, turn), rolled / self.pinion.pitch_radius)
 
     def mesh(self, points: int) -> Mesh:
         """Return the way of a pair of teeth through contact.

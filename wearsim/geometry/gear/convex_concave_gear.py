@@ -198,9 +198,7 @@ class ConvexConcaveGear:
 
     def _clear(self, centre: Vector) -> float:
         """Least distance of the flank from a point."""
-        points = [
-            flank.points(np.linspace(self.pole_angle, end, 201)) for flank, end in self.flanks()
-        ]
+        points = [flank.points(np.linspace(self.pole_angle, end, 201)) for flank, end in self.flanks()]
         return float(np.hypot(*(np.concatenate(points) - centre).T).min())
 
     def over_rollers(self, diameter: float) -> Roller:
@@ -233,9 +231,7 @@ class ConvexConcaveGear:
         c = self.pole_angle
         on_foot = diameter < self.seated_diameter(foot, c)
         flank, last = (foot, end) if on_foot else (head, tip)
-        alpha = float(
-            brentq(lambda a: self.seated_diameter(flank, a) - diameter, c, last, xtol=1e-15)
-        )
+        alpha = float(brentq(lambda a: self.seated_diameter(flank, a) - diameter, c, last, xtol=1e-15))
         centre = flank.points(alpha) + 0.5 * diameter * flank.normals(alpha)
         if self._clear(centre) < 0.5 * diameter - _TOUCHING:
             raise GeometryError(

@@ -201,10 +201,7 @@ def tip_overlap(pair: ConvexConcave, pinion: Vector, wheel: Vector) -> tuple[flo
         Depth of the wheel's tips in the pinion and of the pinion's in the wheel [mm]; no more
         than the tolerance of the polygons where they run free.
     """
-    return (
-        _entered(pair.wheel, pair.pinion, pinion),
-        _entered(pair.pinion, pair.wheel, wheel),
-    )
+    return (_entered(pair.wheel, pair.pinion, pinion), _entered(pair.pinion, pair.wheel, wheel))
 
 
 def _entered(gear: ConvexConcaveGear, mate: ConvexConcaveGear, polygon: Vector) -> float:

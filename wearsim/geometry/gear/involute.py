@@ -74,9 +74,7 @@ class InvolutePair:
     def working_angle(self) -> float:
         """Working pressure angle [rad] from inv(alpha_w) = inv(alpha) + 2 tan(alpha) (x1+x2)/(z1+z2)."""
         shift = sum(self.profile_shift) / sum(self.teeth)
-        wanted = (
-            involute_function(self.pressure_angle) + 2.0 * math.tan(self.pressure_angle) * shift
-        )
+        wanted = involute_function(self.pressure_angle) + 2.0 * math.tan(self.pressure_angle) * shift
         if not wanted > 0.0:
             raise GeometryError(
                 f"gear pair: inv(alpha_w) must be above 0, but is {wanted:.4g}: raise the sum of the "

@@ -51,9 +51,7 @@ def _turned(points: Vector, angle: Vector) -> Vector:
     return np.column_stack([cosine * x - sine * y, sine * x + cosine * y])
 
 
-def involute(
-    circles: PitchCircles, pressure_angle: float, pole_distance: ArrayLike
-) -> LineOfAction:
+def involute(circles: PitchCircles, pressure_angle: float, pole_distance: ArrayLike) -> LineOfAction:
     """Return the straight line of action, whose profiles are involutes.
 
     Parameters

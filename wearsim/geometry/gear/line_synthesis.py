@@ -142,9 +142,14 @@ class Synthesis:
         """
         with np.errstate(invalid="ignore"):
             found = solve_ivp(
-                partial(self._rate, start[0]), (0.0, math.log(last / start[0])), (start[1], 0.0),
-                "Radau", rtol=1e-9, atol=1e-12, events=_level,
-            )  # fmt: skip
+                partial(self._rate, start[0]),
+                (0.0, math.log(last / start[0])),
+                (start[1], 0.0),
+                "Radau",
+                rtol=1e-9,
+                atol=1e-12,
+                events=_level,
+            )
         return start[0] * math.exp(found.t[-1]), float(found.y[0, -1])
 
     def _turn(self, pole_distance: Vector, angle: Vector) -> Vector:
@@ -156,9 +161,15 @@ class Synthesis:
         way = np.log(at / start[0])
         with np.errstate(invalid="ignore"):
             found = solve_ivp(
-                partial(self._rate, start[0]), (0.0, way[-1]), start[1:], "DOP853", way,
-                rtol=1e-13, atol=1e-14, events=(_level, _steep),
-            )  # fmt: skip
+                partial(self._rate, start[0]),
+                (0.0, way[-1]),
+                start[1:],
+                "DOP853",
+                way,
+                rtol=1e-13,
+                atol=1e-14,
+                events=(_level, _steep),
+            )
         if len(found.t) < at.size:
             l, last = self.end(start[:2], at[-1])
             first, degrees = round(start[0], 3) + 0.0, abs(round(math.degrees(last), 1))

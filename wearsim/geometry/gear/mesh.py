@@ -126,9 +126,7 @@ def mesh_on(line: LineOfAction, teeth: tuple[int, int]) -> Mesh:
     rolling = np.array([contacts.pinion_rolling, contacts.wheel_rolling])
     for name, way in zip(("pinion", "wheel"), rolling, strict=True):
         if not (way > 0.0).all():
-            raise GeometryError(
-                f"line of action: the rolling on the {name} {_NOT_ROLLING}: shorten it"
-            )
+            raise GeometryError(f"line of action: the rolling on the {name} {_NOT_ROLLING}: shorten it")
     if not (contacts.relative_curvature > 0.0).all():
         raise GeometryError(
             "line of action: the sum of the curvatures of both flanks must be above 0 everywhere, but "
@@ -218,13 +216,23 @@ def _separation(line: LineOfAction, circles: PitchCircles, place: Vector) -> Vec
     before, after = turn < line.roll_angle[0], turn > line.roll_angle[-1]
     gap = np.zeros(place.size)
     gap[before] = lever[0] * _corner(
-        line.wheel_profile[0], turn[before] / circles.gear_ratio, -turn[before],
-        circles.centre_distance, line.pinion_profile,
-    )  # fmt: skip
-    gap[after] = circles.gear_ratio * lever[1] * _corner(
-        line.pinion_profile[-1], -turn[after], turn[after] / circles.gear_ratio,
-        -circles.centre_distance, line.wheel_profile,
-    )  # fmt: skip
+        line.wheel_profile[0],
+        turn[before] / circles.gear_ratio,
+        -turn[before],
+        circles.centre_distance,
+        line.pinion_profile,
+    )
+    gap[after] = (
+        circles.gear_ratio
+        * lever[1]
+        * _corner(
+            line.pinion_profile[-1],
+            -turn[after],
+            turn[after] / circles.gear_ratio,
+            -circles.centre_distance,
+            line.wheel_profile,
+        )
+    )
     return gap
 
 

@@ -80,11 +80,7 @@ class PitchCircles:
         return np.sin(pressure_angle) / self.curvature_sum
 
     def turn(
-        self,
-        pole_distance: ArrayLike,
-        pressure_angle: ArrayLike,
-        reduced_radius: ArrayLike,
-        family: Family,
+        self, pole_distance: ArrayLike, pressure_angle: ArrayLike, reduced_radius: ArrayLike, family: Family
     ) -> Vector:
         """Return how fast the normal turns where the profiles have a given reduced radius.
 
@@ -236,9 +232,7 @@ class Contacts:
     def points(self) -> Vector:
         """Points of contact beside the pole [mm], shape (..., 2)."""
         angle = self.pressure_angle
-        return np.stack(
-            [self.pole_distance * np.cos(angle), self.pole_distance * np.sin(angle)], axis=-1
-        )
+        return np.stack([self.pole_distance * np.cos(angle), self.pole_distance * np.sin(angle)], axis=-1)
 
     @property
     def direction(self) -> Vector:

@@ -148,9 +148,7 @@ def outline_from_dxf(
     if outline is None:
         raise GeometryError(f"{path}: {_nothing_found(chains, junctions, teeth, layer)}")
     if not shapely.LineString(outline).is_simple:
-        raise GeometryError(
-            f"{path}: the outline of the gap must not cross itself, but does: redraw it"
-        )
+        raise GeometryError(f"{path}: the outline of the gap must not cross itself, but does: redraw it")
     return outline, notes
 
 
@@ -275,11 +273,7 @@ def _length(entity: "Circle | Ellipse | Spline") -> float:
     from ezdxf.entities.ellipse import Ellipse
 
     if isinstance(entity, Circle):
-        ends = (
-            (entity.dxf.start_angle, entity.dxf.end_angle)
-            if isinstance(entity, Arc)
-            else (0.0, 0.0)
-        )
+        ends = (entity.dxf.start_angle, entity.dxf.end_angle) if isinstance(entity, Arc) else (0.0, 0.0)
         return float(abs(entity.dxf.radius) * math.radians((ends[1] - ends[0]) % 360.0 or 360.0))
     if isinstance(entity, Ellipse):
         turn = (entity.dxf.end_param - entity.dxf.start_param) % math.tau
@@ -344,9 +338,7 @@ def _joined(
         widest = max([widest, *gaps])
         chains.append(_Chain(_end_to_end(rows, closed), closed))
         junctions |= {
-            (round(float(x), 3), round(float(y), 3))
-            for x, y in (first, last)
-            if deposit.degree((x, y)) > 2
+            (round(float(x), 3), round(float(y), 3)) for x, y in (first, last) if deposit.degree((x, y)) > 2
         }
     if widest > 1e-6:
         notes.append(f"ends of edges up to {widest:.2g} mm apart were joined")
@@ -399,11 +391,7 @@ def _filled(chain: _Chain) -> Vector:
 
 
 def _wheel_gap(
-    chains: list[_Chain],
-    teeth: int,
-    centre: tuple[float, float] | None,
-    path: Path,
-    notes: list[str],
+    chains: list[_Chain], teeth: int, centre: tuple[float, float] | None, path: Path, notes: list[str]
 ) -> Vector | None:
     """The gap nearest +y of the largest loop with the right number of gaps."""
     loops = sorted((c.points for c in chains if c.closed), key=_area, reverse=True)
@@ -418,9 +406,7 @@ def _wheel_gap(
                 f"{shapely.is_valid_reason(polygon)}: redraw it there"
             )
         if len(loops) > 1:
-            notes.append(
-                f"{len(loops) - 1} other closed outlines passed over, {number} of them larger"
-            )
+            notes.append(f"{len(loops) - 1} other closed outlines passed over, {number} of them larger")
         if not polygon.exterior.is_ccw:
             points = points[::-1]
         off = math.hypot(*middle)
@@ -475,16 +461,12 @@ def _single_gap(
 
 
 def _nothing_found(
-    chains: list[_Chain],
-    junctions: list[tuple[float, float]],
-    teeth: int,
-    layer: str | None,
+    chains: list[_Chain], junctions: list[tuple[float, float]], teeth: int, layer: str | None
 ) -> str:
     loops = sorted((c.points for c in chains if c.closed), key=_area, reverse=True)
     middles = [shapely.Polygon(points).centroid.coords[0] for points in loops[:5]]
     counts = [
-        str(_dips(points - np.array(middle)).size)
-        for points, middle in zip(loops, middles, strict=False)
+        str(_dips(points - np.array(middle)).size) for points, middle in zip(loops, middles, strict=False)
     ]
     closed = f"with {', '.join(counts)} gaps" if counts else "none"
     message = (
@@ -494,9 +476,7 @@ def _nothing_found(
     )
     if junctions:
         x, y = junctions[0]
-        message += (
-            f"; more than two edges meet at {len(junctions)} places, such as ({x:g}, {y:g}) mm"
-        )
+        message += f"; more than two edges meet at {len(junctions)} places, such as ({x:g}, {y:g}) mm"
     return (
         f"{message}: check the number of teeth"
         + (", put the outline on a layer of its own and name it" if layer is None else "")
@@ -516,9 +496,7 @@ def _dips(ring: Vector) -> NDArray[np.intp]:
     """Indices where a closed outline dips below the middle of its radii."""
     radius = np.hypot(*ring.T)
     low = radius < 0.5 * (radius.min() + radius.max())
-    return (
-        np.flatnonzero(low & ~np.roll(low, 1)) if _is_deep(radius) else np.empty(0, dtype=np.intp)
-    )
+    return np.flatnonzero(low & ~np.roll(low, 1)) if _is_deep(radius) else np.empty(0, dtype=np.intp)
 
 
 def _gaps(ring: Vector) -> list[_Gap]:

@@ -17,20 +17,7 @@ _ANGLES = 201
 
 
 def convex_concave_figure(title: str, layout: Layout) -> Figure:
-    """Return the teeth in contact in the pole, and the reduced radius beside the involute's.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    layout : Layout
-        The pair.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Two panels.
-    """
+    """Return the teeth in contact in the pole, and the reduced radius beside the involute's."""
     figure = Figure(figsize=(10.4, 5.0), layout=ConstrainedLayoutEngine(w_pad=0.1))
     mesh, along = figure.subplots(1, 2, width_ratios=[1.15, 1.0])
     _draw_mesh(mesh, layout)
@@ -77,17 +64,17 @@ def _draw_radius(panel: Axes, layout: Layout) -> None:
     for zone, style in zip(layout.pair.zones, ("-", "--"), strict=True):
         alpha = zone.angles(_ANGLES)
         panel.plot(
-            zone.pinion.path_coordinate(alpha), zone.reduced_radius(alpha), color="tab:red",
-            linewidth=1.8, linestyle=style, label=f"convex-concave, zone {zone.name}",
-        )  # fmt: skip
+            zone.pinion.path_coordinate(alpha),
+            zone.reduced_radius(alpha),
+            color="tab:red",
+            linewidth=1.8,
+            linestyle=style,
+            label=f"convex-concave, zone {zone.name}",
+        )
     involute = layout.involute
     path = np.linspace(-involute.approach, involute.recess, _ANGLES)
     panel.plot(
-        path,
-        involute.reduced_radius(involute.pole + path),
-        color="black",
-        linewidth=1.2,
-        label="involute",
+        path, involute.reduced_radius(involute.pole + path), color="black", linewidth=1.2, label="involute"
     )
     panel.set_ylim(bottom=0.0)
     panel.set_xlabel("distance l from the pole, mm")
@@ -98,6 +85,11 @@ def _draw_radius(panel: Axes, layout: Layout) -> None:
 
 def _legend_below(panel: Axes) -> None:
     panel.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, fontsize=8, frameon=False,
-        columnspacing=1.2, handlelength=1.8,
-    )  # fmt: skip
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.16),
+        ncols=4,
+        fontsize=8,
+        frameon=False,
+        columnspacing=1.2,
+        handlelength=1.8,
+    )

@@ -169,17 +169,13 @@ def convex_concave(tables: ConvexConcaveTables) -> Layout:
     )
     teeth = pair.teeth
     pinion_tip, wheel_tip = (0.5 * pair.module * count + pair.addendum for count in teeth)
-    involute = InvolutePair(
-        teeth, pair.module, pair.pole_angle, (0.0, 0.0), (pinion_tip, wheel_tip)
-    )
+    involute = InvolutePair(teeth, pair.module, pair.pole_angle, (0.0, 0.0), (pinion_tip, wheel_tip))
     width = body.face_width_mm
     return Layout(
         pair,
         involute,
         tuple(contact for zone in pair.zones for contact in _contacts(zone, involute)),
-        tuple(
-            _arc(flank, pair.pinion.foot_angle) for flank in (pair.pinion.head, pair.pinion.foot)
-        ),
+        tuple(_arc(flank, pair.pinion.foot_angle) for flank in (pair.pinion.head, pair.pinion.foot)),
         _bodies(pair, body),
         10.0 * pair.module if width is None else width,
     )
@@ -243,9 +239,7 @@ def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[Body, Body]:
             tuple(_measured(gear, diameter) for diameter in diameters),
             overlap,
         )
-        for name, gear, outline, overlap in zip(
-            ("pinion", "wheel"), gears, outlines, overlaps, strict=True
-        )
+        for name, gear, outline, overlap in zip(("pinion", "wheel"), gears, outlines, overlaps, strict=True)
     )
     return pinion, wheel
 

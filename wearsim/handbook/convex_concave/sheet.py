@@ -33,20 +33,7 @@ _ASSUMPTIONS = (
 
 
 def convex_concave_sheet(title: str, layout: Layout) -> Sheet:
-    """Return what ``wearsim convex-concave`` shows.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    layout : Layout
-        The pair.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``flanks``, ``rack`` and ``rollers``, and the outlines as DXF and STL.
-    """
+    """Return what ``wearsim convex-concave`` shows."""
     pair = layout.pair
     rollers = [one for body in layout.bodies for one in _rollers(body)]
     content = {
@@ -343,9 +330,7 @@ def _warnings(layout: Layout) -> list[str]:
         for measured in body.measured:
             roller = measured.roller
             if roller.centre_radius - 0.5 * roller.diameter < body.root:
-                found.append(
-                    f"the roller of {roller.diameter:g} mm meets the root of the {body.name}"
-                )
+                found.append(f"the roller of {roller.diameter:g} mm meets the root of the {body.name}")
             if roller.centre_radius + 0.5 * roller.diameter < body.gear.tip_radius:
                 found.append(
                     f"the roller of {roller.diameter:g} mm lies below the tips of the {body.name}: "

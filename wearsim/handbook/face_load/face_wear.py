@@ -224,9 +224,14 @@ class WearingFace:
 
         _uneven.terminal = True  # type: ignore[attr-defined]
         solved = solve_ivp(
-            self._rate, (0.0, _LONGEST), flat, events=_uneven, dense_output=True,
-            rtol=1e-8, atol=1e-9 * self.mesh.mean_load / self.mesh.stiffness,
-        )  # fmt: skip
+            self._rate,
+            (0.0, _LONGEST),
+            flat,
+            events=_uneven,
+            dense_output=True,
+            rtol=1e-8,
+            atol=1e-9 * self.mesh.mean_load / self.mesh.stiffness,
+        )
         path = solved.sol
         assert path is not None
         return (

@@ -9,20 +9,7 @@ from wearsim.handbook.face_load.model import FaceLoad
 
 
 def face_load_figure(title: str, found: FaceLoad) -> Figure:
-    """Return the load over the face, and the face load factor over the hours.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    found : FaceLoad
-        The pair, new and worn.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Lines are the greatest load of all meshes, bands reach down to the least.
-    """
+    """Return the load over the face, and the face load factor over the hours."""
     figure = Figure(figsize=(9.0, 4.4), layout="constrained")
     face, time = figure.subplots(1, 2)
     fixed, aligning = found.fixed.states, found.self_aligning.states
@@ -36,18 +23,13 @@ def face_load_figure(title: str, found: FaceLoad) -> Figure:
     face.set_xlabel("place on the face from its middle, mm")
     face.set_ylabel("load per width over the mean one")
     face.set_ylim(bottom=0.0)
-    face.set_title(
-        "lines: greatest of all meshes, bands: down to the least", fontsize=8, loc="left"
-    )
+    face.set_title("lines: greatest of all meshes, bands: down to the least", fontsize=8, loc="left")
     for run, label, colour, style in (
         (found.fixed, "fixed pinion", "tab:blue", "-"),
         (found.self_aligning, "self-aligning pinion", "tab:green", "--"),
     ):
         time.plot(run.hours[1:], run.factors[1:], style, color=colour, label=label)
-    time.axvline(
-        fixed[1].hours, ymax=0.74, color="0.5", linewidth=0.8, linestyle=":",
-        label="time asked for",
-    )  # fmt: skip
+    time.axvline(fixed[1].hours, ymax=0.74, color="0.5", linewidth=0.8, linestyle=":", label="time asked for")
     time.set_xscale("log")
     time.set_xlabel("running time, h")
     time.set_ylabel(r"face load factor $K_{H\beta}$")
@@ -61,9 +43,7 @@ def face_load_figure(title: str, found: FaceLoad) -> Figure:
     return figure
 
 
-def _draw_load(
-    panel: Axes, found: FaceLoad, state: FaceState, label: str, colour: str, style: str
-) -> None:
+def _draw_load(panel: Axes, found: FaceLoad, state: FaceState, label: str, colour: str, style: str) -> None:
     over_mean = state.loads / found.mesh.mean_load
     least, greatest = over_mean.min(axis=0), over_mean.max(axis=0)
     panel.plot(found.mesh.position, greatest, style, color=colour, label=label)

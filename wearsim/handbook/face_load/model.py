@@ -146,13 +146,19 @@ def face_load(tables: FaceLoadTables) -> FaceLoad:
     stiffness = 1e3 * pair.mesh_stiffness_N_per_mm_um
     mesh = WideMesh.of(pair.face_width_mm, pair.slices, stiffness, force)
     fixed, varying, crown = (
-        1e-3 * gaps.fixed_misalignment_um, 1e-3 * gaps.varying_misalignment_um, 1e-3 * gaps.crown_um,
-    )  # fmt: skip
+        1e-3 * gaps.fixed_misalignment_um,
+        1e-3 * gaps.varying_misalignment_um,
+        1e-3 * gaps.crown_um,
+    )
     gap, share = gap_kinds(mesh.position, fixed, varying, gaps.varies_with, crown)
     rates = wear_rates(
-        wear.specific_wear_rate_mm2_per_N, wear.wheel_wear_ratio, wear.slip_ratio,
-        pair.gear_ratio, gaps.varies_with, 60.0 * load.pinion_speed_rpm,
-    )  # fmt: skip
+        wear.specific_wear_rate_mm2_per_N,
+        wear.wheel_wear_ratio,
+        wear.slip_ratio,
+        pair.gear_ratio,
+        gaps.varies_with,
+        60.0 * load.pinion_speed_rpm,
+    )
     lever = tables.self_aligning.pivot_friction_lever_mm
 
     def _aligned(gap: Vector) -> Vector:

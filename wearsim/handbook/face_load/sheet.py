@@ -30,22 +30,7 @@ _STATES = {"new": "new", "after": "after", "run_in": "run in"}
 
 
 def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Sheet:
-    """Return what ``wearsim face-load`` shows.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    found : FaceLoad
-        The pair, new and worn.
-    defaults : sequence of str
-        What the file left to its defaults.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``states``, ``distribution`` and ``history``.
-    """
+    """Return what ``wearsim face-load`` shows."""
     assumptions = (*_ASSUMPTIONS, _pivot(found), *defaults)
     warnings = _warnings(found)
     states = [_state_row(found, name, state) for name, run in _runs(found) for state in run.states]
@@ -96,9 +81,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
 
 def _pivot(found: FaceLoad) -> str:
     follows = "only the mean gap" if found.lever is None else "every mesh beyond its friction"
-    return (
-        f"a self-aligning pinion is rocked into balance by starts and changes; it follows {follows}"
-    )
+    return f"a self-aligning pinion is rocked into balance by starts and changes; it follows {follows}"
 
 
 def _runs(found: FaceLoad) -> Iterator[tuple[str, RunningIn]]:
@@ -135,9 +118,7 @@ def _distribution(found: FaceLoad, name: str, state: FaceState) -> dict[str, Any
     }
 
 
-def _text(
-    title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumptions: tuple[str, ...]
-) -> str:
+def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumptions: tuple[str, ...]) -> str:
     mesh = found.mesh
     load = (
         f"{grouped(mesh.mean_load)} N/mm on {grouped(mesh.face_width)} mm; stiffness "

@@ -7,12 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wearsim.contact.line_stress import (
-    axis_shear,
-    axis_stresses,
-    axis_von_mises,
-    greatest_von_mises,
-)
+from wearsim.contact.line_stress import axis_shear, axis_stresses, axis_von_mises, greatest_von_mises
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.model import HertzCheck
 from wearsim.handbook.hertz_check.published import AxisFile
@@ -25,24 +20,7 @@ _DEEPEST = 3.0
 def hertz_check_figure(
     title: str, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None
 ) -> Figure:
-    """Return the stresses along the depth, and the pressure that finite elements found.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    check : HertzCheck
-        What was found.
-    meshes : sequence of FemContact
-        Its finite elements; the last one is shown.
-    axis : AxisFile or None
-        Stresses on the axis that the case names.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        One panel, two with finite elements.
-    """
+    """Return the stresses along the depth, and the pressure that finite elements found."""
     panels = 2 if meshes else 1
     figure = Figure(figsize=(4.9 * panels + 0.5, 5.4), layout="constrained")
     axes = figure.subplots(1, panels, squeeze=False)[0]
@@ -53,9 +31,7 @@ def hertz_check_figure(
     return figure
 
 
-def _draw_depth(
-    panel: Axes, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None
-) -> None:
+def _draw_depth(panel: Axes, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None) -> None:
     contact = check.contact
     pressure, half_width = contact.peak_pressure, contact.half_width
     depth = np.linspace(0.0, _DEEPEST, 301)
@@ -69,24 +45,32 @@ def _draw_depth(
     if axis is not None:
         near = axis.depth <= _DEEPEST * half_width
         panel.plot(
-            axis.von_mises[near], axis.depth[near], "o", mfc="none", color="black", markersize=5,
-            mew=0.8, label="von Mises, axis_file",
-        )  # fmt: skip
+            axis.von_mises[near],
+            axis.depth[near],
+            "o",
+            mfc="none",
+            color="black",
+            markersize=5,
+            mew=0.8,
+            label="von Mises, axis_file",
+        )
     for mesh in meshes[-1:]:
         near = mesh.depth <= _DEEPEST * half_width
         panel.plot(
-            mesh.von_mises[near], mesh.depth[near], "+", color="tab:orange", markersize=6,
+            mesh.von_mises[near],
+            mesh.depth[near],
+            "+",
+            color="tab:orange",
+            markersize=6,
             label=f"von Mises, finite elements ({mesh.elements} per a)",
-        )  # fmt: skip
+        )
     _draw_published(panel, check)
     panel.set_ylim(_DEEPEST * half_width, -0.08 * half_width)
     panel.set_xlim(left=0.0)
     panel.set_xlabel("stress on the axis, MPa")
     panel.set_ylabel("depth below the surface, mm")
     panel.grid(alpha=0.3)
-    panel.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False, fontsize=7
-    )
+    panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False, fontsize=7)
 
 
 def _draw_published(panel: Axes, check: HertzCheck) -> None:
@@ -96,11 +80,7 @@ def _draw_published(panel: Axes, check: HertzCheck) -> None:
     columns = check.comparison.columns
     greatest = greatest_von_mises(check.contact.poissons_ratio).depth * check.contact.half_width
     for values, mark, label in (
-        (
-            [columns["surface"].hertz, columns["depth"].hertz],
-            "s",
-            "published, Hertz (depth not given)",
-        ),
+        ([columns["surface"].hertz, columns["depth"].hertz], "s", "published, Hertz (depth not given)"),
         (
             [columns["surface"].finite_elements, columns["depth"].finite_elements],
             "D",
@@ -109,9 +89,15 @@ def _draw_published(panel: Axes, check: HertzCheck) -> None:
     ):
         if not all(math.isnan(value) for value in values):
             panel.plot(
-                values, [0.0, greatest], mark, color="tab:red", markersize=6, clip_on=False,
-                mfc="tab:red" if mark == "s" else "white", label=label,
-            )  # fmt: skip
+                values,
+                [0.0, greatest],
+                mark,
+                color="tab:red",
+                markersize=6,
+                clip_on=False,
+                mfc="tab:red" if mark == "s" else "white",
+                label=label,
+            )
 
 
 def _draw_pressure(panel: Axes, check: HertzCheck, meshes: Sequence[FemContact]) -> None:
@@ -127,9 +113,14 @@ def _draw_pressure(panel: Axes, check: HertzCheck, meshes: Sequence[FemContact])
         for name, mark in (("hertz", "s"), ("finite_elements", "D")):
             value = getattr(check.comparison.columns["contact"], name)
             panel.plot(
-                0.0, value, mark, color="tab:red", markersize=6, clip_on=False,
+                0.0,
+                value,
+                mark,
+                color="tab:red",
+                markersize=6,
+                clip_on=False,
                 mfc="tab:red" if mark == "s" else "white",
-            )  # fmt: skip
+            )
     panel.set_xlim(0.0, 1.5 * half_width)
     panel.set_ylim(bottom=0.0)
     panel.set_xlabel("distance from the middle of the contact, mm")

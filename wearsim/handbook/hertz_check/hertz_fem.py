@@ -220,9 +220,7 @@ def _body(fem: Any, radius: float, modulus: float, contact: PoleContact, element
     held = np.append(basis.get_dofs("axis").all("u^1"), basis.get_dofs("base").all())
     free = basis.complement_dofs(held)
     factors = splu(
-        stiffness[free][:, free].tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
-        options={"SymmetricMode": True},
+        stiffness[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}
     )
     response = np.zeros((basis.N, nodes.size))
     response[free] = factors.solve(loads[free].toarray())
@@ -268,9 +266,7 @@ def _axis_von_mises(fem: Any, body: _Body, pressure: Vector) -> tuple[Vector, Ve
         )
     )
     out_of_plane = 0.5 * first / (first + shear) * (along + across)
-    square = 0.5 * (
-        (along - across) ** 2 + (across - out_of_plane) ** 2 + (out_of_plane - along) ** 2
-    )
+    square = 0.5 * ((along - across) ** 2 + (across - out_of_plane) ** 2 + (out_of_plane - along) ** 2)
     axis = nodal.get_dofs("axis").all()
     axis = axis[np.argsort(-nodal.doflocs[1, axis])]
     return np.abs(nodal.doflocs[1, axis]), np.sqrt(square + 3.0 * sheared**2)[axis]

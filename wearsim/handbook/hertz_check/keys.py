@@ -20,10 +20,7 @@ def _listed(value: object) -> object:
 
 
 _MOST = 20
-_SEVERAL = (
-    BeforeValidator(_listed),
-    Field(json_schema_extra={"minItems": 1, "maxItems": _MOST}),
-)
+_SEVERAL = (BeforeValidator(_listed), Field(json_schema_extra={"minItems": 1, "maxItems": _MOST}))
 Several = Annotated[tuple[Positive, ...], *_SEVERAL]
 SeveralNumbers = Annotated[tuple[PositiveNumber, ...], *_SEVERAL]
 Mesh = Annotated[int, Field(ge=2, le=32)]
@@ -101,9 +98,7 @@ class FiniteElementsTable(Table):
         meshes = self.elements_per_half_width
         if all(fine > coarse for coarse, fine in pairwise(meshes)):
             return []
-        text = (
-            f"each mesh must be finer than the one before, but they are {list(meshes)}: sort them"
-        )
+        text = f"each mesh must be finer than the one before, but they are {list(meshes)}: sort them"
         return [("elements_per_half_width", text)]
 
 

@@ -52,11 +52,9 @@ def difference(hertz: float, finite_elements: float, reference: str) -> float:
     >>> round(difference(464.0, 418.0, "finite_elements"), 4)
     11.0048
     """
-    whole = {
-        "larger": max(hertz, finite_elements),
-        "hertz": hertz,
-        "finite_elements": finite_elements,
-    }[reference]
+    whole = {"larger": max(hertz, finite_elements), "hertz": hertz, "finite_elements": finite_elements}[
+        reference
+    ]
     return 100.0 * abs(hertz - finite_elements) / whole
 
 
@@ -262,15 +260,11 @@ def completed(published: PublishedTable, contact: PoleContact) -> Comparison:
     """
     rows = {name: _legible(published, name) for name in SHARES}
     references = tuple(
-        reference
-        for reference in REFERENCES
-        if all(_fits(*row, reference) for row in rows.values())
+        reference for reference in REFERENCES if all(_fits(*row, reference) for row in rows.values())
     )
     return Comparison(
         {
-            name: _column(
-                *rows[name], (references or REFERENCES)[0], share * contact.printed_stress
-            )
+            name: _column(*rows[name], (references or REFERENCES)[0], share * contact.printed_stress)
             for name, share in SHARES.items()
         },
         references,
@@ -299,9 +293,7 @@ def _fits(hertz: float, elements: float, percent: float, reference: str) -> bool
     return _agrees(difference(hertz, elements, reference), percent)
 
 
-def _column(
-    hertz: float, elements: float, percent: float, reference: str, computed: float
-) -> Column:
+def _column(hertz: float, elements: float, percent: float, reference: str, computed: float) -> Column:
     candidates: tuple[int, ...] = ()
     if math.isnan(elements) and not math.isnan(percent):
         candidates = tuple(whole_stresses(hertz, percent, reference))

@@ -130,9 +130,7 @@ class PoleContact:
 
         Equation hertz-check.md (2).
         """
-        return float(
-            peak_pressure(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus)
-        )
+        return float(peak_pressure(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus))
 
     @property
     def half_width(self) -> float:
@@ -140,9 +138,7 @@ class PoleContact:
 
         Equation hertz-check.md (2).
         """
-        return float(
-            half_width(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus)
-        )
+        return float(half_width(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus))
 
 
 def pole_contact(tables: HertzCheckTables) -> PoleContact:
@@ -173,10 +169,7 @@ def pole_contact(tables: HertzCheckTables) -> PoleContact:
 
 
 def combinations(
-    contact: PoleContact,
-    torques: Sequence[float],
-    widths: Sequence[float],
-    ratios: Sequence[float],
+    contact: PoleContact, torques: Sequence[float], widths: Sequence[float], ratios: Sequence[float]
 ) -> list[PoleContact]:
     """Return a contact with every torque, face width and gear ratio.
 
@@ -195,9 +188,7 @@ def combinations(
     return [
         replace(contact, torque=torque, face_width=width, gear_ratio=ratio)
         for torque, width, ratio in product(
-            torques or [contact.torque],
-            widths or [contact.face_width],
-            ratios or [contact.gear_ratio],
+            torques or [contact.torque], widths or [contact.face_width], ratios or [contact.gear_ratio]
         )
     ]
 
@@ -242,7 +233,7 @@ _KEYS: dict[str, tuple[Callable[[PoleContact], float], _Scale]] = {
         lambda c: c.youngs_modulus[0],
         lambda c, f: replace(c, youngs_modulus=(c.youngs_modulus[0] * f, c.youngs_modulus[1] * f)),
     ),
-}  # fmt: skip
+}
 """For each key its value, and the contact with a multiple of it; both moduli go together."""
 
 _SPAN = 100.0

@@ -65,8 +65,7 @@ def load_hertz_check(
     for column, values in columns.items():
         for index in np.flatnonzero(values < 0.0):
             faults.add(
-                _KEY,
-                f"{path.name}:{index + 2}: {column} must be at least 0, but is {values[index]:g}",
+                _KEY, f"{path.name}:{index + 2}: {column} must be at least 0, but is {values[index]:g}"
             )
     if columns and columns["below_surface_mm"].size == 0:
         faults.add(_KEY, f"{path.name}: needs at least one row, has none")

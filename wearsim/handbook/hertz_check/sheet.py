@@ -33,25 +33,7 @@ _GOALS = {"peak_pressure": 3.0, "surface": 5.0, "depth": 5.0}
 def hertz_check_sheet(
     title: str, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None
 ) -> Sheet:
-    """Return what ``wearsim hertz-check`` shows.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    check : HertzCheck
-        What was found.
-    meshes : sequence of FemContact
-        Its finite elements, from coarse to fine; empty without.
-    axis : AxisFile or None
-        Stresses on the axis that the case names.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``axis_stresses``, and ``combinations``, ``changes``, ``comparison``,
-        ``meshes``, ``fem_axis`` and ``fem_pressure`` where there are any.
-    """
+    """Return what ``wearsim hertz-check`` shows."""
     contact = check.contact
     rows = {
         "combinations": [_combination(one, check) for one in check.literal],

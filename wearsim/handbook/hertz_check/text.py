@@ -9,11 +9,7 @@ from wearsim.report.lines import numbered, row
 
 Rows = Sequence[Mapping[str, Any]]
 
-_REFERENCES = {
-    "larger": "the larger of both",
-    "hertz": "Hertz",
-    "finite_elements": "the finite elements",
-}
+_REFERENCES = {"larger": "the larger of both", "hertz": "Hertz", "finite_elements": "the finite elements"}
 
 ASSUMPTIONS = (
     "one pair of teeth carries all of the load, at the pole, the same all along the face",
@@ -22,27 +18,8 @@ ASSUMPTIONS = (
 )
 
 
-def hertz_check_text(
-    title: str, check: HertzCheck, head: Mapping[str, Any], rows: Mapping[str, Rows]
-) -> str:
-    """Return what ``wearsim hertz-check`` prints.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    check : HertzCheck
-        What was found.
-    head : mapping
-        Of the contact, by column names.
-    rows : mapping of str to sequence
-        Those of ``combinations``, ``changes``, ``comparison`` and ``meshes`` that there are.
-
-    Returns
-    -------
-    str
-        Lines of at most a hundred characters.
-    """
+def hertz_check_text(title: str, check: HertzCheck, head: Mapping[str, Any], rows: Mapping[str, Rows]) -> str:
+    """Return what ``wearsim hertz-check`` prints."""
     blocks = [[title, *_contact(check, head)]]
     if "combinations" in rows:
         blocks.append(_combinations(check, rows["combinations"]))
@@ -60,10 +37,7 @@ def _contact(check: HertzCheck, head: Mapping[str, Any]) -> list[str]:
     contact, pressure = check.contact, head["peak_pressure_MPa"]
     ratio = head["contact_ratio"]
     lines = [
-        (
-            "Load",
-            f"F_n = {head['normal_force_N']:.2f} N, q = {head['load_per_width_N_per_mm']:.4f} N/mm",
-        ),
+        ("Load", f"F_n = {head['normal_force_N']:.2f} N, q = {head['load_per_width_N_per_mm']:.4f} N/mm"),
         (
             "Flanks",
             f"radii {head['pinion_flank_radius_mm']:.4f} and {head['wheel_flank_radius_mm']:.4f} mm, "
@@ -142,9 +116,7 @@ def _changes(check: HertzCheck, rows: Rows) -> list[str]:
             continue
         ends = [one["least_needed_value"], one["greatest_needed_value"]]
         span = " to ".join("none" if end is None else f"{end:.6g}" for end in ends)
-        lines.append(
-            f"    {one['key']:28s}{one['given_value']:12g}{one['needed_value']:12.6g}    {span}"
-        )
+        lines.append(f"    {one['key']:28s}{one['given_value']:12g}{one['needed_value']:12.6g}    {span}")
     return lines
 
 
@@ -173,8 +145,7 @@ def _comparison(check: HertzCheck, rows: Rows) -> list[str]:
             continue
         values = ", ".join(str(value) for value in found) or "no whole value"
         said.append(
-            f"the lost finite-element cell of {name}: {values} MPa has the printed "
-            f"{lost.printed_percent:g} %"
+            f"the lost finite-element cell of {name}: {values} MPa has the printed {lost.printed_percent:g} %"
         )
     return [*lines, row("", "; ".join(text for text in said if text))]
 

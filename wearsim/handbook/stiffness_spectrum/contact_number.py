@@ -89,10 +89,7 @@ class Wheel:
     @property
     def greatest_error_angle(self) -> float:
         """The beta at which two neighbours would be in contact at the same time [rad]."""
-        error = (
-            replace(self, error_angle=1.0).tooth_angles
-            - replace(self, error_angle=0.0).tooth_angles
-        )
+        error = replace(self, error_angle=1.0).tooth_angles - replace(self, error_angle=0.0).tooth_angles
         return float(_FULL / self.teeth / np.max(error - np.roll(error, -1)))
 
 
@@ -131,9 +128,7 @@ class GearPair:
     def without_error(self) -> "GearPair":
         """The same with teeth in their places."""
         return replace(
-            self,
-            pinion=replace(self.pinion, error_angle=0.0),
-            wheel=replace(self.wheel, error_angle=0.0),
+            self, pinion=replace(self.pinion, error_angle=0.0), wheel=replace(self.wheel, error_angle=0.0)
         )
 
 

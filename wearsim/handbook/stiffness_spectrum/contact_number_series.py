@@ -94,9 +94,7 @@ def bessel_coefficients(
         printed = formula in _PRINTED_ARGUMENT
         argument = np.sign(n) * max(abs(k), 1) * beta if printed else n * beta
         found[n + limit] += jv(k, argument) * np.exp(-1j * k * wheel.error_phase)
-    return np.asarray(
-        z * _pulse(wheel, contact_ratio, np.arange(-limit, limit + 1)) * found, complex
-    )
+    return np.asarray(z * _pulse(wheel, contact_ratio, np.arange(-limit, limit + 1)) * found, complex)
 
 
 def _last_order(argument: float) -> int:
@@ -129,8 +127,7 @@ def series_coefficients(
         S_h.
     """
     first, second = (
-        bessel_coefficients(wheel, pair.contact_ratio, limit, formula)
-        for wheel in (pair.pinion, pair.wheel)
+        bessel_coefficients(wheel, pair.contact_ratio, limit, formula) for wheel in (pair.pinion, pair.wheel)
     )
     inverse = pow(pair.pinion_turns, -1, pair.wheel_turns)
     found = []

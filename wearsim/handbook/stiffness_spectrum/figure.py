@@ -20,21 +20,7 @@ _DEEPEST = 1e-4
 
 
 def stiffness_spectrum_figure(title: str, spectrum: StiffnessSpectrum) -> Figure:
-    """Return three panels.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    spectrum : StiffnessSpectrum
-        The answer.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Contacts over some tooth periods with and without errors; all lines; those about the
-        tooth frequency with their names. Amplitudes are one-sided and on a logarithmic scale.
-    """
+    """Return three panels."""
     figure = Figure(figsize=(7.4, 8.2))
     place = {"left": 0.1, "right": 0.92, "bottom": 0.06, "top": 0.93, "hspace": 0.38}
     steps, lines, about = figure.subplots(3, 1, height_ratios=(0.8, 1.2, 1.2), gridspec_kw=place)
@@ -53,9 +39,7 @@ def stiffness_spectrum_figure(title: str, spectrum: StiffnessSpectrum) -> Figure
     return figure
 
 
-def _write_names(
-    panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum, distance: float
-) -> None:
+def _write_names(panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum, distance: float) -> None:
     """Name the strongest lines that are so far apart that their names do not touch."""
     named: list[float] = []
     for line in sorted(lines, key=lambda line: -line.one_sided):
@@ -63,9 +47,15 @@ def _write_names(
         if all(abs(x - other) > distance for other in named):
             named.append(x)
             panel.annotate(
-                line.short_name, (x, line.one_sided), (0, 5), textcoords="offset points",
-                ha="center", va="bottom", fontsize=6.5, rotation=90,
-            )  # fmt: skip
+                line.short_name,
+                (x, line.one_sided),
+                (0, 5),
+                textcoords="offset points",
+                ha="center",
+                va="bottom",
+                fontsize=6.5,
+                rotation=90,
+            )
 
 
 def _order(line: Line, spectrum: StiffnessSpectrum) -> float:
@@ -79,9 +69,7 @@ def _draw_steps(panel: Axes, spectrum: StiffnessSpectrum) -> None:
         (spectrum.contacts, "tab:red", 1.2, "with pitch errors"),
     ):
         x, y = _stairs(function, count / spectrum.pair.meshes)
-        panel.step(
-            x * spectrum.pair.meshes, y, where="post", color=colour, linewidth=width, label=label
-        )
+        panel.step(x * spectrum.pair.meshes, y, where="post", color=colour, linewidth=width, label=label)
     values = np.unique(spectrum.contacts.values)
     panel.set_xlim(0.0, count)
     panel.set_ylim(values[0] - 0.4, values[-1] + 0.4)
@@ -119,8 +107,11 @@ def _draw_lines(panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum) -> 
         panel.plot(
             [_order(line, spectrum) for line in lines],
             [line.series for line in lines],
-            "x", color="tab:red", markersize=6, label="closed form",
-        )  # fmt: skip
+            "x",
+            color="tab:red",
+            markersize=6,
+            label="closed form",
+        )
     panel.set_yscale("log")
     panel.set_ylabel("one-sided amplitude, contacts")
     known = np.isfinite(spectrum.mesh_frequency)

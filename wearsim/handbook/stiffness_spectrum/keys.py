@@ -9,9 +9,7 @@ from wearsim.input.schema.table import Table
 from wearsim.input.units import NotNegative, Positive, PositiveNumber
 
 Model = Literal["pairs", "double_sum"]
-SeriesFormula = Literal[
-    "corrected", "printed", "printed_argument", "printed_sums", "printed_amplitude"
-]
+SeriesFormula = Literal["corrected", "printed", "printed_argument", "printed_sums", "printed_amplitude"]
 
 
 class WheelTable(Table):
@@ -62,11 +60,7 @@ class SpectrumTable(Table):
         if self.model == "double_sum":
             return []
         message = 'belongs to the closed form of model = "double_sum": remove it or set that model'
-        return [
-            (key, message)
-            for key in ("formula", "series_harmonics")
-            if getattr(self, key) is not None
-        ]
+        return [(key, message) for key in ("formula", "series_harmonics") if getattr(self, key) is not None]
 
 
 class StaticsTable(Table):

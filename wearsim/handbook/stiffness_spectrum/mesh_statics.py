@@ -41,9 +41,7 @@ class Statics:
     stiffness: StepFunction
 
 
-def hertz_constant(
-    radius: float, mate_radius: float, youngs_modulus: float, poissons_ratio: float
-) -> float:
+def hertz_constant(radius: float, mate_radius: float, youngs_modulus: float, poissons_ratio: float) -> float:
     """B of two crowned bodies of one material, force = B deflection^(3/2) (Hertz point contact).
 
     B = 2 E / (3 (1 - nu^2)) sqrt(R1 R2 / (R1 + R2)); the source gives no exponent with it.
@@ -166,9 +164,7 @@ def mesh_statics(tables: StiffnessSpectrumTables, contacts: StepFunction) -> Sta
     law = (normal_force(given, pitch_radius, angle), constant, given.energy_exponent)
     numbers = np.union1d(contacts.values, (1.0, 2.0, 4.0))
     stiffness = StepFunction(contacts.edges, mesh_stiffness(contacts.values, *law))
-    return Statics(
-        *law, numbers, deflection(numbers, *law), mesh_stiffness(numbers, *law), stiffness
-    )
+    return Statics(*law, numbers, deflection(numbers, *law), mesh_stiffness(numbers, *law), stiffness)
 
 
 def normal_force(given: StaticsTable, pitch_radius: float, pressure_angle: float) -> float:

@@ -20,16 +20,8 @@ from wearsim.handbook.stiffness_spectrum.contact_number import (
     contact_number,
     contact_ratio,
 )
-from wearsim.handbook.stiffness_spectrum.contact_number_series import (
-    Formula,
-    one_sided,
-    series_coefficients,
-)
-from wearsim.handbook.stiffness_spectrum.keys import (
-    SpectrumTable,
-    StiffnessSpectrumTables,
-    WheelTable,
-)
+from wearsim.handbook.stiffness_spectrum.contact_number_series import Formula, one_sided, series_coefficients
+from wearsim.handbook.stiffness_spectrum.keys import SpectrumTable, StiffnessSpectrumTables, WheelTable
 from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics, mesh_statics
 
 _SERIES_HARMONICS = 6000
@@ -76,9 +68,7 @@ class Line:
     def short_name(self) -> str:
         """The first of the ways, with dots for others that are too long for a table."""
         first = _name(self.combinations[0])
-        return (
-            first if self.name == first else f"{first} = ..." if len(self.name) > 20 else self.name
-        )
+        return first if self.name == first else f"{first} = ..." if len(self.name) > 20 else self.name
 
     @property
     def family(self) -> str:
@@ -219,9 +209,7 @@ def _beyond_involute(tables: StiffnessSpectrumTables) -> str:
     sine = math.sin(math.radians(tables.gear_pair.pressure_angle_deg))
     teeth = {"pinion": tables.pinion.teeth, "wheel": tables.wheel.teeth}
     line = sum(teeth.values()) / 2.0 * sine
-    beyond = [
-        name for name, z in teeth.items() if math.sqrt((z * sine / 2.0) ** 2 + z + 1.0) > line
-    ]
+    beyond = [name for name, z in teeth.items() if math.sqrt((z * sine / 2.0) ** 2 + z + 1.0) > line]
     return " and ".join(beyond)
 
 
@@ -282,7 +270,6 @@ def _name(combination: Combination) -> str:
     terms = zip(combination, ("fz", "f1", "f2"), strict=True)
     shown = sorted(((count, name) for count, name in terms if count), key=lambda term: term[0] < 0)
     text = " ".join(
-        f"{'+' if count > 0 else '-'} {'' if abs(count) == 1 else abs(count)}{name}"
-        for count, name in shown
+        f"{'+' if count > 0 else '-'} {'' if abs(count) == 1 else abs(count)}{name}" for count, name in shown
     )
     return text.removeprefix("+ ")

@@ -27,20 +27,7 @@ _ASSUMPTIONS = (
 
 
 def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> Sheet:
-    """Return what ``wearsim stiffness-spectrum`` shows.
-
-    Parameters
-    ----------
-    tables : StiffnessSpectrumTables
-        The input.
-    spectrum : StiffnessSpectrum
-        What came of it.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``lines`` and, with a load, ``statics``.
-    """
+    """Return what ``wearsim stiffness-spectrum`` shows."""
     lines = [_row(line, spectrum) for line in spectrum.lines]
     content: dict[str, Any] = {
         "title": tables.title,
@@ -122,23 +109,21 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
     rows = [
         row("Contact", f"ratio {pair.contact_ratio:.6g}; mean {mean}; model {tables.spectrum.model}"),
         row("Period", f"{period}, {pair.meshes} meshes"),
-        *([row("Frequency", _frequencies(pair.pinion.teeth, pair.wheel.teeth, frequency))]
-          if math.isfinite(frequency) else []),
-        row("Lines", f"the {len(strongest)} strongest of {len(spectrum.lines)}; all of them hold "
-            f"{100.0 * spectrum.variance_share:.3g} % of the variance of the contacts"),
-    ]  # fmt: skip
+        *(
+            [row("Frequency", _frequencies(pair.pinion.teeth, pair.wheel.teeth, frequency))]
+            if math.isfinite(frequency)
+            else []
+        ),
+        row(
+            "Lines",
+            f"the {len(strongest)} strongest of {len(spectrum.lines)}; all of them hold "
+            f"{100.0 * spectrum.variance_share:.3g} % of the variance of the contacts",
+        ),
+    ]
     assumed = numbered((_COUNTED[tables.spectrum.model], *_ASSUMPTIONS))
     statics = [] if spectrum.statics is None else ["", *_statics_text(spectrum.statics)]
     return "\n".join(
-        [
-            tables.title,
-            *rows,
-            "",
-            *_table(strongest, spectrum),
-            *statics,
-            "",
-            row("Assumes", assumed),
-        ]
+        [tables.title, *rows, "", *_table(strongest, spectrum), *statics, "", row("Assumes", assumed)]
     )
 
 
@@ -177,10 +162,7 @@ def _statics_text(statics: Statics) -> list[str]:
     found = zip(statics.contacts, statics.deflections, statics.stiffnesses, strict=True)
     lines += [f"{n:<12g}{delta:16.6g}{stiffness:18.6g}" for n, delta, stiffness in found]
     return [
-        row(
-            "Load",
-            f"{grouped(statics.force, 6)} N along the common normal; one contact has B = {law}",
-        ),
+        row("Load", f"{grouped(statics.force, 6)} N along the common normal; one contact has B = {law}"),
         row("Stiffness", f"mean {grouped(statics.stiffness.mean, 6)} N/mm"),
         "",
         *lines,

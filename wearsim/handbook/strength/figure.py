@@ -14,20 +14,7 @@ _COLOURS = {"pinion": "tab:blue", "wheel": "tab:orange"}
 
 
 def strength_figure(title: str, pair: PairStrength) -> Figure:
-    """Return the allowable stresses of both gears against hours, contact above bending.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    pair : PairStrength
-        The pair.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        What acts is dashed; a cross marks the life that it leaves.
-    """
+    """Return the allowable stresses of both gears against hours, contact above bending."""
     figure = Figure(figsize=(7.2, 6.4), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
     contact, bending = zip(*pair.stresses, strict=True) if pair.stresses else ((), ())
@@ -45,9 +32,16 @@ def strength_figure(title: str, pair: PairStrength) -> Figure:
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
     upper.set_title(literal(title), fontsize=9, loc="left")
     upper.annotate(
-        "life asked for", (pair.hours, 1.0), (3, -3), xycoords=("data", "axes fraction"),
-        textcoords="offset points", rotation=90, va="top", color="0.4", fontsize=7,
-    )  # fmt: skip
+        "life asked for",
+        (pair.hours, 1.0),
+        (3, -3),
+        xycoords=("data", "axes fraction"),
+        textcoords="offset points",
+        rotation=90,
+        va="top",
+        color="0.4",
+        fontsize=7,
+    )
     lower.set_xscale("log")
     lower.set_xlim(*shown_hours(pair))
     lower.set_xlabel("running time, h")
@@ -57,9 +51,11 @@ def strength_figure(title: str, pair: PairStrength) -> Figure:
 def _draw_allowable(panel: Axes, name: str, endured: Endurance, span: tuple[float, float]) -> None:
     hours = np.geomspace(*span, 241)
     panel.plot(
-        hours, [endured.allowable_at(each) for each in hours.tolist()], color=_COLOURS[name],
+        hours,
+        [endured.allowable_at(each) for each in hours.tolist()],
+        color=_COLOURS[name],
         label=f"allowable, {name}",
-    )  # fmt: skip
+    )
     panel.plot(endured.hours, endured.allowable, "o", color=_COLOURS[name], markersize=5)
 
 
@@ -74,6 +70,11 @@ def _draw_acting(panel: Axes, pair: PairStrength, stresses: Sequence[Stresses]) 
         first, last = shown_hours(pair)
         if not one.life.bound and first <= one.life.hours <= last:
             panel.plot(
-                one.life.hours, one.lasting, "x", color=_COLOURS[gear.name], markersize=8,
-                markeredgewidth=2, label=f"life, {gear.name}",
-            )  # fmt: skip
+                one.life.hours,
+                one.lasting,
+                "x",
+                color=_COLOURS[gear.name],
+                markersize=8,
+                markeredgewidth=2,
+                label=f"life, {gear.name}",
+            )

@@ -167,9 +167,7 @@ class StrengthLoadTable(Table):
         """Return what is wrong between the keys of this table."""
         if (self.accuracy_grade is None) == (self.initial_transverse_load_factor is None):
             got = "none" if self.accuracy_grade is None else "both"
-            message = (
-                f"give exactly one of accuracy_grade and initial_transverse_load_factor (got {got})"
-            )
+            message = f"give exactly one of accuracy_grade and initial_transverse_load_factor (got {got})"
             return [("accuracy_grade", message)]
         return []
 
@@ -191,9 +189,7 @@ class StrengthTables(CalculationTables):
             return []
         found = []
         if self.drive.regime is not None:
-            found.append(
-                ("drive.regime", "[[cyclogram]] gives the loads already: remove one of both")
-            )
+            found.append(("drive.regime", "[[cyclogram]] gives the loads already: remove one of both"))
         total = math.fsum(step.share_of_time or 0.0 for step in self.cyclogram)
         if abs(total - 1.0) > 1e-6:
             message = f"the shares of time must come to 1, come to {total:.6g}: correct them"

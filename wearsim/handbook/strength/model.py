@@ -249,12 +249,7 @@ def _spectrum(tables: StrengthTables, cycles: float) -> Spectrum:
 
 
 def _gear(
-    name: str,
-    table: GearTable,
-    tables: StrengthTables,
-    spectrum: Spectrum,
-    rate: float,
-    hours: float,
+    name: str, table: GearTable, tables: StrengthTables, spectrum: Spectrum, rate: float, hours: float
 ) -> Gear:
     treatment = treatments()[table.treatment]
     brinell = table.hardness_HB or in_brinell(table.hardness_HRC or 0.0, "HRC")
@@ -292,9 +287,7 @@ def _contact(
     return limit, curve, greatest, 0.5 * CONTACT_EXPONENT
 
 
-def _bending(
-    table: GearTable, treatment: Treatment, hardness: float, overload: OverloadTable
-) -> Fatigue:
+def _bending(table: GearTable, treatment: Treatment, hardness: float, overload: OverloadTable) -> Fatigue:
     of = table.core_hardness_HRC or hardness
     limit = table.bending_limit_MPa or treatment.bending_limit(of)
     exponent = table.bending_exponent or treatment.bending_exponent
@@ -310,9 +303,7 @@ def _bending(
 
 
 def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: Spectrum) -> ToothLoad:
-    elastic = [
-        (gear.youngs_modulus_MPa, gear.poissons_ratio) for gear in (tables.pinion, tables.wheel)
-    ]
+    elastic = [(gear.youngs_modulus_MPa, gear.poissons_ratio) for gear in (tables.pinion, tables.wheel)]
     mesh = SpurMesh(
         torque=1e3 * load.pinion_torque_N_m * spectrum.torque,
         module=load.module_mm,
@@ -335,9 +326,14 @@ def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: Spectrum) -
         )
     )
     return ToothLoad(
-        mesh, contact, bending, stresses[load.formula], stresses["printed"],
-        stresses["corrected"], (pinion, wheel),
-    )  # fmt: skip
+        mesh,
+        contact,
+        bending,
+        stresses[load.formula],
+        stresses["printed"],
+        stresses["corrected"],
+        (pinion, wheel),
+    )
 
 
 def _load_factors(load: StrengthLoadTable, constant: bool) -> tuple[LoadFactor, LoadFactor]:
@@ -352,9 +348,7 @@ def _load_factors(load: StrengthLoadTable, constant: bool) -> tuple[LoadFactor, 
     contact = LoadFactor(
         application, run_in(face, share), run_in(initial, share), load.contact_dynamic_factor
     )
-    bending = LoadFactor(
-        application, bending_face_factor(face), initial, load.bending_dynamic_factor
-    )
+    bending = LoadFactor(application, bending_face_factor(face), initial, load.bending_dynamic_factor)
     return contact, bending
 
 
@@ -373,8 +367,5 @@ def shown_hours(pair: PairStrength) -> tuple[float, float]:
     """
     told = [pair.hours]
     for gear in pair.gears:
-        told += [
-            one.curve.flat_from / one.equivalent_cycles_at(1.0)
-            for one in (gear.contact, gear.bending)
-        ]
+        told += [one.curve.flat_from / one.equivalent_cycles_at(1.0) for one in (gear.contact, gear.bending)]
     return 0.05 * min(told), 4.0 * max(told)

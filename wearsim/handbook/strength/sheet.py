@@ -9,14 +9,7 @@ import numpy as np
 from wearsim.command.calculation_sheet import Sheet
 from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import (
-    Gear,
-    PairStrength,
-    Stresses,
-    ToothLoad,
-    first_life,
-    shown_hours,
-)
+from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life, shown_hours
 from wearsim.report.lines import grouped, numbered, row
 
 if TYPE_CHECKING:
@@ -27,20 +20,7 @@ _WIDTHS = (46, 18, 18)
 
 
 def strength_text(tables: StrengthTables, pair: PairStrength) -> str:
-    """Return what ``wearsim strength`` prints.
-
-    Parameters
-    ----------
-    tables : StrengthTables
-        The case.
-    pair : PairStrength
-        What it comes to.
-
-    Returns
-    -------
-    str
-        At most a hundred characters wide.
-    """
+    """Return what ``wearsim strength`` prints."""
     hardness = [f"{gear.hardness:g} {gear.treatment.scale}" for gear in pair.gears]
     lines = [
         tables.title,
@@ -69,7 +49,7 @@ def _endured_lines(endured: list[Endurance], letter: str) -> list[str]:
         _columns(f"  life factor K_{letter}L (without its limits)", factors),
         _columns(f"  allowable [sigma]_{letter}, MPa", [f"{e.allowable:.1f}" for e in endured]),
         _columns(f"  in an overload [sigma]_{letter}max, MPa", greatest),
-    ]  # fmt: skip
+    ]
 
 
 def _columns(label: str, values: list[str]) -> str:
@@ -85,9 +65,7 @@ def _acting_lines(acting: list[Stresses], letter: str) -> list[str]:
     return [
         _columns(f"  acts sigma_{letter}, MPa", [f"{s.lasting:.1f}" for s in acting]),
         _columns("  allowable over acting", [f"{s.margin:.3f}" for s in acting]),
-        _columns(
-            f"  acts in an overload sigma_{letter}max, MPa", [f"{s.peak:.1f}" for s in acting]
-        ),
+        _columns(f"  acts in an overload sigma_{letter}max, MPa", [f"{s.peak:.1f}" for s in acting]),
         _columns("  allowable over acting in an overload", peaks),
         _columns("  allowed for", [_hours(s.life) for s in acting]),
     ]
@@ -149,9 +127,7 @@ def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, .
         "1 HRC is 10 HB, the middle of the band of hardness and of the endurance limit counts",
     ]
     if tables.fatigue.long_life == "gost":
-        found.append(
-            "beyond N_HG the contact stress falls with the root of order 20 to 0.75 (GOST)"
-        )
+        found.append("beyond N_HG the contact stress falls with the root of order 20 to 0.75 (GOST)")
     else:
         found.append("K_HL and K_FL are not below 1: what is endured for N_HG is always endured")
     if tables.overload.static_safety != 1.0:
@@ -173,20 +149,7 @@ _LEAST_TEETH = 2.0
 
 
 def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
-    """Return what ``wearsim strength`` shows.
-
-    Parameters
-    ----------
-    tables : StrengthTables
-        The case.
-    pair : PairStrength
-        What it comes to.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``gears`` and ``allowable_over_hours``.
-    """
+    """Return what ``wearsim strength`` shows."""
     gears = [_gear_row(gear, acting) for gear, acting in _acting(pair)]
 
     def _made() -> dict[str, "pd.DataFrame"]:

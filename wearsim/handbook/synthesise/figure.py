@@ -26,20 +26,7 @@ _STEEPEST = math.radians(65.0)
 
 
 def line_figure(title: str, phases: Sequence[Phase]) -> Figure:
-    """Return the lines of action in the plane of mesh, and the profiles that they make.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    phases : sequence of Phase
-        Its phases.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Profiles as they stand in the pole, or at the start of a line beside it.
-    """
+    """Return the lines of action in the plane of mesh, and the profiles that they make."""
     figure = Figure(figsize=(10.0, 4.6), layout="constrained")
     plane, profiles = figure.subplots(1, 2, width_ratios=(1.6, 1.0))
     for number, phase in enumerate(phases, 1):
@@ -84,20 +71,7 @@ def _draw_profiles(panel: Axes, phase: Phase, colour: str) -> None:
 
 
 def indices_figure(title: str, indices: pd.DataFrame) -> Figure:
-    """Return the indices along the lines of action.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    indices : pandas.DataFrame
-        All phases, as in the table ``indices``.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Over the distance from the pole; dashed for the involute.
-    """
+    """Return the indices along the lines of action."""
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
     panels = figure.subplots(2, 3, sharex=True).ravel()
     for number, rows in indices.groupby("mesh_phase"):
@@ -123,10 +97,7 @@ _PANELS: tuple[tuple[str, dict[str, str]], ...] = (
     ("contact stress, MPa", {"contact_stress_MPa": "-", "involute_contact_stress_MPa": "--"}),
     ("pressure angle, deg", {"pressure_angle_deg": "-"}),
     ("sliding speed, mm/s", {"sliding_speed_mm_per_s": "-"}),
-    (
-        "curvature, 1/mm (dotted: wheel)",
-        {"pinion_flank_radius_mm": "-", "wheel_flank_radius_mm": ":"},
-    ),
+    ("curvature, 1/mm (dotted: wheel)", {"pinion_flank_radius_mm": "-", "wheel_flank_radius_mm": ":"}),
     (
         "specific sliding of the pinion",
         {"pinion_specific_sliding": "-", "involute_pinion_specific_sliding": "--"},
@@ -141,26 +112,7 @@ _PANELS: tuple[tuple[str, dict[str, str]], ...] = (
 def field_figure(
     title: str, pair: LoadedPair, field: MeshField, family: Family, lines: Sequence[LineOfAction]
 ) -> Figure:
-    """Return the fields of indices of one family with the prescribed stress.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    pair : LoadedPair
-        For its speed.
-    field : MeshField
-        The family's contacts.
-    family : 1 or -1
-        Which one.
-    lines : sequence of LineOfAction
-        Lines of action of the family, drawn into the fields.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Contours up to a pressure angle of 65 deg; hatched where there are no such profiles.
-    """
+    """Return the fields of indices of one family with the prescribed stress."""
     figure = Figure(figsize=(11.0, 6.4), layout="constrained")
     panels = figure.subplots(2, 3, sharex=True, sharey=True).ravel()
     contacts = field.contacts
@@ -186,20 +138,7 @@ def field_figure(
 
 
 def direction_figure(title: str, fields: Mapping[float, MeshField]) -> Figure:
-    """Return reduced radius and contact stress for lines of action with given directions.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    fields : mapping
-        By direction mu [deg].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        A column for each direction; hatched where the profiles interfere.
-    """
+    """Return reduced radius and contact stress for lines of action with given directions."""
     figure = Figure(figsize=(1.0 + 3.4 * len(fields), 6.0), layout="constrained")
     panels = figure.subplots(2, len(fields), sharex=True, sharey=True, squeeze=False)
     for column, (mu, field) in zip(panels.T, fields.items(), strict=True):
@@ -209,9 +148,7 @@ def direction_figure(title: str, fields: Mapping[float, MeshField]) -> Figure:
         column[0].set_title(f"reduced radius, mm (mu = {mu:g} deg)", fontsize=9, loc="left")
         column[1].set_title(f"contact stress, MPa (mu = {mu:g} deg)", fontsize=9, loc="left")
     _axes_labels(panels)
-    figure.suptitle(
-        literal(f"{title}; hatched: profiles interfere"), fontsize=10, x=0.01, ha="left"
-    )
+    figure.suptitle(literal(f"{title}; hatched: profiles interfere"), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -236,9 +173,7 @@ def _contours(panel: Axes, field: MeshField, values: Vector, levels: Mapping[flo
     """Draw labelled contours, blue above 0 and red below, and hatch where there are no profiles."""
     barred = np.isin(field.infeasibility, ("complex", "interference", "no stress"))
     if barred.any():
-        panel.contourf(
-            field.x, field.y, barred.astype(float), [0.5, 1.5], colors="0.95", hatches=["//"]
-        )
+        panel.contourf(field.x, field.y, barred.astype(float), [0.5, 1.5], colors="0.95", hatches=["//"])
     for line in (panel.axhline, panel.axvline):
         line(0.0, color="0.6", linewidth=0.6)
     drawn = (field.infeasibility == "") & (np.abs(field.contacts.pressure_angle) < _STEEPEST)
@@ -252,7 +187,5 @@ def _contours(panel: Axes, field: MeshField, values: Vector, levels: Mapping[flo
     at = [level for level in at if least < level < greatest]
     if at:
         colours = ["tab:red" if level < 0.0 else "tab:blue" if level else "black" for level in at]
-        lines = panel.contour(
-            field.x, field.y, known, at, colors=colours, linewidths=0.9, linestyles="solid"
-        )
+        lines = panel.contour(field.x, field.y, known, at, colors=colours, linewidths=0.9, linestyles="solid")
         panel.clabel(lines, fmt=dict(levels) or "%g", fontsize=7)

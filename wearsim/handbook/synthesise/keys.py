@@ -92,9 +92,7 @@ class PhaseTable(Table):
         if self.first_pole_distance_mm is not None:
             found.append(("first_pole_distance_mm", "start_x_mm gives the start: remove one"))
         if not self.start_x_mm * self.start_y_mm > 0.0:  # type: ignore[operator]
-            message = (
-                f"must have the sign of start_x_mm, {self.start_x_mm:g} (got {self.start_y_mm:g})"
-            )
+            message = f"must have the sign of start_x_mm, {self.start_x_mm:g} (got {self.start_y_mm:g})"
             return [*found, ("start_y_mm", f"{message}: the pressure angle is above 0")]
         first, last = self.start[0], self.last_pole_distance_mm  # type: ignore[index]
         if not first * last > 0.0 or first == last:
@@ -134,10 +132,7 @@ class MeshFieldTable(Table):
         """Return what is wrong between the keys of this table."""
         found = [
             (f"{axis}_to_mm", f"must be above {axis}_from_mm, {low:g} (got {high:g})")
-            for axis, low, high in (
-                ("x", self.x_from_mm, self.x_to_mm),
-                ("y", self.y_from_mm, self.y_to_mm),
-            )
+            for axis, low, high in (("x", self.x_from_mm, self.x_to_mm), ("y", self.y_from_mm, self.y_to_mm))
             if not low < high
         ]
         if not all(abs(angle) < 90.0 for angle in self.directions_deg):

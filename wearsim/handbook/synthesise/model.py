@@ -14,12 +14,7 @@ from wearsim.geometry.gear.line_of_action import LineOfAction, involute
 from wearsim.geometry.gear.line_synthesis import Synthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
 from wearsim.geometry.profile import Vector
-from wearsim.handbook.synthesise.keys import (
-    MeshFieldTable,
-    MeshLoadTable,
-    PhaseTable,
-    SynthesisTables,
-)
+from wearsim.handbook.synthesise.keys import MeshFieldTable, MeshLoadTable, PhaseTable, SynthesisTables
 from wearsim.input.schema.material import MaterialTable
 
 _NEAREST = 1e-6
@@ -162,9 +157,7 @@ def _phase(pair: LoadedPair, table: PhaseTable, compared: float | None) -> Phase
         along = np.linspace(table.start[0], table.last_pole_distance_mm, table.nodes)
         line = synthesis.from_point(table.start, along)
         end, angle = _inner_end(pair, synthesis, table.start), table.start[1]
-    straight = involute(
-        pair.circles, angle if compared is None else compared, line.contacts.pole_distance
-    )
+    straight = involute(pair.circles, angle if compared is None else compared, line.contacts.pole_distance)
     return Phase(table.family, line, straight, end, table.start is None)
 
 
@@ -233,9 +226,7 @@ def direction_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[float, Mes
     found = {}
     with np.errstate(invalid="ignore", divide="ignore"):
         for mu in table.directions_deg:
-            contacts = Contacts.of_direction(
-                pair.circles, plane.distance, plane.angle, math.radians(mu)
-            )
+            contacts = Contacts.of_direction(pair.circles, plane.distance, plane.angle, math.radians(mu))
             meet = (contacts.relative_curvature > 0.0) & (plane.angle != 0.0)
             reasons = {"no torque": np.isnan(plane.distance), "interference": ~meet}
             found[mu] = plane.field(pair, contacts, reasons)
@@ -254,9 +245,7 @@ class _Plane:
         self.distance = np.where(central, math.nan, np.copysign(np.hypot(self.x, self.y), self.x))
         self.angle = np.arctan2(np.copysign(1.0, self.x) * self.y, np.abs(self.x))
 
-    def field(
-        self, pair: LoadedPair, contacts: Contacts, reasons: dict[str, NDArray[np.bool_]]
-    ) -> MeshField:
+    def field(self, pair: LoadedPair, contacts: Contacts, reasons: dict[str, NDArray[np.bool_]]) -> MeshField:
         infeasibility = np.select(list(reasons.values()), list(reasons), "")
         stress = np.where(infeasibility == "", pair.contact_stress(contacts), math.nan)
         return MeshField(self.x, self.y, contacts, stress, infeasibility)

@@ -13,12 +13,7 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.gear.line_of_action import LineOfAction
 from wearsim.geometry.gear.plane_gearing import Contacts
 from wearsim.geometry.profile import Vector
-from wearsim.handbook.synthesise.figure import (
-    direction_figure,
-    field_figure,
-    indices_figure,
-    line_figure,
-)
+from wearsim.handbook.synthesise.figure import direction_figure, field_figure, indices_figure, line_figure
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, Phase, direction_fields, stress_fields
 from wearsim.report.lines import numbered, row
@@ -36,23 +31,7 @@ _ROWS = 9
 
 
 def synthesis_sheet(tables: SynthesisTables, pair: LoadedPair, phases: Sequence[Phase]) -> Sheet:
-    """Return what ``wearsim synthesise`` shows.
-
-    Parameters
-    ----------
-    tables : SynthesisTables
-        The input.
-    pair : LoadedPair
-        The pair.
-    phases : sequence of Phase
-        Its lines of action.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``indices``, ``line_of_action``, ``pinion_profile`` and
-        ``wheel_profile``, and those of the fields where they are asked for.
-    """
+    """Return what ``wearsim synthesise`` shows."""
     indices = _by_phase(_indices(pair, phase) for phase in phases)
     made = {
         "indices": indices,
@@ -121,8 +100,7 @@ def _contact_columns(pair: LoadedPair, contacts: Contacts) -> dict[str, Vector]:
             "sliding_speed_mm_per_s": pair.speed * contacts.sliding,
             "pinion_rolling_speed_mm_per_s": pair.speed * contacts.pinion_rolling,
             "wheel_rolling_speed_mm_per_s": pair.speed * contacts.wheel_rolling,
-            "rolling_speed_sum_mm_per_s": pair.speed
-            * (contacts.pinion_rolling + contacts.wheel_rolling),
+            "rolling_speed_sum_mm_per_s": pair.speed * (contacts.pinion_rolling + contacts.wheel_rolling),
             "pinion_specific_sliding": contacts.pinion_specific_sliding,
             "wheel_specific_sliding": contacts.wheel_specific_sliding + 0.0,
         }
@@ -149,9 +127,7 @@ def _wheel(line: LineOfAction) -> dict[str, Vector]:
     return _profile(line, line.wheel_profile, roll, line.contacts.wheel_curvature)
 
 
-def _profile(
-    line: LineOfAction, points: Vector, roll_angle: Vector, curvature: Vector
-) -> dict[str, Vector]:
+def _profile(line: LineOfAction, points: Vector, roll_angle: Vector, curvature: Vector) -> dict[str, Vector]:
     return {
         "pole_distance_mm": line.contacts.pole_distance,
         "roll_angle_deg": np.degrees(roll_angle),

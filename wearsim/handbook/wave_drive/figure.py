@@ -8,38 +8,30 @@ from wearsim.handbook.wave_drive.model import MethodDiameter
 
 
 def wave_drive_figure(title: str, found: Sequence[MethodDiameter]) -> Figure:
-    """Return a bar for the range of each method with its diameter.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    found : sequence of MethodDiameter
-        The methods.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Crosses are the published diameters.
-    """
+    """Return a bar for the range of each method with its diameter."""
     figure = Figure(figsize=(7.2, 0.9 + 0.42 * len(found)), layout="constrained")
     panel = figure.subplots()
     for place, one in enumerate(found):
         panel.plot(
-            [one.least, one.greatest], [place, place], color="tab:blue", alpha=0.35, linewidth=9,
-            solid_capstyle="butt", label="over the recommended values" if place == 0 else None,
-        )  # fmt: skip
-        panel.plot(
-            one.diameter,
-            place,
-            "o",
+            [one.least, one.greatest],
+            [place, place],
             color="tab:blue",
-            label="with the values given" if place == 0 else None,
+            alpha=0.35,
+            linewidth=9,
+            solid_capstyle="butt",
+            label="over the recommended values" if place == 0 else None,
+        )
+        panel.plot(
+            one.diameter, place, "o", color="tab:blue", label="with the values given" if place == 0 else None
         )
         panel.annotate(
-            f"{one.diameter:.0f}", (one.diameter, place), (0, 7), textcoords="offset points",
-            ha="center", fontsize=7,
-        )  # fmt: skip
+            f"{one.diameter:.0f}",
+            (one.diameter, place),
+            (0, 7),
+            textcoords="offset points",
+            ha="center",
+            fontsize=7,
+        )
     known = [(one.published, place) for place, one in enumerate(found) if one.published > 0.0]
     if known:
         panel.plot(*zip(*known, strict=True), "x", color="tab:red", markersize=8, label="published")

@@ -44,9 +44,7 @@ def pressure_diameter(v: Values) -> float:
     113.881355
     """
     torque = 4e3 * v["output_torque_N_m"] * v["load_nonuniformity"]
-    return math.cbrt(
-        torque / (v["engaged_share"] * v["tooth_length_ratio"] * v["allowable_pressure_MPa"])
-    )
+    return math.cbrt(torque / (v["engaged_share"] * v["tooth_length_ratio"] * v["allowable_pressure_MPa"]))
 
 
 def crushing_diameter(v: Values) -> float:
@@ -66,9 +64,7 @@ def crushing_diameter(v: Values) -> float:
     float
         d [mm].
     """
-    return math.cbrt(
-        1e4 * v["output_torque_N_m"] / (v["tooth_length_ratio"] * v["allowable_crushing_MPa"])
-    )
+    return math.cbrt(1e4 * v["output_torque_N_m"] / (v["tooth_length_ratio"] * v["allowable_crushing_MPa"]))
 
 
 def torsion_diameter(v: Values) -> float:
@@ -156,9 +152,7 @@ def flank_pressure_diameter(v: Values) -> float:
     float
         d [mm].
     """
-    return 28.4 * math.cbrt(
-        v["output_torque_N_m"] / (v["tooth_length_ratio"] * v["allowable_pressure_MPa"])
-    )
+    return 28.4 * math.cbrt(v["output_torque_N_m"] / (v["tooth_length_ratio"] * v["allowable_pressure_MPa"]))
 
 
 def rim_bending_diameter(v: Values) -> float:
@@ -198,9 +192,7 @@ def rim_bending_diameter(v: Values) -> float:
             "endurance_limit_MPa or gear_ratio"
         )
     torque = 0.456 * v["output_torque_N_m"]
-    return v["prefix"] * math.cbrt(
-        torque / ((endured - bent) * v["tooth_length_ratio"] * thickness)
-    )
+    return v["prefix"] * math.cbrt(torque / ((endured - bent) * v["tooth_length_ratio"] * thickness))
 
 
 def rim_endurance_diameter(v: Values) -> float:
@@ -235,9 +227,7 @@ def rim_endurance_diameter(v: Values) -> float:
     """
     concentration = v.get("stress_concentration", 1.5 + 0.0015 * v["gear_ratio"])
     torque = v["output_torque_N_m"] * v["safety_factor"] * concentration
-    static = 105.0 * math.cbrt(
-        torque / (0.16 * math.sqrt(v["gear_ratio"]) * v["endurance_limit_MPa"])
-    )
+    static = 105.0 * math.cbrt(torque / (0.16 * math.sqrt(v["gear_ratio"]) * v["endurance_limit_MPa"]))
     rest = 1.0 - _BENDING_SPEED * v["generator_speed_rpm"] ** 2 * static
     if not rest > 0.0:
         fastest = 1.0 / math.sqrt(_BENDING_SPEED * static)

@@ -59,40 +59,66 @@ _TOOTH_LENGTH: Ranges = {"tooth_length_ratio": (0.15, 0.25)}
 
 METHODS = (
     Method(
-        "pressure", "[1]", "pressure between the teeth", pressure_diameter,
+        "pressure",
+        "[1]",
+        "pressure between the teeth",
+        pressure_diameter,
         {"allowable_pressure_MPa": (60.0, 65.0), "engaged_share": (0.22, 0.25)},
-        "allowable_pressure_MPa", _TOOTH_LENGTH,
+        "allowable_pressure_MPa",
+        _TOOTH_LENGTH,
     ),
     Method(
-        "crushing", "[2]", "crushing of the flanks", crushing_diameter,
-        {"allowable_crushing_MPa": (10.0, 30.0)}, "allowable_crushing_MPa", _TOOTH_LENGTH,
+        "crushing",
+        "[2]",
+        "crushing of the flanks",
+        crushing_diameter,
+        {"allowable_crushing_MPa": (10.0, 30.0)},
+        "allowable_crushing_MPa",
+        _TOOTH_LENGTH,
     ),
     Method(
-        "torsion", "[3]", "torsion of the rim", torsion_diameter,
+        "torsion",
+        "[3]",
+        "torsion of the rim",
+        torsion_diameter,
         {"allowable_shear_MPa": (60.0, 90.0), "diameter_to_thickness": (80.0, 100.0)},
-        "allowable_shear_MPa", {"gear_ratio": (100.0, 400.0)},
+        "allowable_shear_MPa",
+        {"gear_ratio": (100.0, 400.0)},
     ),
     Method(
-        "tooth_wear", "[3]", "wear of the teeth", tooth_wear_diameter,
+        "tooth_wear",
+        "[3]",
+        "wear of the teeth",
+        tooth_wear_diameter,
         {"allowable_crushing_MPa": (10.0, 20.0), "dynamic_factor": (1.0, 1.75)},
         "allowable_crushing_MPa",
     ),
     Method(
-        "flank_pressure", "[4]", "wear of the teeth", flank_pressure_diameter,
-        {"allowable_pressure_MPa": (20.0, 25.0)}, "allowable_pressure_MPa",
+        "flank_pressure",
+        "[4]",
+        "wear of the teeth",
+        flank_pressure_diameter,
+        {"allowable_pressure_MPa": (20.0, 25.0)},
+        "allowable_pressure_MPa",
+    ),
+    Method("rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"),
+    Method(
+        "rim_endurance",
+        "[6]",
+        "endurance of the rim",
+        rim_endurance_diameter,
+        {"safety_factor": (1.6, 1.7)},
+        "endurance_limit_MPa",
     ),
     Method(
-        "rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"
-    ),
-    Method(
-        "rim_endurance", "[6]", "endurance of the rim", rim_endurance_diameter,
-        {"safety_factor": (1.6, 1.7)}, "endurance_limit_MPa",
-    ),
-    Method(
-        "generator_bearing", "[6]", "bearing of the generator", generator_bearing_diameter, {},
+        "generator_bearing",
+        "[6]",
+        "bearing of the generator",
+        generator_bearing_diameter,
+        {},
         "bearing_constant",
     ),
-)  # fmt: skip
+)
 """In the order of the source."""
 
 
@@ -189,14 +215,20 @@ def wave_drive(tables: WaveDriveTables) -> MethodComparison:
         published = math.nan if given is None else given
         results.append(
             MethodDiameter(
-                method, _as_printed(tables, method), size, least, greatest,
-                _elasticity(method, v), _outside(method, v), published,
+                method,
+                _as_printed(tables, method),
+                size,
+                least,
+                greatest,
+                _elasticity(method, v),
+                _outside(method, v),
+                published,
                 _needed(method, v, published),
                 rank=1 + sum(other > size for other in sizes),
                 least_rank=1 + sum(low > greatest for low, _ in others),
                 greatest_rank=1 + sum(high > least for _, high in others),
             )
-        )  # fmt: skip
+        )
     return MethodComparison(tuple(results), left_out)
 
 

@@ -22,22 +22,7 @@ _ASSUMPTIONS = (
 
 
 def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequence[str]) -> Sheet:
-    """Return what ``wearsim wave-drive`` shows.
-
-    Parameters
-    ----------
-    title : str
-        Of the case.
-    comparison : MethodComparison
-        The methods.
-    defaults : sequence of str
-        What the file left to its defaults.
-
-    Returns
-    -------
-    Sheet
-        With the tables ``methods`` and ``elasticities``.
-    """
+    """Return what ``wearsim wave-drive`` shows."""
     found = comparison.diameters
     rows = [_row(one) for one in found]
     slopes = [

@@ -8,23 +8,7 @@ from wearsim.input.schema.table import Table
 
 
 def whole(value: object) -> object:
-    """Return a version, or raise where it is no whole number.
-
-    Parameters
-    ----------
-    value : object
-        What was given.
-
-    Returns
-    -------
-    object
-        The same.
-
-    Raises
-    ------
-    ValueError
-        It is ``true`` or ``1.0``, which equal 1.
-    """
+    """Return a version, or raise where it is no whole number."""
     if type(value) is not int:
         raise ValueError("must be 1")
     return value

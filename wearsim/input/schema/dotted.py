@@ -15,16 +15,6 @@ Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
 def is_number(part: str) -> bool:
     """Return whether a part of a dotted name counts the entries of a list.
 
-    Parameters
-    ----------
-    part : str
-        Between two dots.
-
-    Returns
-    -------
-    bool
-        Only of plain digits, and few enough to count by.
-
     Examples
     --------
     >>> is_number("2"), is_number("\u00b2"), is_number("teeth")
@@ -40,16 +30,6 @@ _LONGEST = 10
 def without_numbers(key: str) -> str:
     """Return a dotted name without the numbers of entries of lists.
 
-    Parameters
-    ----------
-    key : str
-        Dotted name.
-
-    Returns
-    -------
-    str
-        As the schema names it.
-
     Examples
     --------
     >>> without_numbers("duty.2.speed_rpm")
@@ -60,16 +40,6 @@ def without_numbers(key: str) -> str:
 
 def all_differ(values: Sequence[Any]) -> bool:
     """Return whether no value of a list stands there twice.
-
-    Parameters
-    ----------
-    values : sequence
-        Numbers, words, true and false, or lists of them.
-
-    Returns
-    -------
-    bool
-        Numbers are compared by value; true is not 1.
 
     Examples
     --------
@@ -88,24 +58,6 @@ def _told_apart(value: Any) -> Any:
 def dotted(value: Any, leaf: str | None = None) -> Any:
     """Return nested tables as one with dotted keys, so that both ways to write them are one.
 
-    Parameters
-    ----------
-    value : object
-        What was given; anything but a table comes back as it is.
-    leaf : str, optional
-        Key by which a table is a value, not a level of names; so is then one that holds neither
-        tables nor lists, whose keys may be misspelt. Where it is left out no table is a value.
-
-    Returns
-    -------
-    object
-        A table of one level; zeros before the numbers of entries are left out.
-
-    Raises
-    ------
-    ValueError
-        A key is given twice.
-
     Examples
     --------
     >>> dotted({"wear": {"coefficient": {"from": 1, "to": 2}}}, "from")
@@ -121,8 +73,7 @@ def dotted(value: Any, leaf: str | None = None) -> Any:
             whole = _counted(f"{key}.{name}" if name else key)
             if whole in flat:
                 raise ValueError(
-                    f"{whole} is given twice, with and without quotes or zeros before a number: "
-                    "remove one"
+                    f"{whole} is given twice, with and without quotes or zeros before a number: remove one"
                 )
             flat[whole] = entry
     return flat
@@ -138,27 +89,15 @@ def _is_value(table: dict[str, Any], leaf: str) -> bool:
 
 
 def list_or(table: type[BaseModel], values: Any, words: str) -> Any:
-    """Return the type of a key that takes a table or a list, faulted as what was meant.
-
-    Parameters
-    ----------
-    table, values : type
-        Of the table and of the list.
-    words : str
-        What the table is, for a value that is neither.
-
-    Returns
-    -------
-    type
-        For pydantic, which else tells the faults of both.
-    """
+    """Return the type of a key that takes a table or a list, faulted as what was meant."""
     return Annotated[
         Annotated[table, Tag(_TABLE)] | Annotated[values, Tag(_LIST)],
         Discriminator(
-            _chosen, custom_error_type="table_or_list",
+            _chosen,
+            custom_error_type="table_or_list",
             custom_error_message=f"must be {words} or a list of values",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _chosen(value: Any) -> str | None:

@@ -8,12 +8,7 @@ from wearsim.input.schema.table import Table
 from wearsim.input.units import Positive, PositiveNumber
 
 Treatment = Literal[
-    "normalised",
-    "improved",
-    "through_hardened",
-    "surface_hardened",
-    "carburised",
-    "nitrided",
+    "normalised", "improved", "through_hardened", "surface_hardened", "carburised", "nitrided"
 ]
 
 AtLeastOne = Annotated[PositiveNumber, Field(ge=1.0, le=100.0)]
@@ -33,12 +28,7 @@ def _mean(value: object) -> object:
 _BAND: dict[str, Any] = {
     "anyOf": [
         {"type": "number", "exclusiveMinimum": 0.0},
-        {
-            "type": "array",
-            "items": {"type": "number", "exclusiveMinimum": 0.0},
-            "minItems": 2,
-            "maxItems": 2,
-        },
+        {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0.0}, "minItems": 2, "maxItems": 2},
     ]
 }
 Brinell = Annotated[PositiveNumber, Field(le=750.0), BeforeValidator(_mean), WithJsonSchema(_BAND)]
@@ -52,18 +42,7 @@ NITRIDED_LIMIT = (
 
 
 def one_hardness(brinell: float | None, rockwell: float | None) -> list[tuple[str, str]]:
-    """Return the fault of flanks whose hardness is given in no scale or in both.
-
-    Parameters
-    ----------
-    brinell, rockwell : float or None
-        HB and HRC as given.
-
-    Returns
-    -------
-    list of tuple of str
-        Key and message; none where one is given.
-    """
+    """Return the fault of flanks whose hardness is given in no scale or in both."""
     if (brinell is None) != (rockwell is None):
         return []
     got = "none" if brinell is None else "both"

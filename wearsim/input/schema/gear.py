@@ -20,20 +20,22 @@ Teeth = Annotated[int, Field(ge=5, le=1000)]
 
 _KEYS = {
     "involute": (
-        "pressure_angle_deg", "pinion_shift", "wheel_shift", "pinion_tip_radius_mm",
+        "pressure_angle_deg",
+        "pinion_shift",
+        "wheel_shift",
+        "pinion_tip_radius_mm",
         "wheel_tip_radius_mm",
     ),
-    "convex_concave": (
-        "pole_angle_deg", "head_arc_radius_mm", "foot_arc_radius_mm", "addendum_ratio",
-    ),
+    "convex_concave": ("pole_angle_deg", "head_arc_radius_mm", "foot_arc_radius_mm", "addendum_ratio"),
     "prescribed_stress": (
-        "contact_stress_MPa", "stress_pole_distance_mm", "design_torque_N_m",
-        "first_pole_distance_mm", "last_pole_distance_mm",
+        "contact_stress_MPa",
+        "stress_pole_distance_mm",
+        "design_torque_N_m",
+        "first_pole_distance_mm",
+        "last_pole_distance_mm",
     ),
-}  # fmt: skip
-_NEEDED = (
-    "head_arc_radius_mm", "contact_stress_MPa", "first_pole_distance_mm", "last_pole_distance_mm",
-)  # fmt: skip
+}
+_NEEDED = ("head_arc_radius_mm", "contact_stress_MPa", "first_pole_distance_mm", "last_pole_distance_mm")
 
 
 class GearTable(Table):
@@ -82,9 +84,7 @@ class GearTable(Table):
             given, ends = self.stress_pole_distance_mm, self.reach
             if not given[0] <= ends[0] < ends[1] <= given[-1]:
                 message = f"must reach from {ends[0]:g} to {ends[1]:g} as contact does"
-                found.append(
-                    ("stress_pole_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})")
-                )
+                found.append(("stress_pole_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})"))
         return found
 
     @property
@@ -111,9 +111,7 @@ class GearMechanismTable(Table):
         """Return what is wrong between the keys of this table."""
         if self.load_sharing == "elastic" or self.pair_stiffness_N_per_mm_um is None:
             return []
-        return [
-            ("pair_stiffness_N_per_mm_um", "does not belong to load_sharing = 'rigid': remove it")
-        ]
+        return [("pair_stiffness_N_per_mm_um", "does not belong to load_sharing = 'rigid': remove it")]
 
 
 class GearLoadTable(Table):

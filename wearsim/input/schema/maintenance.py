@@ -24,8 +24,7 @@ class ServiceTable(Table):
     tonnes_per_hour: Positive | None = None
     hours_per_day: Annotated[PositiveNumber, Field(le=24.0)] | None = None
     start_date: (
-        Annotated[str, BeforeValidator(_day), WithJsonSchema({"type": "string", "format": "date"})]
-        | None
+        Annotated[str, BeforeValidator(_day), WithJsonSchema({"type": "string", "format": "date"})] | None
     ) = None
 
     def conflicts(self) -> list[tuple[str, str]]:

@@ -6,22 +6,7 @@ import itertools
 def stress_conflicts(
     stress: tuple[float, ...], distance: tuple[float, ...] | None, names: tuple[str, str]
 ) -> list[tuple[str, str]]:
-    """Return what is wrong with stresses and the distances from the pole at which they are given.
-
-    Parameters
-    ----------
-    stress : tuple of float
-        sigma_H [MPa].
-    distance : tuple of float, optional
-        l [mm]; None for one stress everywhere.
-    names : tuple of str
-        Keys of both.
-
-    Returns
-    -------
-    list of tuple
-        Key and what must hold.
-    """
+    """Return what is wrong with stresses and the distances from the pole at which they are given."""
     found = []
     if not all(value > 0.0 for value in stress) or not stress:
         found.append((names[0], f"must be above 0 (got {listed(stress)})"))
@@ -38,16 +23,5 @@ def stress_conflicts(
 
 
 def listed(values: tuple[float, ...]) -> str:
-    """Return numbers as a fault names them.
-
-    Parameters
-    ----------
-    values : tuple of float
-        In any unit.
-
-    Returns
-    -------
-    str
-        Separated by commas; "nothing" for none.
-    """
+    """Return numbers as a fault names them."""
     return ", ".join(f"{value:g}" for value in values) or "nothing"

@@ -29,29 +29,7 @@ def _without_null(entry: dict[str, Any]) -> None:
 
 
 def known(value: str | None, names: dict[str, object], what: str, command: str) -> str | None:
-    """Return a name of a table, or raise with the nearest ones.
-
-    Parameters
-    ----------
-    value : str or None
-        What was given.
-    names : dict
-        What the table holds.
-    what : str
-        What a row of the table is.
-    command : str
-        Command that shows the table.
-
-    Returns
-    -------
-    str or None
-        The name itself.
-
-    Raises
-    ------
-    ValueError
-        It is not in the table.
-    """
+    """Return a name of a table, or raise with the nearest ones."""
     if value is None or value in names:
         return value
     raise ValueError(f"no such {what}{nearest(value, names)} ({command} shows them all)")
@@ -63,13 +41,7 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, json_schema_extra=_describe)
 
     def conflicts(self) -> list[tuple[str, str]]:
-        """Return what is wrong between the keys of this table.
-
-        Returns
-        -------
-        list of tuple of str
-            Key and message of each fault.
-        """
+        """Return what is wrong between the keys of this table."""
         return []
 
     @model_validator(mode="after")

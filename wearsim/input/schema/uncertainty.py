@@ -46,8 +46,6 @@ class Distribution(Table):
 
 
 Uncertainty = Annotated[
-    dict[str, Distribution],
-    BeforeValidator(lambda value: dotted(value, "distribution")),
-    Field(min_length=1),
+    dict[str, Distribution], BeforeValidator(lambda value: dotted(value, "distribution")), Field(min_length=1)
 ]
 """How keys scatter, by their dotted names."""

@@ -42,9 +42,7 @@ class WearTable(Table):
     @field_validator("condition")
     @classmethod
     def _known(cls, value: str | None) -> str | None:
-        return known(
-            value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions"
-        )
+        return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -52,27 +50,18 @@ class WearTable(Table):
         every = dict.fromkeys(key for keys in _KEYS.values() for key in keys)
         given = [key for key in every if getattr(self, key) is not None]
         found = [
-            (key, f"does not belong to law = {self.law!r}: remove it")
-            for key in given
-            if key not in wanted
+            (key, f"does not belong to law = {self.law!r}: remove it") for key in given if key not in wanted
         ]
         if self.condition is None:
             alternative = " (or condition)" if self.law == "archard" else ""
             found += [
-                (key, f"law = {self.law!r} needs this key{alternative}")
-                for key in wanted
-                if key not in given
+                (key, f"law = {self.law!r} needs this key{alternative}") for key in wanted if key not in given
             ]
         elif self.law != "archard" or given:
             other = f"or {', '.join(given)}" if given else f"or law = {self.law!r}"
-            message = (
-                f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
-            )
+            message = f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
             found.append(("condition", message))
-        for pair in (
-            ("case_depth_mm", "core_factor"),
-            ("running_in_factor", "running_in_distance_mm"),
-        ):
+        for pair in (("case_depth_mm", "core_factor"), ("running_in_factor", "running_in_distance_mm")):
             missing = [key for key in pair if getattr(self, key) is None]
             if len(missing) == 1:
                 other = pair[1 - pair.index(missing[0])]

@@ -162,44 +162,17 @@ class GearPairMechanism:
         """Return the flank on every second point, on every fourth, and on points elsewhere.
 
         A kink beside a point stays there when every second one is left out.
-
-        Returns
-        -------
-        tuple of Contact
-            Three.
         """
         half = self.contact.coarsened()
         elsewhere = replace(self, points=round(_ELSEWHERE * self.points))
         return half, half.coarsened(), elsewhere.contact
 
     def refined(self, level: int) -> "GearPairMechanism | None":
-        """Return the pair on twice as many points.
-
-        Parameters
-        ----------
-        level : int
-            From 1.
-
-        Returns
-        -------
-        GearPairMechanism or None
-            None above 1: the time of a run grows with the third power of the points.
-        """
+        """Return the pair on twice as many points."""
         return replace(self, points=2 * self.points - 1) if level == 1 else None
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
-        """Return the wheel's flank as it wears, at the points that meet those of the pinion.
-
-        Parameters
-        ----------
-        depth : numpy.ndarray
-            Depth of the pinion [mm], shape (snapshots, points).
-
-        Returns
-        -------
-        dict of str to numpy.ndarray
-            Distance from the pole, points around the wheel's axis and depth.
-        """
+        """Return the wheel's flank as it wears, at the points that meet those of the pinion."""
         new, worn = self.mesh.mate, self.mate_depth * depth
         return {
             "path_mm": np.tile(self.mesh.pole_distance, depth.shape[0]),
@@ -209,28 +182,11 @@ class GearPairMechanism:
         }
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
-        """Return the contact ratio of the new pair: flanks keep to their path.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank [mm], not used.
-
-        Returns
-        -------
-        float
-            epsilon_alpha.
-        """
+        """Return the contact ratio of the new pair: flanks keep to their path."""
         return self.mesh.contact_ratio
 
     def assumptions(self) -> list[str]:
-        """Return what this picture takes for granted.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted."""
         sharing = (
             f"pairs of teeth share the load as springs of {self.stiffness / 1000.0:g} N/(mm um), worn "
             "gaps and the corners of the tips before and after the path of contact included"

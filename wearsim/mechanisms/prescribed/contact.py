@@ -15,18 +15,6 @@ def flank_from_curvature(arc_length: Vector, curvature: Vector) -> Profile:
 
     The direction is integrated by the trapezoidal rule and the points by the chord of
     each arc; the flank starts along -x, so that its normal points to +y at the start.
-
-    Parameters
-    ----------
-    arc_length : numpy.ndarray
-        Increasing [mm].
-    curvature : numpy.ndarray
-        Convex positive [1/mm].
-
-    Returns
-    -------
-    Profile
-        The points.
     """
     step = np.diff(arc_length)
     turn = 0.5 * (curvature[1:] + curvature[:-1]) * step
@@ -98,63 +86,23 @@ class PrescribedMechanism:
         )
 
     def other_grids(self) -> tuple[Contact, ...]:
-        """Return the flank on every second row and on every fourth.
-
-        Returns
-        -------
-        tuple of Contact
-            Two.
-        """
+        """Return the flank on every second row and on every fourth."""
         half = self.contact.coarsened()
         return half, half.coarsened()
 
     def refined(self, level: int) -> None:
-        """Return nothing: between the rows of a table nothing is known.
-
-        Parameters
-        ----------
-        level : int
-            Not used.
-        """
+        """Return nothing: between the rows of a table nothing is known."""
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
-        """Return nothing: rollers do not wear.
-
-        Parameters
-        ----------
-        depth : numpy.ndarray
-            Depth of the flank [mm], not used.
-
-        Returns
-        -------
-        dict of str to numpy.ndarray
-            Empty.
-        """
+        """Return nothing: rollers do not wear."""
         return {}
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
-        """Return nan: a table of loads says nothing of the rollers before and after.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank [mm], not used.
-
-        Returns
-        -------
-        float
-            Not a number.
-        """
+        """Return nan: a table of loads says nothing of the rollers before and after."""
         return float("nan")
 
     def assumptions(self) -> list[str]:
-        """Return what this picture takes for granted.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted."""
         return [
             "load and sliding along the flank are the table's and stay so as it wears",
             "the curvature of the first and the last row does not change",

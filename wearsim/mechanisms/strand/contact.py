@@ -20,20 +20,6 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     successive rollers sum to 1. It is a convention, kept as the flank wears.
 
     Equation physics.md (S11).
-
-    Parameters
-    ----------
-    x : numpy.ndarray
-        Distance of the roller centre before the pole line [mm].
-    contact_end, contact_start : float
-        x_min and x_max [mm].
-    pitch : float
-        Chain pitch [mm], less than x_max - x_min.
-
-    Returns
-    -------
-    numpy.ndarray
-        Share from 0 to 1.
     """
     overlap = contact_start - contact_end - pitch
     return np.clip(np.minimum(contact_start - x, x - contact_end) / overlap, 0.0, 1.0)
@@ -105,28 +91,12 @@ class StrandMechanism:
 
         Where the load sets in and ends, lives converge with the first power of the spacing; in
         between with the second.
-
-        Returns
-        -------
-        tuple of Contact
-            Three.
         """
         half = self.contact.coarsened()
         return half, half.coarsened(), self._with_fine_ends(0.5).contact
 
     def refined(self, level: int) -> "StrandMechanism":
-        """Return the flank with fine ends, on its own points, on twice as many, and so on.
-
-        Parameters
-        ----------
-        level : int
-            From 1.
-
-        Returns
-        -------
-        StrandMechanism
-            The same contact on more points.
-        """
+        """Return the flank with fine ends, on its own points, on twice as many, and so on."""
         return self._with_fine_ends(2.0 ** (level - 1))
 
     def _with_fine_ends(self, fineness: float) -> "StrandMechanism":
@@ -134,35 +104,13 @@ class StrandMechanism:
         return replace(self, profile=self.profile.with_fine_ends(intervals))
 
     def mate_columns(self, depth: Vector) -> dict[str, Vector]:
-        """Return nothing: rollers do not wear.
-
-        Parameters
-        ----------
-        depth : numpy.ndarray
-            Depth of the flank [mm], not used.
-
-        Returns
-        -------
-        dict of str to numpy.ndarray
-            Empty.
-        """
+        """Return nothing: rollers do not wear."""
         return {}
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
         """Return the range of sprocket turn over which the flank can touch, in pitches.
 
         Equation physics.md (S8), for where the roller is.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank [mm].
-
-        Returns
-        -------
-        float
-            (psi_max - psi_min) R / p; below 1 the next roller comes before this one
-            has left only on the edge of the tip, which is not modelled.
         """
         frame, radius = np.empty((4, x.size)), self.strand.roller_radius
         flank_frame(x, y, *frame)
@@ -170,20 +118,12 @@ class StrandMechanism:
         inside = centre_x**2 + centre_y**2 - self.strand.height**2
         touching = inside > 0.0
         distance = -np.sqrt(inside[touching])
-        turn = np.arctan2(self.strand.height, distance) - np.arctan2(
-            centre_y[touching], centre_x[touching]
-        )
+        turn = np.arctan2(self.strand.height, distance) - np.arctan2(centre_y[touching], centre_x[touching])
         turned = float(turn.max() - turn.min()) % (2.0 * math.pi)
         return turned * self.strand.centrode_radius / self.pitch
 
     def assumptions(self) -> list[str]:
-        """Return what this picture takes for granted.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted."""
         sliding = (
             "the roller does not turn (roller_slip_fraction 1)"
             if self.slip_fraction == 1.0

@@ -162,13 +162,7 @@ class WrapContact(Dwelling):
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
-        """Return the same contact on every second point of the outline and three quarters of the phases.
-
-        Returns
-        -------
-        WrapContact
-            Both ends are kept.
-        """
+        """Return the contact on every second point and three quarters of the phases."""
         outline = self.profile
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
@@ -176,18 +170,7 @@ class WrapContact(Dwelling):
         return replace(self.on_outline(coarse), phases=max(1, 3 * self.phases // 4))
 
     def on_outline(self, outline: Profile) -> "WrapContact":
-        """Return the same contact on another outline.
-
-        Parameters
-        ----------
-        outline : Profile
-            Gap from its right tip through the seat to its left tip.
-
-        Returns
-        -------
-        WrapContact
-            With the roller path of that outline in every block.
-        """
+        """Return the same contact on another outline."""
         path = roller_path(outline, self.roller_radius, (outline.x.size + 1) // 2)
         blocks = tuple(
             replace(block, mechanism=replace(block.mechanism, outline=outline, path=path))
@@ -196,39 +179,15 @@ class WrapContact(Dwelling):
         return replace(self, blocks=blocks)
 
     def thinned(self) -> "WrapContact":
-        """Return the same contact with a quarter of the phases, others for each step of the wear.
-
-        Returns
-        -------
-        WrapContact
-            With two phases at least if it has as many.
-        """
+        """Return the same contact with a quarter of the phases, others for each step of the wear."""
         return replace(self, phases=max(min(self.phases, 2), self.phases // 4), thin=True)
 
     def at(self, step: int) -> float:
-        """Return which phases a step of the wear takes.
-
-        Parameters
-        ----------
-        step : int
-            Number of the step from 0.
-
-        Returns
-        -------
-        float
-            Place in every phase's part of the pitch, 0 to 1: its middle, but of a thinned
-            contact one step on by the golden section from the next, which spreads evenly.
-        """
+        """Return which phases a step of the wear takes."""
         return (0.5 + step * _GOLDEN) % 1.0 if self.thin else 0.5
 
     def memory(self) -> Rows:
-        """Return the places where no roller has been found yet.
-
-        Returns
-        -------
-        numpy.ndarray
-            Below zero, shape (blocks, kinds of link, phases, most rollers).
-        """
+        """Return the places where no roller has been found yet."""
         configurations = 2 if self.mechanism.chain.alternating else 1
         return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
 
@@ -236,31 +195,6 @@ class WrapContact(Dwelling):
         """Return what worn gaps meet in one revolution.
 
         Equation physics.md (W9), of the slip where the chain articulates.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
-            What the chain has lost.
-        memory : numpy.ndarray
-            Where the rollers were last; replaced by where they are.
-        at : float, optional
-            From 0 to 1: place of every phase in its part of the pitch; the middle otherwise.
-
-        Returns
-        -------
-        numpy.ndarray
-            Table of events, a column for every block, kind of link, phase and roller. How
-            often each comes in a cycle holds its block's share and factor on wear. All
-            zero where the chain is not pulled.
-
-        Raises
-        ------
-        JumpError
-            The chain jumps.
-        ConvergenceError
-            No equilibrium is found.
         """
         worn = self.worn_paths(x, y, wear)
         tables = [
@@ -270,50 +204,19 @@ class WrapContact(Dwelling):
         return np.concatenate(tables, axis=1)
 
     def worn_paths(self, x: Rows, y: Rows, wear: ChainWear) -> tuple[WornPath, ...]:
-        """Return where the centres of a chain's rollers can be in worn gaps.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
-            What the chain has lost.
-
-        Returns
-        -------
-        tuple of WornPath
-            One for each body.
-        """
+        """Return where the centres of a chain's rollers can be in worn gaps."""
         path = replace(self.mechanism.path, roller_radius=self.roller_radius - wear.roller)
         return tuple(path.worn(x[body], y[body]) for body in range(self.bodies))
 
     def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
-        """Tell whether worn gaps hold the chain with the least slack tension allowed.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
-            What the chain has lost.
-
-        Returns
-        -------
-        bool
-            True where there is no such limit.
-        """
+        """Tell whether worn gaps hold the chain with the least slack tension allowed."""
         if not self.slack_limit:
             return True
         mechanism = self.gripping.with_slack(self.slack_limit)
         return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
 
     def _block_events(
-        self,
-        block: WrapBlock,
-        worn: tuple[WornPath, ...],
-        wear: ChainWear,
-        memory: Rows,
-        at: float,
+        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows, at: float
     ) -> Rows:
         """Return what worn gaps meet in one revolution of a block, times its share."""
         mechanism = block.mechanism
@@ -321,9 +224,7 @@ class WrapContact(Dwelling):
         if not mechanism.pull.tight > 0.0:
             return table
         configurations, _, most = memory.shape
-        positions = np.where(
-            memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn])
-        )
+        positions = np.where(memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn]))
         loci = np.array([path.locus for path in worn])
         numbers = np.zeros(CYCLE_NUMBERS)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
@@ -336,12 +237,21 @@ class WrapContact(Dwelling):
         numbers[START] = mechanism.start(wear.elongation, loci[0])
         numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(
-            loci, np.array([path.touched for path in worn]), configurations, self.phases, most,
+            loci,
+            np.array([path.touched for path in worn]),
+            configurations,
+            self.phases,
+            most,
             block.share * block.wear_factor * self.bodies / configurations,
-            mechanism.constants(wear.elongation), numbers, positions,
-            np.zeros((WORK_ROWS, most)), np.zeros((WORK_ROWS, most)), np.zeros(most + 1),
-            np.zeros(most), table,
-        )  # fmt: skip
+            mechanism.constants(wear.elongation),
+            numbers,
+            positions,
+            np.zeros((WORK_ROWS, most)),
+            np.zeros((WORK_ROWS, most)),
+            np.zeros(most + 1),
+            np.zeros(most),
+            table,
+        )
         if status == JUMPED:
             raise JumpError(
                 f"wrap at an elongation of {100 * wear.elongation:.3g} %: the rollers must "
@@ -368,13 +278,7 @@ class WrapContact(Dwelling):
         return found
 
     def assumptions(self) -> list[str]:
-        """Return what this picture takes for granted.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted."""
         sliding = self.sliding
         return [
             *self.mechanism.assumptions(),

@@ -67,16 +67,6 @@ class WrapChain:
         """Return the pitches of an inner and of an outer link.
 
         Equation physics.md (W7).
-
-        Parameters
-        ----------
-        elongation : float
-            Mean relative elongation of the chain.
-
-        Returns
-        -------
-        tuple of float
-            p and p (1 + 2 eps), or p (1 + eps) twice [mm].
         """
         if self.alternating:
             return self.pitch, self.pitch * (1.0 + 2.0 * elongation)
@@ -202,51 +192,17 @@ class WrapMechanism:
         return self.path.worn(np.array(self.outline.x), np.array(self.outline.y))
 
     def rollers(self, phase: float) -> int:
-        """Return the number of rollers between the straight strands.
-
-        Parameters
-        ----------
-        phase : float
-            0 where the first roller has just come straight off the strand, 1 where the
-            next one is about to.
-
-        Returns
-        -------
-        int
-            About wrap angle over pitch angle.
-        """
+        """Return the number of rollers between the straight strands."""
         return max(1, math.ceil(self.wrap_angle / self.pitch_angle + 1.0 - phase - 1e-9))
 
     def angles(self, phase: float) -> tuple[float, float]:
-        """Return how far both strands point below the tangents at the first and last roller.
-
-        Parameters
-        ----------
-        phase : float
-            From 0 to 1.
-
-        Returns
-        -------
-        tuple of float
-            Tight and slack [rad], each within half a pitch angle of 0.
-        """
+        """Return how far both strands point below the tangents at the first and last roller."""
         step = self.pitch_angle
         tight = step * (phase - 0.5)
         return tight, self.wrap_angle - tight - (self.rollers(phase) - 1) * step
 
     def constants(self, elongation: float) -> Vector:
-        """Return the numbers that a solve takes.
-
-        Parameters
-        ----------
-        elongation : float
-            Relative elongation of the chain.
-
-        Returns
-        -------
-        numpy.ndarray
-            As ``kernels.wrap`` orders them.
-        """
+        """Return the numbers that a solve takes."""
         numbers = np.empty(CONSTANTS)
         numbers[PITCH_ANGLE] = self.pitch_angle
         numbers[STIFFNESS] = self.chain.link_stiffness
@@ -256,20 +212,7 @@ class WrapMechanism:
         return numbers
 
     def start(self, elongation: float, locus: NDArray[np.float64]) -> float:
-        """Return a node of the roller path to start a solve from: on the flank where a chain climbs to.
-
-        Parameters
-        ----------
-        elongation : float
-            Relative elongation of the chain.
-        locus : numpy.ndarray
-            Roller path, shape (4, nodes).
-
-        Returns
-        -------
-        float
-            Number of the node.
-        """
+        """Return a node of the roller path to start a solve from: on the flank where a chain climbs to."""
         radius = np.hypot(locus[0], locus[1])
         lowest = int(radius.argmin())
         climbed = max(self.pitch_radius * (1.0 + elongation), radius[lowest])
@@ -277,35 +220,9 @@ class WrapMechanism:
         return float(lowest + above[0]) if above.size else float(locus.shape[1] - 2)
 
     def loads(
-        self,
-        phase: float,
-        elongation: float = 0.0,
-        first: int = 0,
-        worn: tuple[WornPath, ...] = (),
+        self, phase: float, elongation: float = 0.0, first: int = 0, worn: tuple[WornPath, ...] = ()
     ) -> WrapLoads:
-        """Return the equilibrium of one phase.
-
-        Parameters
-        ----------
-        phase : float
-            From 0 (first roller just seated) to 1 (the next one about to seat).
-        elongation : float
-            Relative elongation of the chain.
-        first : int
-            0 where the link after the first roller is an inner one, 1 for an outer one.
-        worn : tuple of WornPath
-            Roller paths of the gaps told apart, none for the unworn gap.
-
-        Returns
-        -------
-        WrapLoads
-            Row i is tooth i + 1 from the tight end.
-
-        Raises
-        ------
-        ContactError
-            The chain jumps: there is no equilibrium below the tips.
-        """
+        """Return the equilibrium of one phase."""
         paths = worn or (self.unworn,)
         status, position, work, tension, force = self._solve(
             phase, elongation, first, paths[0].locus, paths[-1].locus
@@ -340,12 +257,7 @@ class WrapMechanism:
         )
 
     def _solve(
-        self,
-        phase: float,
-        elongation: float,
-        first: int,
-        even: NDArray[np.float64],
-        odd: NDArray[np.float64],
+        self, phase: float, elongation: float, first: int, even: NDArray[np.float64], odd: NDArray[np.float64]
     ) -> tuple[int, Vector, NDArray[np.float64], Vector, Vector]:
         count = self.rollers(phase)
         constants = self.constants(elongation)
@@ -354,9 +266,18 @@ class WrapMechanism:
         for start in (self.start(elongation, even), float(np.hypot(*even[:2]).argmin())):
             position = np.full(count, start)
             status = solve_wrap(
-                even, odd, first, count, constants, *self.angles(phase),
-                _TOLERANCE * self.pull.tight, position, work, tension, force,
-            )  # fmt: skip
+                even,
+                odd,
+                first,
+                count,
+                constants,
+                *self.angles(phase),
+                _TOLERANCE * self.pull.tight,
+                position,
+                work,
+                tension,
+                force,
+            )
             if status == SEATED:
                 break
         return int(status), position, work, tension, force
@@ -376,20 +297,7 @@ class WrapMechanism:
         )
 
     def holds(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> bool:
-        """Tell whether the rollers find an equilibrium in every phase.
-
-        Parameters
-        ----------
-        elongation : float
-            Relative elongation of the chain.
-        worn : tuple of WornPath
-            Roller paths of the gaps told apart, none for the unworn gap.
-
-        Returns
-        -------
-        bool
-            False where the chain jumps.
-        """
+        """Tell whether the rollers find an equilibrium in every phase."""
         paths = worn or (self.unworn,)
         firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
         return all(
@@ -399,12 +307,7 @@ class WrapMechanism:
         )
 
     def _seated(
-        self,
-        phase: float,
-        elongation: float,
-        first: int,
-        even: NDArray[np.float64],
-        odd: NDArray[np.float64],
+        self, phase: float, elongation: float, first: int, even: NDArray[np.float64], odd: NDArray[np.float64]
     ) -> bool:
         """Tell whether the rollers rest, on a worn path as nearly as wear takes them to."""
         status, _, work, _, force = self._solve(phase, elongation, first, even, odd)
@@ -413,36 +316,12 @@ class WrapMechanism:
         return status == SEATED
 
     def with_slack(self, slack: float) -> "WrapMechanism":
-        """Return the same wrap with another slack tension at the same difference of tensions.
-
-        Parameters
-        ----------
-        slack : float
-            Tension of the slack strand [N].
-
-        Returns
-        -------
-        WrapMechanism
-            The tight strand pulls as much more or less.
-        """
+        """Return the same wrap with another slack tension at the same difference of tensions."""
         tight = self.pull.tight - self.pull.slack + slack
         return replace(self, pull=replace(self.pull, tight=tight, slack=slack))
 
     def smallest_slack_tension(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> float:
-        """Return the slack tension below which the chain jumps, at the same difference of tensions.
-
-        Parameters
-        ----------
-        elongation : float
-            Relative elongation of the chain.
-        worn : tuple of WornPath
-            Roller paths of the gaps told apart, none for the unworn gap.
-
-        Returns
-        -------
-        float
-            Tension [N] within 1 %, from above; infinite where no tension up to the pull holds.
-        """
+        """Return the slack tension below which the chain jumps, at the same difference of tensions."""
 
         def _holding(slack: float) -> bool:
             return self.with_slack(slack).holds(elongation, worn)
@@ -459,13 +338,7 @@ class WrapMechanism:
         return high
 
     def assumptions(self) -> list[str]:
-        """Return what this picture takes for granted.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted."""
         pull = self.pull
         friction = (
             f"friction acts {'up' if pull.driver else 'down'} the working flank, "

@@ -29,18 +29,7 @@ _FINE = 5e-3
 
 
 def wrap_sketch(drive: WrapDrive) -> Sketch:
-    """Return both sprockets with the chain around them, the worn one with its teeth.
-
-    Parameters
-    ----------
-    drive : WrapDrive
-        The drive.
-
-    Returns
-    -------
-    Sketch
-        The driver on the left, the tight strand above, the line of centres level.
-    """
+    """Return both sprockets with the chain around them, the worn one with its teeth."""
     layout = drive.layout
     rollers = roller_places(layout)
     radius = 0.5 * drive.chain.roller_diameter
@@ -54,17 +43,13 @@ def wrap_sketch(drive: WrapDrive) -> Sketch:
     tips[worn] = float(np.hypot(drive.outline.x[0], drive.outline.y[0]))
     strokes = [Stroke("worn", _wheel(drive, _first_roller(rollers, layout, worn), centres[worn]))]
     strokes.append(Stroke("tip", circle(*centres[1 - worn], tips[1 - worn])))
-    strokes += [
-        Stroke("pitch", circle(*centre, r)) for centre, r in zip(centres, pitch_radii, strict=True)
-    ]
+    strokes += [Stroke("pitch", circle(*centre, r)) for centre, r in zip(centres, pitch_radii, strict=True)]
     strokes.append(Stroke("chain", line(rollers, closed=True)))
     strokes.append(Stroke("roller", "".join(circle(x, y, radius) for x, y in rollers)))
     arrow = 0.35 * min(pitch_radii)
     strokes += [Stroke("arrow", turn_arrow(*centre, arrow, 1)) for centre in centres]
     middle, rise = 0.5 * layout.centre_distance, 0.5 * (pitch_radii[0] + pitch_radii[1])
-    box = around(
-        [(*c, max(t, p + radius)) for c, t, p in zip(centres, tips, pitch_radii, strict=True)]
-    )
+    box = around([(*c, max(t, p + radius)) for c, t, p in zip(centres, tips, pitch_radii, strict=True)])
     text = text_size(box)
     gap = radius + 0.5 * text + 3.5 * text * abs(math.tan(layout.inclination))
     labels = (
@@ -99,16 +84,6 @@ def _wrap_notes(drive: WrapDrive) -> tuple[str, ...]:
 def roller_places(layout: DriveLayout) -> Vector:
     """Return the rollers of a taut chain, one for each link.
 
-    Parameters
-    ----------
-    layout : DriveLayout
-        The drive: sprocket 1 at the origin, sprocket 2 on +x.
-
-    Returns
-    -------
-    numpy.ndarray
-        Centres [mm], shape (links, 2), from the upper end of the wrap of sprocket 1 along it.
-
     Examples
     --------
     Two equal sprockets 300 mm apart: half of the 80 rollers lie on each side of the middle.
@@ -127,10 +102,7 @@ def roller_places(layout: DriveLayout) -> Vector:
     upper = 0.5 * math.pi + layout.inclination
     driver, driven = (
         (0.0, 0.5 * layout.pitch_diameter_1),
-        (
-            layout.centre_distance,
-            0.5 * layout.pitch_diameter_2,
-        ),
+        (layout.centre_distance, 0.5 * layout.pitch_diameter_2),
     )
     return np.concatenate(
         [
@@ -146,9 +118,7 @@ def _on_circle(centre: float, radius: float, angle: Vector) -> Vector:
     return np.column_stack([centre + radius * np.cos(angle), radius * np.sin(angle)])
 
 
-def _between(
-    start: tuple[float, float], end: tuple[float, float], angle: float, way: Vector
-) -> Vector:
+def _between(start: tuple[float, float], end: tuple[float, float], angle: float, way: Vector) -> Vector:
     """Points of a straight strand from one circle to the other, which it leaves at the same angle."""
     from_, to = (_on_circle(*circle, np.array([angle])) for circle in (start, end))
     return np.asarray(from_ + way[:, None] * (to - from_))
@@ -172,20 +142,7 @@ def _first_roller(rollers: Vector, layout: DriveLayout, worn: int) -> float:
 
 
 def strand_sketch(drive: StrandDrive, engaged_every: int) -> Sketch:
-    """Return the sprocket with its straight strand.
-
-    Parameters
-    ----------
-    drive : StrandDrive
-        The drive.
-    engaged_every : int
-        Every which gap carries a roller.
-
-    Returns
-    -------
-    Sketch
-        The strand above the sprocket, moving to the right.
-    """
+    """Return the sprocket with its straight strand."""
     tooth, strand, pitch = drive.tooth, drive.tooth.strand, drive.chain.pitch
     tip, radius = tooth.tip_radius, strand.roller_radius
     reach = math.ceil(1.35 * tip / pitch) * pitch
@@ -195,15 +152,11 @@ def strand_sketch(drive: StrandDrive, engaged_every: int) -> Sketch:
         Stroke("worn", _outline(drive)),
         Stroke("pitch", circle(0.0, 0.0, strand.centrode_radius)),
         Stroke("chain", line([(-reach, y), (reach, y)])),
-        Stroke(
-            "roller", "".join(circle(x, y, radius) for x in rollers if x <= reach + 0.1 * pitch)
-        ),
+        Stroke("roller", "".join(circle(x, y, radius) for x in rollers if x <= reach + 0.1 * pitch)),
         Stroke("arrow", turn_arrow(0.0, 0.0, 0.3 * tip, -1)),
         Stroke(
             "arrow",
-            straight_arrow(
-                (0.45 * reach, y + 2.2 * radius), (0.95 * reach, y + 2.2 * radius), radius
-            ),
+            straight_arrow((0.45 * reach, y + 2.2 * radius), (0.95 * reach, y + 2.2 * radius), radius),
         ),
     )
     box = around([(0.0, 0.0, tip), (-reach, y, radius), (reach, y, radius), (0.0, y, 2.6 * radius)])

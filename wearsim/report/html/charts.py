@@ -18,46 +18,18 @@ Trace = dict[str, Any]
 
 @dataclass(frozen=True)
 class Drawing:
-    """What plotly draws, without its Python objects, which take longer than all else on a page.
+    """What plotly draws, without its Python objects, which take longer than all else on a page."""
 
-    Attributes
-    ----------
-    traces : list of dict
-        Lines and bars.
-    layout : dict
-        Axes and what is around them.
-    """
-
-    traces: list[Trace]
-    layout: dict[str, Any]
+    traces: list[Trace]  # lines and bars
+    layout: dict[str, Any]  # axes and what is around them
 
     def add(self, traces: Iterable[Trace], panel: int | None = None) -> None:
-        """Add lines or bars.
-
-        Parameters
-        ----------
-        traces : iterable of dict
-            What is added.
-        panel : int, optional
-            Its number from the top, where there are several.
-        """
+        """Add lines or bars."""
         place = {} if panel is None else {"xaxis": _axis("x", panel), "yaxis": _axis("y", panel)}
         self.traces.extend({**trace, **place} for trace in traces)
 
     def set_axis(self, letter: str, title: str = "", panel: int = 1, **settings: Any) -> None:
-        """Name an axis, or change how it is drawn.
-
-        Parameters
-        ----------
-        letter : str
-            ``x`` or ``y``.
-        title : str
-            Its name with the unit, where it gets one.
-        panel : int
-            Number of its panel from the top.
-        **settings : object
-            As plotly names them.
-        """
+        """Name an axis, or change how it is drawn."""
         axis = self.layout[_axis(f"{letter}axis", panel)]
         axis.update(settings)
         if title:
@@ -70,49 +42,24 @@ def _axis(name: str, panel: int) -> str:
 
 @dataclass(frozen=True)
 class Values:
-    """Some values of a chart, to be read without it.
+    """Some values of a chart, to be read without it."""
 
-    Attributes
-    ----------
-    head : tuple of str
-        Heads of the columns with their units.
-    rows : tuple of tuple of str
-        The cells.
-    """
-
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    head: tuple[str, ...]  # heads of the columns with their units
+    rows: tuple[tuple[str, ...], ...]  # the cells
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A chart and what stands for it where it cannot be seen.
+    """A chart and what stands for it where it cannot be seen."""
 
-    Attributes
-    ----------
-    name : str
-        Of its element on the page.
-    title, alt : str
-        What it is, and what there is to see.
-    figure : Drawing
-        The chart; the colour of a trace follows from ``meta["role"]``.
-    values : Values
-        Some of its values.
-    tall : int
-        Panels above each other.
-    still : str
-        Stem of the picture that stands for it on paper; empty where the values do.
-    slider : dict
-        What a slider does to it; empty where there is none.
-    """
-
-    name: str
-    title: str
-    alt: str
-    figure: Drawing
-    values: Values
-    tall: int = 1
-    still: str = ""
+    name: str  # of its element on the page
+    title: str  # what it is, and what there is to see
+    alt: str  # what it is, and what there is to see
+    figure: Drawing  # the chart; the colour of a trace follows from `meta["role"]`
+    values: Values  # some of its values
+    tall: int = 1  # panels above each other
+    still: str = ""  # stem of the picture that stands for it on paper; empty where the values do
+    # what a slider does to it; empty where there is none
     slider: dict[str, Any] = field(default_factory=dict)
 
     @property
@@ -123,18 +70,7 @@ class Chart:
 
 
 def panels(count: int) -> Drawing:
-    """Return an empty drawing with panels above each other that share their x axis.
-
-    Parameters
-    ----------
-    count : int
-        At least 1.
-
-    Returns
-    -------
-    Drawing
-        Without colours: the page gives them.
-    """
+    """Return an empty drawing with panels above each other that share their x axis."""
     layout: dict[str, Any] = {
         "template": {"data": {"scatter": [{"type": "scatter"}]}},
         "margin": {"l": 8, "r": 12, "t": 8, "b": 8},
@@ -162,28 +98,7 @@ def panels(count: int) -> Drawing:
 def curve(
     x: ArrayLike, y: ArrayLike, name: str, role: str, unit: str, dash: str = "solid", at: str = "mm"
 ) -> Trace:
-    """Return a line of a chart.
-
-    Parameters
-    ----------
-    x, y : array_like
-        Its points.
-    name : str
-        For legend and hover: a text, not markup.
-    role : str
-        What gives it its colour.
-    unit : str
-        Of y.
-    dash : str
-        Of plotly.
-    at : str
-        Unit of x.
-
-    Returns
-    -------
-    dict
-        The trace.
-    """
+    """Return a line of a chart."""
     plain = html.escape(name, quote=False)
     return {
         "type": "scatter",
@@ -198,36 +113,13 @@ def curve(
 
 
 def silent(trace: Trace, width: float) -> Trace:
-    """Return a line that tells nothing where the pointer is over it.
-
-    Parameters
-    ----------
-    trace : dict
-        The line.
-    width : float
-        How thick it is drawn.
-
-    Returns
-    -------
-    dict
-        The trace.
-    """
+    """Return a line that tells nothing where the pointer is over it."""
     told = {name: value for name, value in trace.items() if name != "hovertemplate"}
     return {**told, "hoverinfo": "skip", "line": {**trace["line"], "width": width}}
 
 
 def series(number: int) -> str:
     """Return the role of one of several drives.
-
-    Parameters
-    ----------
-    number : int
-        From 1.
-
-    Returns
-    -------
-    str
-        Six colours, then again from the first.
 
     Examples
     --------
@@ -240,16 +132,6 @@ def series(number: int) -> str:
 def rounded(value: float) -> float:
     """Return a number to five digits, which is what a picture can show.
 
-    Parameters
-    ----------
-    value : float
-        Any number.
-
-    Returns
-    -------
-    float
-        Rounded.
-
     Examples
     --------
     >>> rounded(1234.567)
@@ -259,17 +141,6 @@ def rounded(value: float) -> float:
 
 
 def listed(values: ArrayLike) -> list[float | None]:
-    """Return numbers to five digits as a list, None for what is not finite.
-
-    Parameters
-    ----------
-    values : array_like
-        Numbers.
-
-    Returns
-    -------
-    list of float or None
-        Shorter in a file than all of their digits.
-    """
+    """Return numbers to five digits as a list, None for what is not finite."""
     array = np.asarray(values, dtype=float)
     return [rounded(value) if np.isfinite(value) else None for value in array.tolist()]

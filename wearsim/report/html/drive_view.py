@@ -9,18 +9,7 @@ from wearsim.report.html.sketch import Sketch
 
 
 def drive_sketch(case: Case) -> Sketch | None:
-    """Return the drive to scale.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    Sketch or None
-        None where nothing is known of it but a table of loads.
-    """
+    """Return the drive to scale."""
     drive = case.drive
     if isinstance(drive, WrapDrive):
         return wrap_sketch(drive)
@@ -30,23 +19,7 @@ def drive_sketch(case: Case) -> Sketch | None:
 
 
 def tooth_load_chart(case: Case) -> Chart | None:
-    """Return what the teeth of a wrap carry, under a new chain and one at its limit.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    Chart or None
-        None of other drives.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    """
+    """Return what the teeth of a wrap carry, under a new chain and one at its limit."""
     if not isinstance(case.drive, WrapDrive):
         return None
     from wearsim.simulation.tooth_loads import tooth_loads  # takes 0.4 s, for its kernels

@@ -5,31 +5,11 @@ import math
 import numpy as np
 
 from wearsim.case.model import GearDrive
-from wearsim.report.html.sketch import (
-    Label,
-    Sketch,
-    Stroke,
-    around,
-    circle,
-    line,
-    scaled,
-    turn_arrow,
-)
+from wearsim.report.html.sketch import Label, Sketch, Stroke, around, circle, line, scaled, turn_arrow
 
 
 def gear_sketch(drive: GearDrive) -> Sketch:
-    """Return pitch and tip circles of both gears, and the path of contact.
-
-    Parameters
-    ----------
-    drive : GearDrive
-        The drive.
-
-    Returns
-    -------
-    Sketch
-        The pinion on the left, its axis at the origin.
-    """
+    """Return pitch and tip circles of both gears, and the path of contact."""
     circles, mesh = drive.pair.circles, drive.pair.mesh(drive.points)
     centre, (pinion, wheel) = circles.centre_distance, drive.pair.teeth
     tips = [float(np.hypot(side.x[-1], side.y[-1])) for side in (mesh.flank, mesh.mate)]

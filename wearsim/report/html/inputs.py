@@ -11,40 +11,17 @@ from wearsim.result import WearResult
 
 @dataclass(frozen=True)
 class Input:
-    """A key of a case.
+    """A key of a case."""
 
-    Attributes
-    ----------
-    key : str
-        With its table.
-    value, unit : str
-        As in the case with every default taken.
-    meaning : str
-        What it is.
-    source : str
-        Whether the case gives it, or why it was taken by default.
-    """
-
-    key: str
-    value: str
-    unit: str
-    meaning: str
-    source: str
+    key: str  # with its table
+    value: str  # as in the case with every default taken
+    unit: str  # as in the case with every default taken
+    meaning: str  # what it is
+    source: str  # whether the case gives it, or why it was taken by default
 
 
 def input_table(result: WearResult) -> list[Input]:
-    """Return every key of a case with the source of its value.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    list of Input
-        In the order of the tables.
-    """
+    """Return every key of a case with the source of its value."""
     return [
         Input(row.key, _shown(row.value), row.unit, row.meaning, _told(row))
         for row in input_rows(result.inputs, result.assumptions)
@@ -52,18 +29,7 @@ def input_table(result: WearResult) -> list[Input]:
 
 
 def catalogue_sources(result: WearResult) -> list[tuple[str, str]]:
-    """Return where the numbers of the catalogue that a case uses come from.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    list of tuple of str
-        What it is, and its sources with the notes on them.
-    """
+    """Return where the numbers of the catalogue that a case uses come from."""
     inputs = {row.key: row for row in input_rows(result.inputs, result.assumptions)}
     found = []
     if (chain := inputs.get("chain.designation")) is not None:
@@ -79,9 +45,7 @@ def catalogue_sources(result: WearResult) -> list[tuple[str, str]]:
         for row in rows("materials")
         if row["name"] in reasons | names
     ]
-    found += [
-        (f"file {name}", "read by the case, kept with the run") for name in result.input_files
-    ]
+    found += [(f"file {name}", "read by the case, kept with the run") for name in result.input_files]
     return found
 
 

@@ -11,25 +11,10 @@ from wearsim.result import Life, WearResult
 
 
 def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
-    """Return the lives of several drives with their bands.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one.
-    labels : sequence of str
-        Their names.
-
-    Returns
-    -------
-    Chart
-        On a logarithmic axis; an open arrow with its bound is a life that was not reached.
-    """
+    """Return the lives of several drives with their bands."""
     figure = panels(1)
     for number, (result, label) in enumerate(zip(results, labels, strict=True), start=1):
-        life, low, high = (
-            one.hours_run for one in (result.life, result.life_low, result.life_high)
-        )
+        life, low, high = (one.hours_run for one in (result.life, result.life_low, result.life_high))
         reached = isinstance(result.life, Life)
         mark = {
             "type": "scatter",

@@ -12,44 +12,19 @@ from wearsim.result import WearResult
 
 @dataclass(frozen=True)
 class Margin:
-    """A limit and what is left to it.
+    """A limit and what is left to it."""
 
-    Attributes
-    ----------
-    name, unit : str
-        The limit in words, of jumping with its margin, and its unit.
-    limit, value, left : str
-        Its value, what the quantity has come to, and how far that is from the limit.
-    used : float
-        Part of the way from new to the limit that is gone, from 0 to 1.
-    ended : bool
-        Whether it ended the life.
-    """
-
-    name: str
-    unit: str
-    limit: str
-    value: str
-    left: str
-    used: float
-    ended: bool
+    name: str  # the limit in words, of jumping with its margin, and its unit
+    unit: str  # the limit in words, of jumping with its margin, and its unit
+    limit: str  # its value, what the quantity has come to, and how far that is from the limit
+    value: str  # its value, what the quantity has come to, and how far that is from the limit
+    left: str  # its value, what the quantity has come to, and how far that is from the limit
+    used: float  # part of the way from new to the limit that is gone, from 0 to 1
+    ended: bool  # whether it ended the life
 
 
 def margins(result: WearResult, case: Case) -> list[Margin]:
-    """Return every limit of a result and how far its quantity is from it.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-    case : Case
-        Its case, for what the quantity was when new.
-
-    Returns
-    -------
-    list of Margin
-        In the order of the result's limits.
-    """
+    """Return every limit of a result and how far its quantity is from it."""
     found = []
     for state in result.limits:
         name, unit = limit_name(state.name)

@@ -26,130 +26,56 @@ from wearsim.result import Life, WearResult
 
 @dataclass(frozen=True, eq=False)
 class DrivePage:
-    """The page of one drive.
+    """The page of one drive."""
 
-    Attributes
-    ----------
-    name, title : str
-        Of the file, and of the drive.
-    brief : bool
-        Whether the page is the short one.
-    life, ending : str
-        The answer, and what ended it.
-    overloaded : str
-        By how much the drive is outside the ratings of its load; empty where it is not.
-    reached : bool
-        Whether it is a life and not a bound.
-    low, high, band : str
-        The lives at the ends of the band, and where that comes from.
-    percentiles : list of tuple of str
-        Names and hours of P10, P50 and P90, where they are known.
-    findings : list of tuple of str
-        The rest of the answer.
-    margins : list of Margin
-        Of every stop criterion.
-    rating_head, ratings : list of str and list of list of str
-        The table of what the handbooks allow; without rows where they say nothing.
-    tooth : list of Chart
-        The flank before and after.
-    charts : list of Chart
-        All others.
-    sketch : Sketch or None
-        The drive; None where nothing is known of it.
-    pictures : mapping of str to str
-        Still pictures as data URIs, by the stems that charts name.
-    inputs : list of Input
-        Every key.
-    sources : list of tuple of str
-        Of the catalogue's numbers.
-    assumptions, defaults : list of str
-        What is taken for granted, and the defaults taken.
-    warnings : tuple of str
-        Of the result.
-    versions : list of tuple of str
-        Of what calculated it and of what wrote the page.
-    citation : str
-        How to cite.
-    """
-
-    name: str
-    title: str
-    brief: bool
-    life: str
-    ending: str
+    name: str  # of the file, and of the drive
+    title: str  # of the file, and of the drive
+    brief: bool  # whether the page is the short one
+    life: str  # the answer, and what ended it
+    ending: str  # the answer, and what ended it
+    # by how much the drive is outside the ratings of its load; empty where it is not
     overloaded: str
-    reached: bool
-    low: str
-    high: str
-    band: str
-    percentiles: list[tuple[str, str]]
-    findings: list[tuple[str, str]]
-    margins: list[Margin]
+    reached: bool  # whether it is a life and not a bound
+    low: str  # the lives at the ends of the band, and where that comes from
+    high: str  # the lives at the ends of the band, and where that comes from
+    band: str  # the lives at the ends of the band, and where that comes from
+    percentiles: list[tuple[str, str]]  # names and hours of P10, P50 and P90, where they are known
+    findings: list[tuple[str, str]]  # the rest of the answer
+    margins: list[Margin]  # of every stop criterion
+    # rating_head, ratings: the table of what the handbooks allow; without rows where they say
+    # nothing
     rating_head: list[str]
     ratings: list[list[str]]
-    tooth: list[Chart]
-    charts: list[Chart]
-    sketch: Sketch | None
-    pictures: dict[str, str]
-    inputs: list[Input]
-    sources: list[tuple[str, str]]
-    assumptions: list[str]
-    defaults: list[str]
-    warnings: tuple[str, ...]
-    versions: list[tuple[str, str]]
-    citation: str
+    tooth: list[Chart]  # the flank before and after
+    charts: list[Chart]  # all others
+    sketch: Sketch | None  # the drive; None where nothing is known of it
+    pictures: dict[str, str]  # still pictures as data URIs, by the stems that charts name
+    inputs: list[Input]  # every key
+    sources: list[tuple[str, str]]  # of the catalogue's numbers
+    assumptions: list[str]  # what is taken for granted, and the defaults taken
+    defaults: list[str]  # what is taken for granted, and the defaults taken
+    warnings: tuple[str, ...]  # of the result
+    versions: list[tuple[str, str]]  # of what calculated it and of what wrote the page
+    citation: str  # how to cite
 
 
 @dataclass(frozen=True, eq=False)
 class ComparisonPage:
-    """The page that compares several drives.
+    """The page that compares several drives."""
 
-    Attributes
-    ----------
-    names, titles : list of str
-        Of the pages and of the drives.
-    head, rows : list of str and list of list of str
-        The table.
-    limits : str
-        A warning where limits differ.
-    warnings : list of tuple of str
-        Cases with their warnings.
-    charts : list of Chart
-        Of all drives together.
-    pictures : mapping of str to str
-        Still pictures as data URIs, by the stems that charts name.
-    citation : str
-        How to cite.
-    """
-
-    names: list[str]
-    titles: list[str]
-    head: list[str]
-    rows: list[list[str]]
-    limits: str
-    warnings: list[tuple[str, str]]
-    charts: list[Chart]
-    pictures: dict[str, str]
-    citation: str
+    names: list[str]  # of the pages and of the drives
+    titles: list[str]  # of the pages and of the drives
+    head: list[str]  # the table
+    rows: list[list[str]]  # the table
+    limits: str  # a warning where limits differ
+    warnings: list[tuple[str, str]]  # cases with their warnings
+    charts: list[Chart]  # of all drives together
+    pictures: dict[str, str]  # still pictures as data URIs, by the stems that charts name
+    citation: str  # how to cite
 
 
 def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
-    """Return the page of one drive.
-
-    Parameters
-    ----------
-    result : WearResult
-        Its result.
-    name : str
-        Stem of the file.
-    brief : bool
-        Leave out everything but answer, tooth, margins, ratings, assumptions and warnings.
-
-    Returns
-    -------
-    DrivePage
-        The page.
-    """
+    """Return the page of one drive."""
     case = case_of(result)
     tooth = tooth_charts(result)
     charts = [] if brief else _charts(result, case)
@@ -167,9 +93,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         high=hours(result.life_high),
         band=result.band,
         percentiles=_percentiles(result, case),
-        findings=[
-            found for found in findings(result) if found[0] not in (BAND, LIMITS, OVERLOADED)
-        ],
+        findings=[found for found in findings(result) if found[0] not in (BAND, LIMITS, OVERLOADED)],
         margins=margins(result, case),
         rating_head=RATING_HEAD,
         ratings=rating_cells(result.ratings),
@@ -182,10 +106,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         assumptions=taken,
         defaults=defaults,
         warnings=result.warnings,
-        versions=[
-            ("page written by", f"wearsim {__version__}"),
-            *result.environment.items(),
-        ],
+        versions=[("page written by", f"wearsim {__version__}"), *result.environment.items()],
         citation=apa(result.environment["wearsim"]),
     )
 
@@ -207,27 +128,10 @@ def _charts(result: WearResult, case: Case) -> list[Chart]:
 
 
 def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> ComparisonPage:
-    """Return the page that compares several drives.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one.
-    names : sequence of str
-        Stems of their pages, all different: they are the labels of the charts.
-
-    Returns
-    -------
-    ComparisonPage
-        The page.
-    """
+    """Return the page that compares several drives."""
     several = list(results)
     head, rows = comparison_cells(several)
-    charts = [
-        lives_chart(several, names),
-        along_chart(several, names),
-        history_chart(several, names),
-    ]
+    charts = [lives_chart(several, names), along_chart(several, names), history_chart(several, names)]
     figures = comparison_figures(several, {chart.still for chart in charts})
     return ComparisonPage(
         names=list(names),

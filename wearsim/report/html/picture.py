@@ -12,18 +12,7 @@ _PATH = re.compile(r'(?<=\sd=")[^"]*')
 
 
 def picture(figure: Figure) -> str:
-    """Return a figure as a data URI, the same for the same figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-
-    Returns
-    -------
-    str
-        An SVG image that no rule of the page reaches into.
-    """
+    """Return a figure as a data URI, the same for the same figure."""
     drawn = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
         _lay_out(figure)

@@ -9,16 +9,7 @@ import numpy as np
 
 from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
-from wearsim.report.html.charts import (
-    Chart,
-    Trace,
-    Values,
-    curve,
-    listed,
-    panels,
-    rounded,
-    series,
-)
+from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, rounded, series
 from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
@@ -36,20 +27,7 @@ _ALONG = (
 
 
 def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
-    """Return depth, pressure and sliding along the flanks, at the end of the life and new.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one.
-    labels : sequence of str
-        Names for the legend; of a single result they are left out.
-
-    Returns
-    -------
-    Chart
-        A panel for each quantity that a result has at a point.
-    """
+    """Return depth, pressure and sliding along the flanks, at the end of the life and new."""
     shown = [row for row in _ALONG if any(row[0] in result.flank_columns for result in results)]
     figure = panels(len(shown))
     alone = len(results) == 1
@@ -74,9 +52,7 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
     )
 
 
-def _along(
-    result: WearResult, column: str, unit: str, label: str, what: str, role: str
-) -> list[Trace]:
+def _along(result: WearResult, column: str, unit: str, label: str, what: str, role: str) -> list[Trace]:
     """One quantity at the end, and when new or of the wheel; the depth has the legend."""
     first, last = snapshot(result, 0), at_life(result)
     if column not in last:
@@ -114,20 +90,7 @@ def _along_values(result: WearResult) -> Values:
 
 
 def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
-    """Return greatest depth and elongation against running time, with their limits.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one.
-    labels : sequence of str
-        Names for the legend.
-
-    Returns
-    -------
-    Chart
-        With a mark at every life.
-    """
+    """Return greatest depth and elongation against running time, with their limits."""
     shown = [("max_depth_mm", "depth", "mm", "critical_depth_mm")]
     if any("elongation_percent" in result.history_columns for result in results):
         shown.append(("elongation_percent", "elongation", "%", "elongation_percent"))
@@ -152,15 +115,12 @@ def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart
         figure.add([_life_mark(result, label, role)], 1)
     for row, (_, what, unit, _) in enumerate(shown, start=1):
         figure.set_axis("y", f"{what}, {unit}", row, rangemode="tozero")
-        figure.set_axis(
-            "x", "running time, h" if row == len(shown) else "", row, rangemode="tozero"
-        )
+        figure.set_axis("x", "running time, h" if row == len(shown) else "", row, rangemode="tozero")
     what = " and ".join(name for _, name, _, _ in shown)
     return Chart(
         name="history",
         title=f"greatest {what} against hours",
-        alt=f"Curves of the greatest {what} over running time with their limits dashed; a mark at the "
-        "life.",
+        alt=f"Curves of the greatest {what} over running time with their limits dashed; a mark at the life.",
         figure=figure,
         values=_history_values(results[0]) if alone else Values((), ()),
         tall=len(shown),
@@ -199,18 +159,7 @@ def _history_values(result: WearResult) -> Values:
 
 
 def loads_chart(new: ToothLoads, grown: ToothLoads) -> Chart:
-    """Return the normal forces on the teeth of a wrap.
-
-    Parameters
-    ----------
-    new, grown : ToothLoads
-        Of a new chain and of one at its limit of elongation, on new teeth.
-
-    Returns
-    -------
-    Chart
-        A pair of bars for each tooth, tooth 1 at the tight end.
-    """
+    """Return the normal forces on the teeth of a wrap."""
     figure = panels(1)
     rows = []
     for found, label, role in (

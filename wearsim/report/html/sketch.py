@@ -18,80 +18,37 @@ _TEXT = 1.0 / 34.0
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line of a sketch.
+    """A line of a sketch."""
 
-    Attributes
-    ----------
-    role : str
-        What it stands for: ``wheel``, ``worn``, ``pitch``, ``tip``, ``chain``, ``roller``, ``arrow``,
-        ``contact`` or ``scale``.
-    path : str
-        SVG path data, y downwards [mm].
-    """
-
+    # what it stands for: `wheel`, `worn`, `pitch`, `tip`, `chain`, `roller`, `arrow`, `contact` or
+    # `scale`
     role: str
-    path: str
+    path: str  # SVG path data, y downwards [mm]
 
 
 @dataclass(frozen=True)
 class Label:
-    """A word in a sketch.
+    """A word in a sketch."""
 
-    Attributes
-    ----------
-    x, y : float
-        Middle of its base line, y downwards [mm].
-    text : str
-        The word.
-    """
-
-    x: float
-    y: float
-    text: str
+    x: float  # middle of its base line, y downwards [mm]
+    y: float  # middle of its base line, y downwards [mm]
+    text: str  # the word
 
 
 @dataclass(frozen=True)
 class Sketch:
-    """A drawing to scale.
+    """A drawing to scale."""
 
-    Attributes
-    ----------
-    box : tuple of float
-        Left, top, width and height [mm], y downwards.
-    text_size : float
-        Height of letters [mm].
-    strokes : tuple of Stroke
-        Drawn in this order.
-    labels : tuple of Label
-        Drawn above them.
-    alt : str
-        What there is to see, for those who cannot.
-    notes : tuple of str
-        What stands below the drawing.
-    """
-
-    box: tuple[float, float, float, float]
-    text_size: float
-    strokes: tuple[Stroke, ...]
-    labels: tuple[Label, ...]
-    alt: str
-    notes: tuple[str, ...]
+    box: tuple[float, float, float, float]  # left, top, width and height [mm], y downwards
+    text_size: float  # height of letters [mm]
+    strokes: tuple[Stroke, ...]  # drawn in this order
+    labels: tuple[Label, ...]  # drawn above them
+    alt: str  # what there is to see, for those who cannot
+    notes: tuple[str, ...]  # what stands below the drawing
 
 
 def line(points: ArrayLike, closed: bool = False) -> str:
     """Return path data through points.
-
-    Parameters
-    ----------
-    points : array_like
-        x and y, y upwards [mm], shape (n, 2).
-    closed : bool
-        Whether the last one leads back to the first.
-
-    Returns
-    -------
-    str
-        SVG path data.
 
     Examples
     --------
@@ -105,18 +62,6 @@ def line(points: ArrayLike, closed: bool = False) -> str:
 def circle(x: float, y: float, radius: float) -> str:
     """Return path data of a circle.
 
-    Parameters
-    ----------
-    x, y : float
-        Its centre, y upwards [mm].
-    radius : float
-        Its radius [mm].
-
-    Returns
-    -------
-    str
-        SVG path data.
-
     Examples
     --------
     >>> circle(0.0, 0.0, 5.0)
@@ -128,42 +73,14 @@ def circle(x: float, y: float, radius: float) -> str:
 
 
 def turn_arrow(x: float, y: float, radius: float, sense: int) -> str:
-    """Return path data of an arrow that turns around a point.
-
-    Parameters
-    ----------
-    x, y : float
-        The point, y upwards [mm].
-    radius : float
-        Of the arrow [mm].
-    sense : int
-        1 for anticlockwise, -1 for clockwise.
-
-    Returns
-    -------
-    str
-        SVG path data.
-    """
+    """Return path data of an arrow that turns around a point."""
     angles = sense * np.radians(np.linspace(-150.0, 60.0, 29)) + 0.5 * math.pi
     arc = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
     return line(arc) + _head(arc[-1], arc[-1] - arc[-3], 0.3 * radius)
 
 
 def straight_arrow(start: tuple[float, float], end: tuple[float, float], head: float) -> str:
-    """Return path data of a straight arrow.
-
-    Parameters
-    ----------
-    start, end : tuple of float
-        From where to where, y upwards [mm].
-    head : float
-        Length of its head [mm].
-
-    Returns
-    -------
-    str
-        SVG path data.
-    """
+    """Return path data of a straight arrow."""
     way = np.subtract(end, start)
     return line([start, end]) + _head(np.asarray(end, dtype=float), way, head)
 
@@ -176,18 +93,7 @@ def _head(tip: Vector, way: Vector, length: float) -> str:
 
 
 def scaled(sketch: Sketch) -> Sketch:
-    """Return a sketch with a margin, a bar of round length below it and letters that fit.
-
-    Parameters
-    ----------
-    sketch : Sketch
-        With the box of what is drawn.
-
-    Returns
-    -------
-    Sketch
-        The same with more around it.
-    """
+    """Return a sketch with a margin, a bar of round length below it and letters that fit."""
     left, top, width, height = sketch.box
     edge = _MARGIN * width
     text = text_size(sketch.box)
@@ -207,33 +113,12 @@ def scaled(sketch: Sketch) -> Sketch:
 
 
 def text_size(box: tuple[float, float, float, float]) -> float:
-    """Return the height of letters in a sketch.
-
-    Parameters
-    ----------
-    box : tuple of float
-        Of what is drawn: left, top, width and height [mm].
-
-    Returns
-    -------
-    float
-        Height [mm].
-    """
+    """Return the height of letters in a sketch."""
     return _TEXT * (1.0 + 2.0 * _MARGIN) * box[2]
 
 
 def round_length(length: float) -> float:
     """Return the largest of 1, 2, 5, 10, 20, ... that is not above a length.
-
-    Parameters
-    ----------
-    length : float
-        Above 0 [mm].
-
-    Returns
-    -------
-    float
-        Such as 50 for 99.
 
     Examples
     --------
@@ -245,18 +130,7 @@ def round_length(length: float) -> float:
 
 
 def around(circles: Sequence[tuple[float, float, float]]) -> tuple[float, float, float, float]:
-    """Return the box around circles.
-
-    Parameters
-    ----------
-    circles : sequence of tuple of float
-        x, y (upwards) and radius of each [mm].
-
-    Returns
-    -------
-    tuple of float
-        Left, top, width and height, y downwards [mm].
-    """
+    """Return the box around circles."""
     left, right = min(x - r for x, _, r in circles), max(x + r for x, _, r in circles)
     low, high = min(y - r for _, y, r in circles), max(y + r for _, y, r in circles)
     return left, -high, right - left, high - low

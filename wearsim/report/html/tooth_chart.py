@@ -16,18 +16,7 @@ _AROUND = 0.22
 
 
 def tooth_charts(result: WearResult) -> list[Chart]:
-    """Return the flank worn to the end of the life, of gears those of both wheels.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    list of Chart
-        One or two, each with its slider, whose points the script of the page fills in.
-    """
+    """Return the flank worn to the end of the life, of gears those of both wheels."""
     flanks = flanks_of_life(result)
     around = [*_body(result), _mate(result, flanks[0])]
     return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]

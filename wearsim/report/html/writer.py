@@ -22,31 +22,7 @@ _SCRIPT = "plotly.min.js"
 def save_report(
     results: Sequence[WearResult], folder: Path, force: bool, single_file: bool, detail: str
 ) -> list[str]:
-    """Write a page for each result, and one that compares them where there are several.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one.
-    folder : pathlib.Path
-        New folder.
-    force : bool
-        Replace a folder that is there.
-    single_file : bool
-        Whether every page holds the script of its charts; else it stands beside them.
-    detail : str
-        ``brief`` or ``full``.
-
-    Returns
-    -------
-    list of str
-        Names of the pages, ``index.html`` first.
-
-    Raises
-    ------
-    OutputError
-        Something is in the way.
-    """
+    """Write a page for each result, and one that compares them where there are several."""
     names = page_names([result.case for result in results])
     brief = detail == "brief"
     pages = {
@@ -68,31 +44,10 @@ def save_report(
 
 
 def render(template: str, page: Any, single_file: bool, several: bool) -> str:
-    """Return a page as HTML.
-
-    Parameters
-    ----------
-    template : str
-        File of the template.
-    page : DrivePage or ComparisonPage
-        What stands on it.
-    single_file : bool
-        Whether it holds the script of its charts.
-    several : bool
-        Whether there are other pages to lead to.
-
-    Returns
-    -------
-    str
-        The page; what users wrote is escaped.
-    """
+    """Return a page as HTML."""
     loader = FileSystemLoader(_HERE / "templates")
     environment = Environment(
-        loader=loader,
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     environment.filters["kept"] = kept
     own = (_HERE / "report.js").read_text(encoding="utf-8")
@@ -116,16 +71,6 @@ def render(template: str, page: Any, single_file: bool, several: bool) -> str:
 def kept(text: str) -> str:
     """Return a text whose numbers do not break off their groups and units.
 
-    Parameters
-    ----------
-    text : str
-        Such as ``21 090 h``.
-
-    Returns
-    -------
-    str
-        With no-break spaces.
-
     Examples
     --------
     >>> kept("until 21 090 h").encode("ascii", "replace")
@@ -136,16 +81,6 @@ def kept(text: str) -> str:
 
 def page_names(cases: Sequence[str]) -> list[str]:
     """Return names of files for cases, all different whatever the file system makes of capitals.
-
-    Parameters
-    ----------
-    cases : sequence of str
-        Names of the cases.
-
-    Returns
-    -------
-    list of str
-        Letters, digits, dots, hyphens and underscores only; never ``index``.
 
     Examples
     --------

@@ -18,22 +18,7 @@ _FIRST_CHART_ROW = 1
 
 
 def check_workbook(path: Path, force: bool) -> None:
-    """Raise where a workbook could not be written, before anything is calculated.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Place of the file.
-    force : bool
-        Whether it may be replaced.
-
-    Raises
-    ------
-    OutputError
-        It has another ending than ``.xlsx``, or something is in the way.
-    CaseError
-        XlsxWriter is not installed.
-    """
+    """Raise where a workbook could not be written, before anything is calculated."""
     if path.suffix.lower() != ".xlsx":
         raise OutputError(f"{path}: must end in .xlsx, or no program opens it: give such a name")
     check_free(path, force)
@@ -41,24 +26,7 @@ def check_workbook(path: Path, force: bool) -> None:
 
 
 def workbook(results: Sequence[WearResult]) -> bytes:
-    """Return results as a workbook.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one; titles are the labels.
-
-    Returns
-    -------
-    bytes
-        What the file holds: the answer or comparison with charts, a sheet for each result
-        with its history and its last flank, all inputs.
-
-    Raises
-    ------
-    CaseError
-        XlsxWriter is not installed.
-    """
+    """Return results as a workbook."""
     title = "; ".join(result.title for result in results)
     book = Book(library("xlsxwriter", "report", "--xlsx"), title)
     first, inputs = "Answer" if len(results) == 1 else "Comparison", "Inputs"
@@ -75,23 +43,6 @@ def workbook(results: Sequence[WearResult]) -> bytes:
 
 
 def save_workbook(results: Sequence[WearResult], path: Path, force: bool) -> None:
-    """Write results into a workbook, all of it or nothing.
-
-    Parameters
-    ----------
-    results : sequence of WearResult
-        At least one; titles are the labels.
-    path : pathlib.Path
-        Place of the file.
-    force : bool
-        Replace what is there.
-
-    Raises
-    ------
-    OutputError
-        It has another ending than ``.xlsx``, something is in the way, or it cannot be written.
-    CaseError
-        XlsxWriter is not installed.
-    """
+    """Write results into a workbook, all of it or nothing."""
     check_workbook(path, force)
     write_file(path, workbook(results), force)

@@ -4,23 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import (
-    JUMPING,
-    governing_text,
-    hours,
-    limit_name,
-    limit_state,
-    overload_text,
-)
+from wearsim.report.answer import JUMPING, governing_text, hours, limit_name, limit_state, overload_text
 from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.rating import rule
 from wearsim.report.service import life_json
 from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
 from wearsim.result import Life, WearResult
 
-_NOT_SHOWN = (
-    "schema_version", "title", "limits", "overloaded", "ratings", "assumptions", "warnings",
-)  # fmt: skip
+_NOT_SHOWN = ("schema_version", "title", "limits", "overloaded", "ratings", "assumptions", "warnings")
 _LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
 _FIRST_VALUE = 2
 _BOLD = ("life", "overloaded", "life_hours")
@@ -48,26 +39,7 @@ _MEANINGS = {
 def write_answer_page(
     book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]
 ) -> tuple[Page, int]:
-    """Write the first sheet: a row for every quantity, a column for every result.
-
-    Parameters
-    ----------
-    book : Book
-        The workbook.
-    name : str
-        Of the sheet.
-    results : sequence of WearResult
-        At least one.
-    labels : sequence of str
-        Name of each result, that of its sheet.
-
-    Returns
-    -------
-    Page
-        The sheet.
-    int
-        First free column.
-    """
+    """Write the first sheet: a row for every quantity, a column for every result."""
     page = Page(book, name)
     meaning = _FIRST_VALUE + len(results)
     for column, width in enumerate([_LABEL, _UNIT, *[_VALUE] * len(results), _MEANING]):
@@ -122,9 +94,7 @@ def _write_rows(page: Page, row: int, rows: Mapping[str, list[Any]]) -> int:
     return row
 
 
-def _write_row(
-    page: Page, row: int, label: str, unit: str, values: Sequence[Any], meaning: str
-) -> None:
+def _write_row(page: Page, row: int, label: str, unit: str, values: Sequence[Any], meaning: str) -> None:
     style: dict[str, Any] = {"valign": "top", "text_wrap": True}
     page.put(row, 0, label, **style)
     page.put(row, 1, unit, **style)
@@ -174,12 +144,7 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
                 for state, result in zip(chosen, results, strict=True)
             ]
             _write_row(
-                page,
-                row + 1,
-                f"{name}, in words",
-                "",
-                told,
-                "how sure it is that the chain does not jump",
+                page, row + 1, f"{name}, in words", "", told, "how sure it is that the chain does not jump"
             )
             row += 1
     return row + 1
@@ -201,10 +166,7 @@ def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
         margins = [finding.margin if finding else None for finding in chosen]
         side = "least" if first.at_least else "most"
         _write_row(page, row + 1, name, first.unit, values, f"{name} by {'; '.join(rules)}")
-        allowed, left = (
-            f"{name}: the {side} that the rule allows",
-            f"{name}: what is left, below 0 outside",
-        )
+        allowed, left = (f"{name}: the {side} that the rule allows", f"{name}: what is left, below 0 outside")
         _write_row(page, row + 2, f"{name}, allowed", first.unit, limits, allowed)
         _write_row(page, row + 3, f"{name}, margin", first.unit, margins, left)
         row += 3
@@ -224,16 +186,10 @@ def _warnings(results: Sequence[WearResult], labels: Sequence[str]) -> list[tupl
 
 def _pairs(labels: Sequence[str], texts: Sequence[Sequence[str]]) -> list[tuple[str, str]]:
     """Give each sentence with the name of its result."""
-    return [
-        (label, text)
-        for label, found in zip(labels, texts, strict=True)
-        for text in found or ("none",)
-    ]
+    return [(label, text) for label, found in zip(labels, texts, strict=True) for text in found or ("none",)]
 
 
-def _write_texts(
-    page: Page, row: int, title: str, texts: Sequence[tuple[str, str]], last_column: int
-) -> int:
+def _write_texts(page: Page, row: int, title: str, texts: Sequence[tuple[str, str]], last_column: int) -> int:
     """Write sentences under each other, each beside the case that it belongs to."""
     _write_section(page, row, title, last_column)
     width = _UNIT + _VALUE * (last_column - _FIRST_VALUE) + _MEANING

@@ -22,16 +22,6 @@ _MOST_LINES = 27
 def number_format(values: Iterable[Any]) -> str:
     """Return the format of Excel that shows the numbers of a column with five digits.
 
-    Parameters
-    ----------
-    values : iterable
-        Cells of the column; what is no finite number does not count.
-
-    Returns
-    -------
-    str
-        Such as ``#,##0.0``; with a power of ten below 0.001 and from ten million on.
-
     Examples
     --------
     >>> number_format([0.0, 2712.99]), number_format([0.2]), number_format([1, 2, 3])
@@ -57,15 +47,7 @@ def _is_number(value: Any) -> bool:
 
 
 class Page:
-    """A sheet.
-
-    Parameters
-    ----------
-    book : Book
-        The workbook.
-    name : str
-        Of the sheet.
-    """
+    """A sheet."""
 
     def __init__(self, book: "Book", name: str) -> None:
         self.book = book
@@ -77,17 +59,7 @@ class Page:
         self.sheet.set_footer("&L&F: &A&RPage &P of &N")
 
     def put(self, row: int, column: int, value: Any, **style: Any) -> None:
-        """Write a cell: a number as a number, a text as a text whatever it looks like.
-
-        Parameters
-        ----------
-        row, column : int
-            From 0.
-        value : float, int, bool, str or None
-            None, nan and an empty text leave the cell empty, infinity is a text.
-        **style
-            Properties of the cell's format.
-        """
+        """Write a cell: a number as a number, a text as a text whatever it looks like."""
         form = self.book.style(**style)
         if value is None or value != value or value == "":
             self.sheet.write_blank(row, column, None, form)
@@ -103,59 +75,25 @@ class Page:
             self.sheet.write_string(row, column, shown, form)
 
     def paragraph(self, row: int, columns: tuple[int, int], text: str, width: float) -> None:
-        """Write a text over several columns, the row as high as it needs.
-
-        Parameters
-        ----------
-        row : int
-            From 0.
-        columns : tuple of int
-            First and last.
-        text : str
-            The text.
-        width : float
-            Of these columns together.
-        """
+        """Write a text over several columns, the row as high as it needs."""
         form = self.book.style(text_wrap=True, valign="top")
         self.sheet.merge_range(row, columns[0], row, columns[1], "", form)
         self.put(row, columns[0], text, text_wrap=True, valign="top")
         self.fit_height(row, [(text, width)])
 
     def fit_height(self, row: int, texts: Iterable[tuple[str, float]]) -> None:
-        """Make a row as high as the texts in it need when they are folded.
-
-        Parameters
-        ----------
-        row : int
-            From 0.
-        texts : iterable of tuple
-            Each text with the width of its cell.
-        """
+        """Make a row as high as the texts in it need when they are folded."""
         lines = [math.ceil(len(text) / (_CHARACTERS_PER_LINE * width)) for text, width in texts]
         self.sheet.set_row(row, _LINE_POINTS * min(max([1, *lines]), _MOST_LINES))
 
     def freeze(self, rows: int, columns: int = 0) -> None:
-        """Keep the header in sight, on the screen and on every printed page.
-
-        Parameters
-        ----------
-        rows, columns : int
-            How many of each.
-        """
+        """Keep the header in sight, on the screen and on every printed page."""
         self.sheet.freeze_panes(rows, columns)
         self.sheet.repeat_rows(0, rows - 1)
 
 
 class Book:
-    """A workbook in memory.
-
-    Parameters
-    ----------
-    library : module
-        xlsxwriter.
-    title : str
-        Of the document.
-    """
+    """A workbook in memory."""
 
     def __init__(self, library: Any, title: str) -> None:
         self._memory = io.BytesIO()
@@ -173,38 +111,25 @@ class Book:
         self._styles: dict[tuple[tuple[str, Any], ...], Any] = {}
 
     def style(self, **properties: Any) -> Any:
-        """Return a format of cells, the same object for the same properties.
-
-        Parameters
-        ----------
-        **properties
-            Of the format.
-
-        Returns
-        -------
-        xlsxwriter.format.Format
-            The format.
-        """
+        """Return a format of cells, the same object for the same properties."""
         key = tuple(sorted(properties.items()))
         if key not in self._styles:
             self._styles[key] = self.file.add_format(properties)
         return self._styles[key]
 
     def content(self) -> bytes:
-        """Close the workbook.
-
-        Returns
-        -------
-        bytes
-            What the file holds.
-        """
+        """Close the workbook."""
         self.file.close()
         return self._memory.getvalue()
 
 
 HEADER: dict[str, Any] = {
-    "bold": True, "bg_color": "#DCE6F1", "bottom": 1, "text_wrap": True, "valign": "top",
-}  # fmt: skip
+    "bold": True,
+    "bg_color": "#DCE6F1",
+    "bottom": 1,
+    "text_wrap": True,
+    "valign": "top",
+}
 """Style of the cells that stay in sight."""
 
 SECTION: dict[str, Any] = {"bold": True, "bg_color": "#F2F2F2"}

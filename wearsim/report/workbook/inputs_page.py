@@ -7,28 +7,12 @@ from wearsim.case.origin import InputRow, input_rows
 from wearsim.report.workbook.book import HEADER, Book, Page, number_format
 from wearsim.result import WearResult
 
-_COLUMNS = {
-    "case": 20, "key": 40, "value": 22, "unit": 12, "origin": 10, "why or source": 60, "meaning": 60,
-}  # fmt: skip
+_COLUMNS = {"case": 20, "key": 40, "value": 22, "unit": 12, "origin": 10, "why or source": 60, "meaning": 60}
 _UNIT = list(_COLUMNS).index("unit")
 
 
-def write_inputs_page(
-    book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]
-) -> None:
-    """Write the sheet of inputs, a row for every key of every case.
-
-    Parameters
-    ----------
-    book : Book
-        The workbook.
-    name : str
-        Of the sheet.
-    results : sequence of WearResult
-        At least one.
-    labels : sequence of str
-        Name of each result, that of its sheet.
-    """
+def write_inputs_page(book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]) -> None:
+    """Write the sheet of inputs, a row for every key of every case."""
     page = Page(book, name)
     for column, (title, width) in enumerate(_COLUMNS.items()):
         page.sheet.set_column(column, column, width)

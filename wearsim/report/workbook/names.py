@@ -9,36 +9,12 @@ _FORBIDDEN = re.compile(r"[\[\]:*?/\\\t\n]")
 
 
 def clean(text: str) -> str:
-    """Return a text without what no XML file can hold.
-
-    Parameters
-    ----------
-    text : str
-        Any text.
-
-    Returns
-    -------
-    str
-        Control characters and halves of characters replaced.
-    """
+    """Return a text without what no XML file can hold."""
     return _NOT_IN_XML.sub("\ufffd", text)
 
 
 def sheet_names(names: Sequence[str], taken: Iterable[str] = ()) -> list[str]:
     r"""Return names of sheets.
-
-    Parameters
-    ----------
-    names : sequence of str
-        What the sheets should be called.
-    taken : iterable of str
-        Names that other sheets have.
-
-    Returns
-    -------
-    list of str
-        At most 31 characters each, no two alike but for capitals, none with ``[]:*?/\`` or an
-        apostrophe at an end, none that Excel keeps for itself.
 
     Examples
     --------

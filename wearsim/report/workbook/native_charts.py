@@ -15,19 +15,7 @@ _STEP = 360
 
 
 def add_charts(book: Book, page: Page, places: Sequence[ResultPlaces], at: tuple[int, int]) -> None:
-    """Put the charts of results under each other.
-
-    Parameters
-    ----------
-    book : Book
-        The workbook.
-    page : Page
-        Sheet to put them on.
-    places : sequence of ResultPlaces
-        Where the numbers stand; a line for each result.
-    at : tuple of int
-        Row and column of the corner of the first chart.
-    """
+    """Put the charts of results under each other."""
     for number, chart in enumerate(_charts(book, places)):
         page.sheet.insert_chart(*at, chart, {"object_position": 2, "y_offset": number * _STEP})
 
@@ -41,11 +29,10 @@ def _charts(book: Book, places: Sequence[ResultPlaces]) -> list[Any]:
         ),
         _chart(
             book,
-            ("Depth along the flank at the end of the run", "length along the unworn flank, mm",
-             "depth, mm"),
+            ("Depth along the flank at the end of the run", "length along the unworn flank, mm", "depth, mm"),
             [line for one in places for line in _along_flank(one)],
         ),
-    ]  # fmt: skip
+    ]
     longer = [one for one in places if "elongation_percent" in one.history.columns]
     if longer:
         titles = ("Elongation of the chain in use", "running time, h", "elongation, %")
@@ -66,12 +53,7 @@ def _along_flank(one: ResultPlaces) -> list[dict[str, Any]]:
 
 
 def _line(
-    one: ResultPlaces,
-    place: Place,
-    x: str,
-    y: str,
-    part: str = "",
-    rows: tuple[int, int] | None = None,
+    one: ResultPlaces, place: Place, x: str, y: str, part: str = "", rows: tuple[int, int] | None = None
 ) -> dict[str, Any]:
     return {
         "name": _legend(one.title, part),

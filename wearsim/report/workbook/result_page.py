@@ -16,38 +16,15 @@ _NARROWEST = 11
 
 @dataclass(frozen=True)
 class Place:
-    """Where the columns of a table stand.
+    """Where the columns of a table stand."""
 
-    Attributes
-    ----------
-    sheet : str
-        Name of the sheet.
-    columns : mapping of str to int
-        Column of each name, from 0.
-    first, last : int
-        Rows of its cells, from 0.
-    """
-
-    sheet: str
-    columns: Mapping[str, int]
-    first: int
-    last: int
+    sheet: str  # name of the sheet
+    columns: Mapping[str, int]  # column of each name, from 0
+    first: int  # rows of its cells, from 0
+    last: int  # rows of its cells, from 0
 
     def cells(self, name: str, part: tuple[int, int] | None = None) -> list[Any]:
-        """Return the cells of a column as a chart takes them.
-
-        Parameters
-        ----------
-        name : str
-            Of the column.
-        part : tuple of int, optional
-            First and last row of a part of it, counted within the table.
-
-        Returns
-        -------
-        list
-            Sheet, first row, column, last row, column.
-        """
+        """Return the cells of a column as a chart takes them."""
         first, last = part or (0, self.last - self.first)
         column = self.columns[name]
         return [self.sheet, self.first + first, column, self.first + last, column]
@@ -55,47 +32,19 @@ class Place:
 
 @dataclass(frozen=True)
 class ResultPlaces:
-    """Where the tables of a result stand.
+    """Where the tables of a result stand."""
 
-    Attributes
-    ----------
-    title : str
-        Of the result.
-    history, flank : Place
-        The tables.
-    parts : tuple
-        Name, first and last row of every gap of the last flank; one without a name where all
-        gaps are alike.
-    right : int
-        First free column.
-    """
-
-    title: str
-    history: Place
-    flank: Place
+    title: str  # of the result
+    history: Place  # the tables
+    flank: Place  # the tables
+    # name, first and last row of every gap of the last flank; one without a name where all gaps are
+    # alike
     parts: tuple[tuple[str, tuple[int, int]], ...]
-    right: int
+    right: int  # first free column
 
 
 def write_result_page(book: Book, name: str, result: WearResult) -> tuple[Page, ResultPlaces]:
-    """Write the sheet of a result.
-
-    Parameters
-    ----------
-    book : Book
-        The workbook.
-    name : str
-        Of the sheet.
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    Page
-        The sheet.
-    ResultPlaces
-        Where its tables stand.
-    """
+    """Write the sheet of a result."""
     page = Page(book, name)
     last = last_flank(result)
     history = _write_table(page, 0, "history: the run over time", result.history_columns)
@@ -110,18 +59,7 @@ def write_result_page(book: Book, name: str, result: WearResult) -> tuple[Page, 
 
 
 def last_flank(result: WearResult) -> dict[str, Any]:
-    """Return the columns of the flank at the end of the run.
-
-    Parameters
-    ----------
-    result : WearResult
-        The result.
-
-    Returns
-    -------
-    dict
-        Arrays by the names of flank.csv.
-    """
+    """Return the columns of the flank at the end of the run."""
     cycles = result.flank_columns["cycles"]
     at_end = cycles == cycles[-1]
     return {name: np.asarray(values)[at_end] for name, values in result.flank_columns.items()}
@@ -150,6 +88,5 @@ def _gaps(flank: Mapping[str, Any]) -> tuple[tuple[str, tuple[int, int]], ...]:
     kinds = flank.get("gap_kind", np.ones(rows, dtype=int))
     found = [(int(kind), np.flatnonzero(kinds == kind)) for kind in np.unique(kinds)]
     return tuple(
-        (f"gap {kind}" if len(found) > 1 else "", (int(rows[0]), int(rows[-1])))
-        for kind, rows in found
+        (f"gap {kind}" if len(found) > 1 else "", (int(rows[0]), int(rows[-1]))) for kind, rows in found
     )

@@ -12,66 +12,32 @@ from wearsim.study.calibrate.observe import Shown
 
 @dataclass(frozen=True)
 class Options:
-    """How readings are fitted.
+    """How readings are fitted."""
 
-    Attributes
-    ----------
-    shapes : tuple of str
-        Keys that are fitted besides the coefficients.
-    freedom : str
-        How profiles may be moved: ``none``, ``turn`` or ``free``.
-    cutoff : float
-        Cut-off wavelength of their filter [mm].
-    confidence : float
-        Of the intervals.
-    """
-
-    shapes: tuple[str, ...] = ()
-    freedom: Freedom = "turn"
-    cutoff: float = 0.8
-    confidence: float = 0.9
+    shapes: tuple[str, ...] = ()  # keys that are fitted besides the coefficients
+    freedom: Freedom = "turn"  # how profiles may be moved: `none`, `turn` or `free`
+    cutoff: float = 0.8  # cut-off wavelength of their filter [mm]
+    confidence: float = 0.9  # of the intervals
 
 
 @dataclass(frozen=True)
 class Value:
-    """A value that was fitted.
+    """A value that was fitted."""
 
-    Attributes
-    ----------
-    key : str
-        Of the case.
-    value, given : float
-        Fitted, and in the case.
-    interval : Interval
-        By the profile of the likelihood.
-    """
-
-    key: str
-    value: float
-    given: float
-    interval: Interval
+    key: str  # of the case
+    value: float  # fitted, and in the case
+    given: float  # fitted, and in the case
+    interval: Interval  # by the profile of the likelihood
 
 
 @dataclass(frozen=True)
 class Part:
-    """What is left of the sprocket or of the chain.
+    """What is left of the sprocket or of the chain."""
 
-    Attributes
-    ----------
-    name : str
-        ``sprocket`` or ``chain``; ``pinion`` of gears.
-    hours : float
-        When it was read last [h].
-    life : float
-        In all [h].
-    interval : Interval
-        Of the life [h].
-    """
-
-    name: str
-    hours: float
-    life: float
-    interval: Interval
+    name: str  # `sprocket` or `chain`; `pinion` of gears
+    hours: float  # when it was read last [h]
+    life: float  # in all [h]
+    interval: Interval  # of the life [h]
 
     @property
     def remaining(self) -> float:
@@ -95,49 +61,20 @@ _NOTHING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """A case fitted to readings.
+    """A case fitted to readings."""
 
-    Attributes
-    ----------
-    case : Case
-        As it was given.
-    options : Options
-        How it was fitted.
-    values : tuple of Value
-        What was fitted.
-    parts : tuple of Part
-        What is left.
-    chi_square : float
-        Sum of squared residuals.
-    freedom : int
-        Its degrees of freedom.
-    scale : float
-        What the stated errors were multiplied by.
-    readings : int
-        Their number.
-    moves : tuple of (int, float, float, float)
-        Line of every profile, and how it was moved: turn [rad], shifts along x and y [mm].
-    shown : tuple of Shown
-        Every value beside its prediction.
-    runs : int
-        Runs of the case that were needed.
-    tables : mapping
-        Of the case with the fitted values, files by their whole paths.
-    assumptions, warnings : tuple of str
-        What was taken for granted, and what the user should look at.
-    """
-
-    case: Case
-    options: Options
-    values: tuple[Value, ...]
-    parts: tuple[Part, ...]
-    chi_square: float
-    freedom: int
-    scale: float
-    readings: int
+    case: Case  # as it was given
+    options: Options  # how it was fitted
+    values: tuple[Value, ...]  # what was fitted
+    parts: tuple[Part, ...]  # what is left
+    chi_square: float  # sum of squared residuals
+    freedom: int  # its degrees of freedom
+    scale: float  # what the stated errors were multiplied by
+    readings: int  # their number
+    # line of every profile, and how it was moved: turn [rad], shifts along x and y [mm]
     moves: tuple[tuple[int, float, float, float], ...]
-    shown: tuple[Shown, ...]
-    runs: int
-    tables: Mapping[str, Any]
-    assumptions: tuple[str, ...]
-    warnings: tuple[str, ...]
+    shown: tuple[Shown, ...]  # every value beside its prediction
+    runs: int  # runs of the case that were needed
+    tables: Mapping[str, Any]  # of the case with the fitted values, files by their whole paths
+    assumptions: tuple[str, ...]  # what was taken for granted, and what the user should look at
+    warnings: tuple[str, ...]  # what was taken for granted, and what the user should look at

@@ -42,31 +42,11 @@ _TRIED = 45
 
 
 class Fitting:
-    """The fit of one case.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    tables : mapping
-        Its tables, the wear coefficient by its own key.
-    readings : sequence of Reading
-        What was measured.
-    options : Options
-        How to fit.
-    file : str
-        That of the readings, for messages.
-
-    Raises
-    ------
-    CaseError
-        There are fewer readings than values, or one does not belong to the case.
-    """
+    """The fit of one case."""
 
     def __init__(
-        self, case: Case, tables: Mapping[str, Any], readings: Sequence[Reading], options: Options,
-        file: str,
-    ) -> None:  # fmt: skip
+        self, case: Case, tables: Mapping[str, Any], readings: Sequence[Reading], options: Options, file: str
+    ) -> None:
         self.tables = tables
         self.case, self.readings, self.options, self.file = case, readings, options, file
         chain = any(reading.quantity == ELONGATION for reading in readings)
@@ -93,20 +73,7 @@ class Fitting:
             raise CaseError([Fault(text, "", file)])
 
     def calibration(self) -> Calibration:
-        """Return the whole answer.
-
-        Returns
-        -------
-        Calibration
-            Values, hours left, and how well the readings are met.
-
-        Raises
-        ------
-        CaseError
-            A reading lies too far beyond the limit.
-        WearsimError
-            The case cannot be run.
-        """
+        """Return the whole answer."""
         found = self._fit()
         self._check_reached(found)
         values, correlation = self._values(found)
@@ -199,13 +166,10 @@ class Fitting:
     def _last(self, teeth: bool) -> float:
         """Hours of the last reading of the teeth or of the chain [h]."""
         return max(
-            (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth),
-            default=math.nan,
+            (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth), default=math.nan
         )
 
-    def _restated(
-        self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]
-    ) -> Problem:
+    def _restated(self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]) -> Problem:
         parameters, observations = self.parameters, self.observations
 
         def residuals(logs: Vector) -> Vector:
@@ -269,9 +233,7 @@ class Fitting:
         if self.parameters.teeth:
             interval = profile_interval(self._problem(), found, 0, self.options.confidence)
             name = "pinion" if "gear" in self.case.inputs else "sprocket"
-            parts.append(
-                Part(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0))
-            )
+            parts.append(Part(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0)))
         if self.parameters.chain:
             (joints,) = (value for value in values if value.key == JOINT)
             whole = self.chain_hours * joints.given

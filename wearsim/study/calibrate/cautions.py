@@ -26,31 +26,14 @@ _MANY = 0.25
 
 
 def doubts(
-    case: Case, values: Sequence[Value], correlation: Vector, found: Fitted,
-    observations: Sequence[Observation], freedom: int,
-) -> Iterator[str]:  # fmt: skip
-    """Give what is doubtful about a fit.
-
-    Parameters
-    ----------
-    case : Case
-        As it was given.
-    values : sequence of Value
-        What was fitted.
-    correlation : numpy.ndarray
-        Of their logarithms.
-    found : Fitted
-        The fit.
-    observations : sequence of Observation
-        The readings.
-    freedom : int
-        Degrees of freedom.
-
-    Yields
-    ------
-    str
-        What is wrong and what to do.
-    """
+    case: Case,
+    values: Sequence[Value],
+    correlation: Vector,
+    found: Fitted,
+    observations: Sequence[Observation],
+    freedom: int,
+) -> Iterator[str]:
+    """Give what is doubtful about a fit."""
     yield from _identifiability(values, correlation)
     yield from _residuals(found, freedom)
     if values[0].key.startswith("wear.") and not any(one.key in SHAPES for one in values):
@@ -88,8 +71,7 @@ def _identifiability(values: Sequence[Value], correlation: Vector) -> Iterator[s
     for value in judged:
         if _loose(value) and value.key not in told:
             yield (
-                f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the "
-                "case"
+                f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the case"
             )
 
 
@@ -118,22 +100,7 @@ def _residuals(found: Fitted, freedom: int) -> Iterator[str]:
 
 
 def of_runs(settled: bool, numerical_error: float, parts: Sequence[Part]) -> Iterator[str]:
-    """Give what is doubtful about the runs that readings were held against.
-
-    Parameters
-    ----------
-    settled : bool
-        Whether registration and the ratio of both coefficients go with the fit.
-    numerical_error : float
-        The largest of the runs.
-    parts : sequence of Part
-        Whose lives the intervals are of.
-
-    Yields
-    ------
-    str
-        What is wrong and what to do.
-    """
+    """Give what is doubtful about the runs that readings were held against."""
     if not settled:
         yield "the fit has not settled: its runs or the registration still change with it"
     for part in parts:

@@ -7,14 +7,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.study.calibrate.calibration import Options
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
 from wearsim.study.calibrate.predicted_history import Course
-from wearsim.study.calibrate.readings import (
-    DEEPEST,
-    ELONGATION,
-    OVER_PINS,
-    POINT,
-    PROFILE,
-    Reading,
-)
+from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE, Reading
 from wearsim.study.remaining.model import ambiguity
 
 _NONE, _FAR = 3.0, 5.0
@@ -22,28 +15,9 @@ _NONE, _FAR = 3.0, 5.0
 
 
 def check_readings(case: Case, readings: Sequence[Reading], options: Options, file: str) -> None:
-    """Raise where the case does not know what was measured or what is to be fitted.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    readings : sequence of Reading
-        What was measured.
-    options : Options
-        What is to be fitted.
-    file : str
-        That of the readings, for messages.
-
-    Raises
-    ------
-    CaseError
-        With every row and key.
-    """
+    """Raise where the case does not know what was measured or what is to be fitted."""
     faults = [
-        Fault(text, "", file, reading.row)
-        for reading in readings
-        for text in _not_known(case, reading)
+        Fault(text, "", file, reading.row) for reading in readings for text in _not_known(case, reading)
     ]
     for key in options.shapes:
         if key == EXPONENT and case.wear.law == "archard":
@@ -76,20 +50,7 @@ def _not_known(case: Case, reading: Reading) -> Iterator[str]:
 
 
 def faults_of(reading: Reading, new: Course) -> list[str]:
-    """Return what is wrong with a reading of the teeth.
-
-    Parameters
-    ----------
-    reading : Reading
-        What was measured.
-    new : Course
-        A run of the case.
-
-    Returns
-    -------
-    list of str
-        What must hold and what it is.
-    """
+    """Return what is wrong with a reading of the teeth."""
     found, kinds = [], new.kinds
     if reading.quantity in (POINT, PROFILE) and kinds > 1 and reading.gap_kind is None:
         found.append(

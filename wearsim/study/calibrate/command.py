@@ -15,35 +15,56 @@ if TYPE_CHECKING:
 @click.command(short_help="Fit coefficients to measurements; hours left with their band.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument(
-    "measurements", type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    metavar="MEASUREMENTS",
-)  # fmt: skip
+    "measurements", type=click.Path(path_type=Path, exists=True, dir_okay=False), metavar="MEASUREMENTS"
+)
 @click.option(
-    "--fit", "shapes", multiple=True, metavar="KEY",
+    "--fit",
+    "shapes",
+    multiple=True,
+    metavar="KEY",
     help="Fit this key too: wear.pressure_exponent, mechanism.roller_slip_fraction; may be repeated.",
-)  # fmt: skip
+)
 @click.option(
-    "--register", type=click.Choice(("turn", "free", "none")), default="turn", show_default=True,
+    "--register",
+    type=click.Choice(("turn", "free", "none")),
+    default="turn",
+    show_default=True,
     help="How a measured profile may be moved: turned about the axis, also shifted, not at all.",
-)  # fmt: skip
+)
 @click.option(
-    "--cutoff-mm", type=click.FloatRange(min=0.01, max=100.0), default=0.8, show_default=True,
-    metavar="MM", callback=finite, help="Cut-off wavelength of the filter of profiles.",
-)  # fmt: skip
+    "--cutoff-mm",
+    type=click.FloatRange(min=0.01, max=100.0),
+    default=0.8,
+    show_default=True,
+    metavar="MM",
+    callback=finite,
+    help="Cut-off wavelength of the filter of profiles.",
+)
 @click.option(
-    "--confidence", type=click.FloatRange(min=0.5, max=0.999), default=0.9, show_default=True,
-    callback=finite, help="Of the intervals.",
-)  # fmt: skip
+    "--confidence",
+    type=click.FloatRange(min=0.5, max=0.999),
+    default=0.9,
+    show_default=True,
+    callback=finite,
+    help="Of the intervals.",
+)
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @overrides
 @standard
 def calibrate(
-    case: Path, measurements: Path, shapes: tuple[str, ...], register: "Freedom",
-    cutoff_mm: float, confidence: float, out: Path | None, force: bool, as_json: bool,
+    case: Path,
+    measurements: Path,
+    shapes: tuple[str, ...],
+    register: "Freedom",
+    cutoff_mm: float,
+    confidence: float,
+    out: Path | None,
+    force: bool,
+    as_json: bool,
     settings: tuple[str, ...],
-) -> None:  # fmt: skip
+) -> None:
     """Fit the wear coefficients of CASE (.toml) to MEASUREMENTS (.csv), and tell the hours left.
 
     A row of the table is a reading: time_hours, quantity (max_depth_mm, depth_mm at
@@ -79,6 +100,4 @@ def _check_apart(out: Path, inputs: tuple[Path, ...]) -> None:
     """Raise where the folder to be replaced holds what is read."""
     for path in inputs:
         if path.resolve().is_relative_to(out.resolve()):
-            raise click.UsageError(
-                f"--out {out} must not be the folder of {path}: choose another place"
-            )
+            raise click.UsageError(f"--out {out} must not be the folder of {path}: choose another place")

@@ -24,19 +24,7 @@ _AXES = {
 
 
 def calibration_figures(found: Calibration) -> dict[str, Figure]:
-    """Return the pictures by file stem.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-
-    Returns
-    -------
-    dict
-        ``fit``: values with their errors beside the fit, a panel a quantity;
-        ``residuals`` over hours and against the normal distribution.
-    """
+    """Return the pictures by file stem."""
     figures = {"fit": _readings(found), "residuals": _residuals(found)}
     for figure in figures.values():
         figure.suptitle(literal(found.case.title), fontsize=10)
@@ -81,9 +69,16 @@ def _line(panel: Axes, x: list[float], line: list[Shown], colour: str, label: st
     start = [] if line[0].quantity == PROFILE else [0.0]
     panel.plot([*start, *x], [*start, *fitted], "-", color=colour, label=label)
     panel.errorbar(
-        x, [one.value for one in line], yerr=[one.error for one in line], fmt="o", markersize=4,
-        color=colour, capsize=3, linewidth=0.0, elinewidth=1.0,
-    )  # fmt: skip
+        x,
+        [one.value for one in line],
+        yerr=[one.error for one in line],
+        fmt="o",
+        markersize=4,
+        color=colour,
+        capsize=3,
+        linewidth=0.0,
+        elinewidth=1.0,
+    )
 
 
 def _residuals(found: Calibration) -> Figure:

@@ -20,15 +20,9 @@ _SPACING = 0.05
 
 @dataclass(frozen=True)
 class Blend:
-    """Courses of neighbouring values, taken together at equal parts of their lives.
+    """Courses of neighbouring values, taken together at equal parts of their lives."""
 
-    Attributes
-    ----------
-    shares : tuple of (float, Course)
-        They sum to 1.
-    """
-
-    shares: tuple[tuple[float, Course], ...]
+    shares: tuple[tuple[float, Course], ...]  # they sum to 1
 
     @property
     def hours(self) -> float:
@@ -41,43 +35,20 @@ class Blend:
         return self.shares[0][1]
 
     def mean(self, take: Callable[[Course], Taken]) -> Taken:
-        """Return what all of them say, by their shares.
-
-        Parameters
-        ----------
-        take : callable
-            What one course says, a number or an array.
-
-        Returns
-        -------
-        float or numpy.ndarray
-            As one of them.
-        """
+        """Return what all of them say, by their shares."""
         return sum(share * take(one) for share, one in self.shares)  # type: ignore[return-value]
 
 
 @dataclass(frozen=True)
 class Log:
-    """The logarithm of a factor on a value, with the ends of it that are allowed.
+    """The logarithm of a factor on a value, with the ends of it that are allowed."""
 
-    Attributes
-    ----------
-    value, low, high : float
-        The logarithm, from low to high.
-    """
-
-    value: float
-    low: float
-    high: float
+    value: float  # the logarithm, from low to high
+    low: float  # the logarithm, from low to high
+    high: float  # the logarithm, from low to high
 
     def nodes(self) -> list[tuple[float, float]]:
-        """Return the logarithms that are run beside it, with their shares.
-
-        Returns
-        -------
-        list of (float, float)
-            Shares of sum 1 and multiples of the spacing, or ends.
-        """
+        """Return the logarithms that are run beside it, with their shares."""
         below = math.floor(self.value / _SPACING)
         ends = [max(_SPACING * below, self.low), min(_SPACING * (below + 1), self.high)]
         if self.value <= ends[0]:
@@ -93,11 +64,6 @@ class Courses:
 
     They are run for the values of the case times powers of exp(0.05); in between they are
     interpolated, which for the depth of a point is good to 1e-4 of it.
-
-    Parameters
-    ----------
-    tables : mapping
-        Of the case.
     """
 
     def __init__(self, tables: Mapping[str, Any]) -> None:
@@ -115,25 +81,7 @@ class Courses:
         return max((one.result.numerical_error for one in self._found.values()), default=0.0)
 
     def blend(self, given: Mapping[str, float], logs: Mapping[str, Log]) -> Blend:
-        """Return the course with other values of some keys.
-
-        Parameters
-        ----------
-        given : mapping of str to float
-            Values by dotted key.
-        logs : mapping of str to Log
-            Factors on some of them.
-
-        Returns
-        -------
-        Blend
-            Of two courses for every logarithm between the powers.
-
-        Raises
-        ------
-        WearsimError
-            The case cannot be run with them.
-        """
+        """Return the course with other values of some keys."""
         corners: list[tuple[float, dict[str, float]]] = [(1.0, dict(given))]
         for key, log in logs.items():
             corners = [

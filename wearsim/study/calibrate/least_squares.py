@@ -25,65 +25,35 @@ _UNLIKELY = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Residuals of normal errors of size 1 to be made small.
+    """Residuals of normal errors of size 1 to be made small."""
 
-    Attributes
-    ----------
-    residuals : callable
-        Of the parameters, shape (n,).
-    low, high : numpy.ndarray
-        Bounds of the parameters, shape (p,).
-    freedom : int
-        Degrees of freedom: readings that tell something less the parameters.
-    """
-
-    residuals: Residuals
-    low: Vector
-    high: Vector
-    freedom: int
+    residuals: Residuals  # of the parameters, shape (n,)
+    low: Vector  # bounds of the parameters, shape (p,)
+    high: Vector  # bounds of the parameters, shape (p,)
+    freedom: int  # degrees of freedom: readings that tell something less the parameters
 
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """The most likely parameters.
+    """The most likely parameters."""
 
-    Attributes
-    ----------
-    point : numpy.ndarray
-        The parameters, shape (p,).
-    chi_square : float
-        Sum of squared residuals.
-    scale : float
-        What errors are multiplied by: 1, or more where the residuals are too large for chance.
-    covariance : numpy.ndarray
-        Of the parameters by the linear theory, shape (p, p), inf where the data say nothing.
-    correlation : numpy.ndarray
-        The same as correlations.
-    """
-
-    point: Vector
-    chi_square: float
+    point: Vector  # the parameters, shape (p,)
+    chi_square: float  # sum of squared residuals
+    # what errors are multiplied by: 1, or more where the residuals are too large for chance
     scale: float
+    # of the parameters by the linear theory, shape (p, p), inf where the data say nothing
     covariance: Vector
-    correlation: Vector
+    correlation: Vector  # the same as correlations
 
 
 @dataclass(frozen=True)
 class Interval:
-    """What a parameter can be.
+    """What a parameter can be."""
 
-    Attributes
-    ----------
-    low, high : float
-        Ends.
-    low_known, high_known : bool
-        False where the end is only the bound that the parameter was searched within.
-    """
-
-    low: float
-    high: float
-    low_known: bool
-    high_known: bool
+    low: float  # ends
+    high: float  # ends
+    low_known: bool  # false where the end is only the bound that the parameter was searched within
+    high_known: bool  # false where the end is only the bound that the parameter was searched within
 
     @property
     def known(self) -> bool:
@@ -91,52 +61,17 @@ class Interval:
         return self.low_known and self.high_known
 
     def scaled(self, start: float) -> "Interval":
-        """Return the interval of a value of which this one is that of the logarithm.
-
-        Parameters
-        ----------
-        start : float
-            The value where the logarithm is 0.
-
-        Returns
-        -------
-        Interval
-            Of start times the exponential.
-        """
+        """Return the interval of a value of which this one is that of the logarithm."""
         low, high = start * math.exp(self.low), start * math.exp(self.high)
         return Interval(low, high, self.low_known, self.high_known)
 
     def inverse(self, whole: float) -> "Interval":
-        """Return the interval of a value that is inverse to this one.
-
-        Parameters
-        ----------
-        whole : float
-            Product of both.
-
-        Returns
-        -------
-        Interval
-            Of whole over the value.
-        """
+        """Return the interval of a value that is inverse to this one."""
         return Interval(whole / self.high, whole / self.low, self.high_known, self.low_known)
 
 
 def fit(problem: Problem, start: Vector) -> Fitted:
     """Return the parameters of least squares within their bounds.
-
-    Parameters
-    ----------
-    problem : Problem
-        The residuals.
-    start : numpy.ndarray
-        Parameters to start from, shape (p,).
-
-    Returns
-    -------
-    Fitted
-        The minimum that is reached from there. Where the sum of squares is larger than chance
-        gives in one of a hundred cases, all errors are scaled so that it is what is expected.
 
     Examples
     --------
@@ -152,28 +87,13 @@ def fit(problem: Problem, start: Vector) -> Fitted:
 
 
 def stated_at(problem: Problem, point: Vector) -> Fitted:
-    """Return the most likely parameters, where they are known already.
-
-    Parameters
-    ----------
-    problem : Problem
-        The residuals, perhaps over other parameters than those that were fitted.
-    point : numpy.ndarray
-        The minimum, shape (p,).
-
-    Returns
-    -------
-    Fitted
-        With errors and correlations there.
-    """
+    """Return the most likely parameters, where they are known already."""
     residuals = problem.residuals(point)
     square = float(residuals @ residuals)
     scale = 1.0
     if problem.freedom > 0 and chi2.sf(square, problem.freedom) < _UNLIKELY:
         scale = math.sqrt(square / problem.freedom)
-    covariance, correlation = _covariance(
-        _jacobian(problem.residuals, point, problem.low, problem.high)
-    )
+    covariance, correlation = _covariance(_jacobian(problem.residuals, point, problem.low, problem.high))
     return Fitted(point, square, scale, scale**2 * covariance, correlation)
 
 
@@ -183,22 +103,6 @@ def profile_interval(problem: Problem, found: Fitted, index: int, confidence: fl
     It holds all values for which the sum of squares, made as small as it can be by the other
     parameters, exceeds the smallest one by no more than the quantile of chi-square with one
     degree of freedom (Wilks' theorem).
-
-    Parameters
-    ----------
-    problem : Problem
-        The residuals.
-    found : Fitted
-        Their minimum.
-    index : int
-        Number of the parameter.
-    confidence : float
-        Such as 0.9.
-
-    Returns
-    -------
-    Interval
-        Within the bounds.
     """
     allowed = found.chi_square + float(chi2.ppf(confidence, 1)) * found.scale**2
     walk = _Walk(problem, found, index, allowed)
@@ -233,9 +137,7 @@ class _Walk:
             return self.problem.residuals(np.insert(others, self.index, value))
 
         if free.size:
-            self.others = _minimum(
-                residuals, self.others, self.problem.low[free], self.problem.high[free]
-            )
+            self.others = _minimum(residuals, self.others, self.problem.low[free], self.problem.high[free])
         left = residuals(self.others)
         return float(left @ left) - self.allowed
 
@@ -267,9 +169,16 @@ def _minimum(residuals: Residuals, start: Vector, low: Vector, high: Vector) -> 
     margin = 1e-3 * (high - low)
     inside = np.clip(start, low + margin, high - margin)
     found = least_squares(
-        residuals, inside, jac=jacobian, bounds=(low, high),
-        x_scale=1.0, xtol=1e-7, ftol=1e-10, gtol=1e-8, max_nfev=100,
-    )  # fmt: skip
+        residuals,
+        inside,
+        jac=jacobian,
+        bounds=(low, high),
+        x_scale=1.0,
+        xtol=1e-7,
+        ftol=1e-10,
+        gtol=1e-8,
+        max_nfev=100,
+    )
     return np.asarray(found.x)
 
 

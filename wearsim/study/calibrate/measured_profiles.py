@@ -15,37 +15,9 @@ from wearsim.study.calibrate.readings import PROFILE, Reading
 
 
 def observation(
-    reading: Reading,
-    new: Course | None,
-    freedom: Freedom,
-    cutoff: float,
-    state: State | None = None,
+    reading: Reading, new: Course | None, freedom: Freedom, cutoff: float, state: State | None = None
 ) -> Observation:
-    """Return a reading as something that a state can be held against.
-
-    Parameters
-    ----------
-    reading : Reading
-        The reading.
-    new : Course or None
-        Any run of the case, for its new flank; None where none is measured.
-    freedom : str
-        How a profile may be moved.
-    cutoff : float
-        Cut-off wavelength of the filter of profiles [mm].
-    state : State, optional
-        What is known of the wear, to register a profile by.
-
-    Returns
-    -------
-    Observation
-        Of one value, or of a smoothed profile.
-
-    Raises
-    ------
-    GeometryError
-        A profile does not lie on the flank.
-    """
+    """Return a reading as something that a state can be held against."""
     if reading.quantity != PROFILE:
         return Gauge(reading)
     assert new is not None
@@ -61,20 +33,11 @@ class Scan:
     The smoothed values v = W p of points p with independent errors sigma have the covariance
     sigma^2 W W^T = L L^T: residuals are L^-1 (W p_model - v), less what a movement of the
     points could explain.
-
-    Attributes
-    ----------
-    reading : Reading
-        The reading.
-    registered : Registered
-        Its points on the new flank.
-    cutoff : float
-        Cut-off wavelength [mm].
     """
 
-    reading: Reading
-    registered: Registered
-    cutoff: float
+    reading: Reading  # the reading
+    registered: Registered  # its points on the new flank
+    cutoff: float  # cut-off wavelength [mm]
 
     @cached_property
     def stations(self) -> Vector:
@@ -127,46 +90,19 @@ class Scan:
         return self._weights @ self.registered.recess, self._weights @ predicted
 
     def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        numpy.ndarray
-            Predicted less measured over the error.
-        """
+        """Return independent residuals of size 1."""
         measured, predicted = self._smoothed(state)
         whole = self._whiten(predicted - measured)
         return np.asarray(whole - self._explained @ (self._explained.T @ whole))
 
     def shown(self, state: State) -> list[Shown]:
-        """Return the smoothed values, moved as fits best, beside their predictions.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        list of Shown
-            One for each smoothed value.
-        """
+        """Return the smoothed values, moved as fits best, beside their predictions."""
         measured, predicted = self._smoothed(state)
         moves = self._weights @ self.registered.moves
-        moved = np.linalg.lstsq(
-            self._whiten(moves), self._whiten(predicted - measured), rcond=None
-        )[0]
+        moved = np.linalg.lstsq(self._whiten(moves), self._whiten(predicted - measured), rcond=None)[0]
         reading, columns = self.reading, (self.stations, measured + moves @ moved, predicted)
         rows = zip(*columns, self._errors, self.residuals(state), strict=True)
-        return [
-            Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row))
-            for row in rows
-        ]
+        return [Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row)) for row in rows]
 
 
 def _recess(reading: Reading, state: State) -> Vector:

@@ -21,29 +21,6 @@ def calibrate(
     The coefficient of the teeth is fitted where there are readings of the teeth, that of the
     joints where there are elongations, and what the options name besides: bounded least squares
     of the residuals over their stated errors, intervals by the profile of the likelihood.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The case; its limits are those of the remaining life.
-    measurements : pathlib.Path
-        CSV file as `read_readings` takes it.
-    overrides : sequence of str
-        ``table.key=VALUE``.
-    options : Options, optional
-        How to fit.
-
-    Returns
-    -------
-    Calibration
-        The values, the hours left, and how well the readings are met.
-
-    Raises
-    ------
-    CaseError
-        The case or a cell is wrong, or the case does not know a reading.
-    WearsimError
-        The case cannot be run.
     """
     options = options or Options()
     document = read_document(path, overrides)

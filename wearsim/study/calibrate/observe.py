@@ -13,51 +13,25 @@ from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, POINT, Reading
 
 @dataclass(frozen=True)
 class State:
-    """A drive with one set of coefficients.
+    """A drive with one set of coefficients."""
 
-    Attributes
-    ----------
-    course : Blend or None
-        How its teeth wear; None where that is not asked for.
-    life : float
-        Of the teeth [h], nan with that.
-    elongation_rate : float
-        Of its chain [%/h].
-    """
-
-    course: Blend | None
-    life: float
-    elongation_rate: float
+    course: Blend | None  # how its teeth wear; None where that is not asked for
+    life: float  # of the teeth [h], nan with that
+    elongation_rate: float  # of its chain [%/h]
 
 
 @dataclass(frozen=True)
 class Shown:
-    """One value as it was measured and as it is predicted.
+    """One value as it was measured and as it is predicted."""
 
-    Attributes
-    ----------
-    row : int
-        Line of the reading in its file.
-    hours : float
-        Running time [h].
-    quantity : str
-        What it is.
-    arc_length : float
-        Where on the flank [mm], nan for what has no place.
-    value, predicted, error : float
-        In the unit of the quantity, the error as standard deviation.
-    residual : float
-        Predicted less measured over the error, those of one profile made independent.
-    """
-
-    row: int
-    hours: float
-    quantity: str
-    arc_length: float
-    value: float
-    predicted: float
-    error: float
-    residual: float
+    row: int  # line of the reading in its file
+    hours: float  # running time [h]
+    quantity: str  # what it is
+    arc_length: float  # where on the flank [mm], nan for what has no place
+    value: float  # in the unit of the quantity, the error as standard deviation
+    predicted: float  # in the unit of the quantity, the error as standard deviation
+    error: float  # in the unit of the quantity, the error as standard deviation
+    residual: float  # predicted less measured over the error, those of one profile made independent
 
 
 class Observation(Protocol):
@@ -76,45 +50,17 @@ class Observation(Protocol):
         """Points that could not be used."""
 
     def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        numpy.ndarray
-            Predicted less measured over the error.
-        """
+        """Return independent residuals of size 1."""
 
     def shown(self, state: State) -> list[Shown]:
-        """Return the values beside their predictions.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        list of Shown
-            One, or one for each smoothed value.
-        """
+        """Return the values beside their predictions."""
 
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """One measured value.
+    """One measured value."""
 
-    Attributes
-    ----------
-    reading : Reading
-        The reading.
-    """
-
-    reading: Reading
+    reading: Reading  # the reading
 
     @property
     def freedom(self) -> int:
@@ -127,18 +73,7 @@ class Gauge:
         return 0
 
     def predicted(self, state: State) -> float:
-        """Return what the reading should be, in its unit.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        float
-            In the unit of the quantity.
-        """
+        """Return what the reading should be, in its unit."""
         if self.reading.quantity == ELONGATION:
             return state.elongation_rate * self.reading.hours
         assert state.course is not None
@@ -156,37 +91,21 @@ class Gauge:
         return course.history(reading.quantity, 0.0) - course.history(reading.quantity, part)
 
     def residuals(self, state: State) -> Vector:
-        """Return independent residuals of size 1.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        numpy.ndarray
-            Predicted less measured over the error.
-        """
+        """Return independent residuals of size 1."""
         return np.array([(self.predicted(state) - self.reading.value) / self.reading.error])
 
     def shown(self, state: State) -> list[Shown]:
-        """Return the value beside its prediction.
-
-        Parameters
-        ----------
-        state : State
-            The drive with one set of coefficients.
-
-        Returns
-        -------
-        list of Shown
-            One.
-        """
+        """Return the value beside its prediction."""
         reading, predicted = self.reading, self.predicted(state)
         return [
             Shown(
-                reading.row, reading.hours, reading.quantity, reading.arc_length, reading.value,
-                predicted, reading.error, (predicted - reading.value) / reading.error,
+                reading.row,
+                reading.hours,
+                reading.quantity,
+                reading.arc_length,
+                reading.value,
+                predicted,
+                reading.error,
+                (predicted - reading.value) / reading.error,
             )
-        ]  # fmt: skip
+        ]

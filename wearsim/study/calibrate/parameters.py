@@ -34,36 +34,17 @@ class Parameters:
     The first one stands for the coefficient of the teeth where that is fitted; it is the
     logarithm of the life of the teeth, which the data know far better than a coefficient whose
     meaning changes with the others (physics: life times coefficient is constant).
-
-    Attributes
-    ----------
-    courses : Courses
-        Runs of the case.
-    coefficient : float
-        That of the teeth in the case.
-    joint : float
-        That of the joints in the case; nan where no chain wears.
-    elongation_rate : float
-        Of the chain with that [%/h]; nan where no chain wears.
-    teeth, chain : bool
-        Whether the coefficients of the teeth and of the joints are fitted.
-    shapes : mapping of str to float
-        Keys that are fitted besides, with their values in the case.
-    last : float
-        Hours of the last reading of the teeth [h]; nan where there is none.
-    ratio : float
-        Coefficient of the joints over that of the teeth in the runs, as a factor of that in the
-        case.
     """
 
-    courses: Courses
-    coefficient: float
-    joint: float
-    elongation_rate: float
-    teeth: bool
-    chain: bool
-    shapes: Mapping[str, float]
-    last: float
+    courses: Courses  # runs of the case
+    coefficient: float  # that of the teeth in the case
+    joint: float  # that of the joints in the case; nan where no chain wears
+    elongation_rate: float  # of the chain with that [%/h]; nan where no chain wears
+    teeth: bool  # whether the coefficients of the teeth and of the joints are fitted
+    chain: bool  # whether the coefficients of the teeth and of the joints are fitted
+    shapes: Mapping[str, float]  # keys that are fitted besides, with their values in the case
+    last: float  # hours of the last reading of the teeth [h]; nan where there is none
+    # coefficient of the joints over that of the teeth in the runs, as a factor of that in the case
     ratio: float
 
     @property
@@ -81,10 +62,7 @@ class Parameters:
 
     def _shape_bounds(self) -> list[tuple[float, float]]:
         return [
-            (
-                min(math.log(SHAPES[key][0] / value), 0.0),
-                max(math.log(SHAPES[key][1] / value), 0.0),
-            )
+            (min(math.log(SHAPES[key][0] / value), 0.0), max(math.log(SHAPES[key][1] / value), 0.0))
             for key, value in self.shapes.items()
         ]
 
@@ -99,18 +77,7 @@ class Parameters:
         return point
 
     def course(self, point: Vector) -> Blend:
-        """Return the wear of the teeth that a set of logarithms needs.
-
-        Parameters
-        ----------
-        point : numpy.ndarray
-            The logarithms.
-
-        Returns
-        -------
-        Blend
-            With the coefficient of the case.
-        """
+        """Return the wear of the teeth that a set of logarithms needs."""
         given = dict(self.shapes)
         if self.ratio != 1.0:
             given[JOINT] = self.ratio * self.joint
@@ -119,18 +86,7 @@ class Parameters:
         return self.courses.blend(given, {key: Log(log, *bounds) for key, log, bounds in ends})
 
     def state(self, point: Vector) -> State:
-        """Return the drive that a set of logarithms means.
-
-        Parameters
-        ----------
-        point : numpy.ndarray
-            The logarithms.
-
-        Returns
-        -------
-        State
-            To hold readings against.
-        """
+        """Return the drive that a set of logarithms means."""
         joints = math.exp(point[int(self.teeth)]) if self.chain else 1.0
         rate = joints * self.elongation_rate
         if not self.teeth:
@@ -138,19 +94,7 @@ class Parameters:
         return State(self.course(point), math.exp(point[0]), rate)
 
     def swapped(self, point: Vector) -> Vector:
-        """Return logarithms with the coefficient of the teeth for their life, or the other way round.
-
-        Parameters
-        ----------
-        point : numpy.ndarray
-            The logarithms of all values over those of the case, but for the first one, which is
-            that of a life or of the coefficient.
-
-        Returns
-        -------
-        numpy.ndarray
-            The same with the other one first.
-        """
+        """Return logarithms with the coefficient of the teeth for their life, or the other way round."""
         if not self.teeth:
             return point
         return np.array([math.log(self.course(point).hours) - point[0], *point[1:]])
@@ -164,17 +108,6 @@ class Parameters:
 
 
 def shape_values(case: Case) -> dict[str, float]:
-    """Return the values of the keys that can be fitted besides the coefficients.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-
-    Returns
-    -------
-    dict
-        By key; those that the case does not have are left out.
-    """
+    """Return the values of the keys that can be fitted besides the coefficients."""
     found = {key: value_at(case.inputs, key) for key in SHAPES}
     return {key: float(value) for key, value in found.items() if value is not None}

@@ -14,15 +14,9 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """A run until its limit; with other coefficients of the same ratios it is only stretched.
+    """A run until its limit; with other coefficients of the same ratios it is only stretched."""
 
-    Attributes
-    ----------
-    result : WearResult
-        The run.
-    """
-
-    result: WearResult
+    result: WearResult  # the run
     _over_time: dict[tuple[float, int], Vector] = field(default_factory=dict, init=False)
 
     @cached_property
@@ -57,62 +51,19 @@ class Course:
         return Profile(x[0, 0], y[0, 0])
 
     def deepest(self, part: float, kind: int) -> float:
-        """Return the depth of the deepest point of a gap.
-
-        Parameters
-        ----------
-        part : float
-            Time as a part of the life; beyond 1 the last rate goes on.
-        kind : int
-            Number of the gap from 1.
-
-        Returns
-        -------
-        float
-            Depth [mm].
-        """
+        """Return the depth of the deepest point of a gap."""
         return _on_line(part * self.hours, self._times, self._depth[:, kind - 1].max(axis=1))
 
     def depth_at(self, part: float, arc_length: float, kind: int) -> float:
-        """Return the depth of a point.
-
-        Parameters
-        ----------
-        part : float
-            Time as a part of the life; beyond 1 the last rate goes on.
-        arc_length : float
-            Place along the new flank [mm].
-        kind : int
-            Number of the gap from 1.
-
-        Returns
-        -------
-        float
-            Depth [mm].
-        """
+        """Return the depth of a point."""
         place = arc_length, kind
         if place not in self._over_time:
             rows = self._depth[:, kind - 1]
-            self._over_time[place] = np.array(
-                [np.interp(arc_length, self.arc_length, row) for row in rows]
-            )
+            self._over_time[place] = np.array([np.interp(arc_length, self.arc_length, row) for row in rows])
         return _on_line(part * self.hours, self._times, self._over_time[place])
 
     def recess(self, part: float, kind: int) -> Vector:
-        """Return how far the worn flank lies behind the new one, along the normals of that.
-
-        Parameters
-        ----------
-        part : float
-            Time as a part of the life; beyond 1 the last rate goes on.
-        kind : int
-            Number of the gap from 1.
-
-        Returns
-        -------
-        numpy.ndarray
-            At `chords` [mm].
-        """
+        """Return how far the worn flank lies behind the new one, along the normals of that."""
         times, rows, hours = self._times, self._recess[:, kind - 1], part * self.hours
         after = int(np.clip(np.searchsorted(times, hours), 1, times.size - 1))
         share = (hours - times[after - 1]) / (times[after] - times[after - 1])
@@ -124,20 +75,7 @@ class Course:
         return chord_lengths(self.nominal.x, self.nominal.y)
 
     def history(self, quantity: str, part: float) -> float:
-        """Return a quantity of the history.
-
-        Parameters
-        ----------
-        quantity : str
-            Column of history.csv.
-        part : float
-            Time as a part of the life; beyond 1 the last rate goes on.
-
-        Returns
-        -------
-        float
-            In the unit of the column.
-        """
+        """Return a quantity of the history."""
         columns = self.result.history_columns
         return _on_line(part * self.hours, columns["time_hours"], columns[quantity])
 

@@ -31,66 +31,28 @@ _LEAST_ERROR, _MOST_VALUE = 1e-9, 1e6
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """A row of the table of measurements.
+    """A row of the table of measurements."""
 
-    Attributes
-    ----------
-    row : int
-        Its line in the file.
-    hours : float
-        Running time since the part that was measured, sprocket or chain, was new [h].
-    quantity : str
-        One of `QUANTITIES`.
-    value : float
-        In the unit of the quantity; nan for a profile.
-    error : float
-        Standard deviation of the value, of a profile that of each point across it.
-    arc_length : float
-        Place of a depth along the new flank [mm]; nan for other quantities.
-    gap_kind : int or None
-        Number of the gap that was measured, from 1; None where it is not told.
-    x, y : numpy.ndarray
-        Points of a profile [mm]; none for other quantities.
-    """
-
-    row: int
-    hours: float
-    quantity: str
-    value: float
-    error: float
-    arc_length: float
-    gap_kind: int | None
-    x: Vector
-    y: Vector
+    row: int  # its line in the file
+    hours: float  # running time since the part that was measured, sprocket or chain, was new [h]
+    quantity: str  # one of `QUANTITIES`
+    value: float  # in the unit of the quantity; nan for a profile
+    error: float  # standard deviation of the value, of a profile that of each point across it
+    arc_length: float  # place of a depth along the new flank [mm]; nan for other quantities
+    gap_kind: int | None  # number of the gap that was measured, from 1; None where it is not told
+    x: Vector  # points of a profile [mm]; none for other quantities
+    y: Vector  # points of a profile [mm]; none for other quantities
 
 
 def read_readings(path: Path) -> tuple[Reading, ...]:
-    """Read a table of measurements.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        CSV file with the columns time_hours, quantity, error and, as the quantities need
-        them, value, arc_length_mm, gap_kind, points_file; lines that begin with # are left out.
-
-    Returns
-    -------
-    tuple of Reading
-        In the order of the file.
-
-    Raises
-    ------
-    CaseError
-        With every bad cell; or pandera is not installed.
-    """
+    """Read a table of measurements."""
     table = _table(path)
     faults = [*_bad_cells(table, _common(), path)]
     for quantity, rows in table.groupby("quantity"):
         if quantity in QUANTITIES:
             faults += _bad_cells(rows, _of_quantity(str(quantity)), path)
     points = {
-        row: _points(cells["points_file"], int(str(row)), path, faults)
-        for row, cells in table.iterrows()
+        row: _points(cells["points_file"], int(str(row)), path, faults) for row, cells in table.iterrows()
     }
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
@@ -139,9 +101,7 @@ def _bad_cells(table: "pd.DataFrame", schema: Any, path: Path) -> list[Fault]:
         schema.validate(table, lazy=True)
     except library("pandera.errors", "study", "calibrate").SchemaErrors as errors:
         return [
-            Fault(
-                f"{cell.check} (got {cell.failure_case!r})", cell.column, str(path), int(cell.index)
-            )
+            Fault(f"{cell.check} (got {cell.failure_case!r})", cell.column, str(path), int(cell.index))
             for cell in errors.failure_cases.itertuples()
         ]
     return []

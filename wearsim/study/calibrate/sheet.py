@@ -17,27 +17,22 @@ from wearsim.study.calibrate.least_squares import Interval
 
 
 def calibration_text(found: Calibration) -> str:
-    """Return the answer as ``wearsim calibrate`` prints it.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-
-    Returns
-    -------
-    str
-        Several lines, at most a hundred characters wide.
-    """
+    """Return the answer as ``wearsim calibrate`` prints it."""
     share = f"{100 * found.options.confidence:g} %"
     rows = []
     for part in found.parts:
         rows += [
-            ("Remaining", f"{_hours(part.remaining)} of the {part.name} after {_hours(part.hours)}   "
-             f"({share}: {_ends(part.band, grouped)} h)"),
-            ("Life", f"{_hours(part.life)} of the {part.name} in all   "
-             f"({share}: {_ends(part.interval, grouped)} h)"),
-        ]  # fmt: skip
+            (
+                "Remaining",
+                f"{_hours(part.remaining)} of the {part.name} after {_hours(part.hours)}   "
+                f"({share}: {_ends(part.band, grouped)} h)",
+            ),
+            (
+                "Life",
+                f"{_hours(part.life)} of the {part.name} in all   "
+                f"({share}: {_ends(part.interval, grouped)} h)",
+            ),
+        ]
     rows += [
         (
             "Fitted",
@@ -64,26 +59,13 @@ def calibration_text(found: Calibration) -> str:
 
 
 def calibration_json(found: Calibration) -> dict[str, Any]:
-    """Return the answer as ``wearsim calibrate --json`` prints it.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-
-    Returns
-    -------
-    dict
-        Plain values; an end of an interval that the data do not give is null.
-    """
+    """Return the answer as ``wearsim calibrate --json`` prints it."""
     return {
         "schema_version": 1,
         "case": found.case.name,
         "title": found.case.title,
         "confidence": found.options.confidence,
-        "values": [
-            {name: plain(value) for name, value in _value(one).items()} for one in found.values
-        ],
+        "values": [{name: plain(value) for name, value in _value(one).items()} for one in found.values],
         "parts": [_part(part) for part in found.parts],
         "moves": [
             dict(zip(("reading_row", "turn_rad", "shift_x_mm", "shift_y_mm"), one, strict=True))
@@ -100,18 +82,7 @@ def calibration_json(found: Calibration) -> dict[str, Any]:
 
 
 def readings_table(found: Calibration) -> pd.DataFrame:
-    """Return every value beside its prediction.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row for each reading, of a profile for each smoothed value.
-    """
+    """Return every value beside its prediction."""
     return pd.DataFrame(
         {
             "reading_row": one.row,
@@ -128,38 +99,12 @@ def readings_table(found: Calibration) -> pd.DataFrame:
 
 
 def values_table(found: Calibration) -> pd.DataFrame:
-    """Return the fitted values.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row for each key.
-    """
+    """Return the fitted values."""
     return pd.DataFrame([_value(one) for one in found.values])
 
 
 def save_calibration(found: Calibration, folder: Path, force: bool) -> None:
-    """Write tables, pictures and the case with the fitted values, all of it or nothing.
-
-    Parameters
-    ----------
-    found : Calibration
-        The answer.
-    folder : pathlib.Path
-        New folder.
-    force : bool
-        Replace a folder that is there.
-
-    Raises
-    ------
-    OutputError
-        The folder is there, or cannot be written.
-    """
+    """Write tables, pictures and the case with the fitted values, all of it or nothing."""
     from wearsim.study.calibrate.figure import calibration_figures
 
     with new_folder(folder, force) as place:

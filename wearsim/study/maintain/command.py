@@ -14,16 +14,12 @@ from wearsim.errors import WearsimError
 
 @click.command(short_help="When to replace the chain: chains, hours, cost.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture."
-)
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture.")
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
 @standard
-def maintain(
-    case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]
-) -> None:
+def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]) -> None:
     """Compare elongations at which the chain of CASE is replaced while its sprocket stays.
 
     Elongations, prices and whether the sprocket is turned stand in [maintenance]. Tooth and
@@ -55,13 +51,7 @@ def maintain(
 
 @contextmanager
 def progress() -> Iterator[Callable[[int, int, str], None]]:
-    """Show on a terminal's stderr which of several runs is under way, and the time left.
-
-    Yields
-    ------
-    callable
-        To be told how many runs are done, of how many, and what comes next.
-    """
+    """Show on a terminal's stderr which of several runs is under way, and the time left."""
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
         yield lambda done, of, what: None

@@ -12,18 +12,7 @@ from wearsim.study.maintain.model import MaintenancePlan, Policy
 
 
 def maintenance_figure(plan: MaintenancePlan) -> Figure:
-    """Return cost per 1000 h, hours of chain and sprocket, and chains per sprocket.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Policies with a turned sprocket are dashed; open arrows mark bounds of a life not reached.
-    """
+    """Return cost per 1000 h, hours of chain and sprocket, and chains per sprocket."""
     priced = any(policy.cost is not None for policy in plan.policies)
     figure = Figure(figsize=(7.0, 7.6 if priced else 5.2), layout="constrained")
     panels = list(figure.subplots(3 if priced else 2, 1, sharex=True))

@@ -32,30 +32,15 @@ TURN_CONVENTION = (
 
 @dataclass(frozen=True)
 class Policy:
-    """What follows from replacing the chain at an elongation.
+    """What follows from replacing the chain at an elongation."""
 
-    Attributes
-    ----------
-    replace_at : float
-        Relative elongation at which a new chain is put on.
-    turned : bool
-        Whether the sprocket is turned when its first flank is worn.
-    chain_hours : float
-        Life of one chain [h].
-    sprocket : Life or LowerBound
-        Of the sprocket, both flanks if it is turned.
-    numerical_error : float
-        Estimated relative error of the sprocket's life.
-    cost : float or None
-        Per 1000 h, in the currency of the prices; None where these are not given or the
-        sprocket's life is not known.
-    """
-
-    replace_at: float
-    turned: bool
-    chain_hours: float
-    sprocket: Life | LowerBound
-    numerical_error: float
+    replace_at: float  # relative elongation at which a new chain is put on
+    turned: bool  # whether the sprocket is turned when its first flank is worn
+    chain_hours: float  # life of one chain [h]
+    sprocket: Life | LowerBound  # of the sprocket, both flanks if it is turned
+    numerical_error: float  # estimated relative error of the sprocket's life
+    # per 1000 h, in the currency of the prices; None where these are not given or the sprocket's
+    # life is not known
     cost: float | None = None
 
     @property
@@ -81,30 +66,16 @@ class Policy:
 
 @dataclass(frozen=True)
 class MaintenancePlan:
-    """Policies of one drive side by side, and tooth and link counts near its own.
+    """Policies of one drive side by side, and tooth and link counts near its own."""
 
-    Attributes
-    ----------
-    case, title : str
-        Of the case.
-    policies : tuple of Policy
-        By elongation; a turned sprocket after the same without.
-    counts : tuple of ToothCount
-        Meetings near the case's own numbers of teeth and links, with lives of four of them.
-    count_limit : float
-        Relative elongation at which the chain is replaced in these lives.
-    conventions : tuple of str
-        How chains and stops are counted.
-    assumptions, warnings : tuple of str
-        What the case takes for granted, and what the user should look at.
-    """
-
-    case: str
-    title: str
-    policies: tuple[Policy, ...]
+    case: str  # of the case
+    title: str  # of the case
+    policies: tuple[Policy, ...]  # by elongation; a turned sprocket after the same without
+    # meetings near the case's own numbers of teeth and links, with lives of four of them
     counts: tuple[ToothCount, ...]
-    count_limit: float
-    conventions: tuple[str, ...]
+    count_limit: float  # relative elongation at which the chain is replaced in these lives
+    conventions: tuple[str, ...]  # how chains and stops are counted
+    # assumptions, warnings: what the case takes for granted, and what the user should look at
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
 
@@ -115,27 +86,11 @@ class MaintenancePlan:
         return self.policies[min(priced)[1]] if priced else None
 
 
-def cost_per_1000_hours(
-    table: MaintenanceTable, hours: float, chains: int, stops: int
-) -> float | None:
+def cost_per_1000_hours(table: MaintenanceTable, hours: float, chains: int, stops: int) -> float | None:
     """Return what chains, sprocket and stops cost per 1000 h of running.
 
     1000 (chains times their price + price of the sprocket + stops times hours of standstill
     times their cost)/hours.
-
-    Parameters
-    ----------
-    table : MaintenanceTable
-        Prices in one currency.
-    hours : float
-        Life of the sprocket [h], above 0.
-    chains, stops : int
-        In that time.
-
-    Returns
-    -------
-    float or None
-        Per 1000 h; None where no prices are given.
 
     Examples
     --------
@@ -159,25 +114,6 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     Each policy is a run to the sprocket's limit with a new chain whenever one has grown to
     the elongation; a turned sprocket is a second run on the mirrored outline from the depth
     and the chain at the end of the first.
-
-    Parameters
-    ----------
-    case : Case
-        A case with ``mechanism.kind = "wrap"``; policies and prices from ``[maintenance]``.
-    progress : callable, optional
-        Told before each run how many are done, of how many, and what comes next.
-
-    Returns
-    -------
-    MaintenancePlan
-        Policies that fail, because the chain would jump, are named under its warnings.
-
-    Raises
-    ------
-    CaseError
-        The case has no wrap.
-    ContactError
-        Every policy fails.
     """
     drive = case.drive
     if not isinstance(drive, WrapDrive):
@@ -248,9 +184,7 @@ def _all_policies(
     return policies
 
 
-def _policies(
-    case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]
-) -> list[Policy]:
+def _policies(case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]) -> list[Policy]:
     """Return one policy, and the same with the sprocket turned where that is wanted."""
     drive = case.drive
     assert isinstance(drive, WrapDrive)
@@ -305,9 +239,7 @@ def _with_lives(
         if not count.run:
             found.append(count)
         elif own is not None and (meetings.teeth, meetings.links) == numbers:
-            found.append(
-                replace(count, lives={"chain": chain_life(case), "sprocket": own.sprocket})
-            )
+            found.append(replace(count, lives={"chain": chain_life(case), "sprocket": own.sprocket}))
         else:
             tell(f"{meetings.teeth} teeth, {meetings.links} links")
             found.append(_run_count(count, case, warnings))
@@ -325,18 +257,7 @@ def _run_count(count: ToothCount, case: Case, warnings: list[str]) -> ToothCount
 
 
 def chain_life(case: Case) -> Life:
-    """Return the life of a chain, whose joints wear at a constant rate.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a wrap.
-
-    Returns
-    -------
-    Life
-        Whether it lies within the horizon or not.
-    """
+    """Return the life of a chain, whose joints wear at a constant rate."""
     assert isinstance(case.drive, WrapDrive)
     cycles = wrap_contact(case, case.drive).cycles_per_chain
     return Life(cycles, cycles / case.cycles_per_hour)

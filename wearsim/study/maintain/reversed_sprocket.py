@@ -17,37 +17,14 @@ from wearsim.wear.halving import advance_dwelling
 
 
 def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
-    """Return how long a worn sprocket lives when it is turned onto its other flank.
-
-    Parameters
-    ----------
-    case : Case
-        The case, with a wrap.
-    first : WearResult
-        Its run to the sprocket's limit.
-
-    Returns
-    -------
-    tuple of Life or LowerBound, and float
-        From the turn on, zero where what both flanks share is worn through, and the
-        estimated relative error of its steps.
-
-    Raises
-    ------
-    ContactError
-        The chain jumps.
-    ConvergenceError
-        A pressure cannot be found.
-    """
+    """Return how long a worn sprocket lives when it is turned onto its other flank."""
     drive = case.drive
     assert isinstance(drive, WrapDrive)
     contact = wrap_contact(case, drive)
     points = contact.profile.x.size
     depth = first.flank_columns["depth_mm"][-contact.bodies * points :].reshape(-1, points)
     history = first.history_columns
-    wear = ChainWear(
-        0.01 * float(history["elongation_percent"][-1]), float(history["roller_wear_mm"][-1])
-    )
+    wear = ChainWear(0.01 * float(history["elongation_percent"][-1]), float(history["roller_wear_mm"][-1]))
     chain = int(history["chain"][-1])
     if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
         wear, chain = NEW_CHAIN, chain + 1
@@ -55,9 +32,7 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     start = Start(depth[:, ::-1].copy(), wear, chain)
     criteria = _criteria(case, turned, _working_half(contact, depth))
     profile = turned.profile
-    margins = [
-        criterion.margin(*profile.receded(d), d) for criterion in criteria for d in start.depth
-    ]
+    margins = [criterion.margin(*profile.receded(d), d) for criterion in criteria for d in start.depth]
     if min(margins) <= 0.0:
         return Life(0.0, 0.0), 0.0
     run, error = advance_dwelling(

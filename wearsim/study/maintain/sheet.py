@@ -11,34 +11,19 @@ from wearsim.result import Life, LowerBound, life_keys
 from wearsim.study.maintain.model import MaintenancePlan, Policy
 from wearsim.study.maintain.tooth_count import ToothCount
 
-POLICY_HEAD = (
-    "replace at", "turned", "chain", "chains", "last used", "sprocket", "stops", "cost per 1000 h",
-)  # fmt: skip
+POLICY_HEAD = ("replace at", "turned", "chain", "chains", "last used", "sprocket", "stops", "cost per 1000 h")
 COUNT_HEAD = ("teeth", "links", "classes", "a tooth meets", "chain", "sprocket")
 
 
 def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
-    """Return a row for every policy, in the units of the columns.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    list of dict
-        None where a number is not known.
-    """
+    """Return a row for every policy, in the units of the columns."""
     return [
         {
             "replace_at_percent": _percent(policy),
             "turned": policy.turned,
             "chain_life_hours": policy.chain_hours,
             "chains_per_sprocket": _known(policy.chains, policy),
-            "chains_per_sprocket_at_least": (
-                None if isinstance(policy.sprocket, Life) else policy.chains
-            ),
+            "chains_per_sprocket_at_least": (None if isinstance(policy.sprocket, Life) else policy.chains),
             "last_chain_used": _known(policy.last_chain_used, policy),
             **life_keys("sprocket_life_hours", policy.sprocket),
             "life_reached": isinstance(policy.sprocket, Life),
@@ -52,18 +37,7 @@ def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
 
 
 def count_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
-    """Return a row for every number of teeth and links.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    list of dict
-        None for lives that were not calculated or reached.
-    """
+    """Return a row for every number of teeth and links."""
     return [
         {
             "teeth": count.meetings.teeth,
@@ -78,18 +52,7 @@ def count_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
 
 
 def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
-    """Return the plan as ``wearsim maintain --json`` prints it.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    dict
-        Plain numbers, strings, lists and None.
-    """
+    """Return the plan as ``wearsim maintain --json`` prints it."""
     cheapest = plan.cheapest
     return {
         "schema_version": 1,
@@ -104,18 +67,7 @@ def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
 
 
 def maintenance_text(plan: MaintenancePlan) -> str:
-    """Return the plan as ``wearsim maintain`` prints it.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    str
-        Tables of at most a hundred characters' width.
-    """
+    """Return the plan as ``wearsim maintain`` prints it."""
     lines = [plan.title, *_aligned(POLICY_HEAD, [_policy_cells(p) for p in plan.policies])]
     lines += [f"  {text}" for text in _answers(plan)]
     if plan.counts:
@@ -130,18 +82,7 @@ def maintenance_text(plan: MaintenancePlan) -> str:
 
 
 def maintenance_page(plan: MaintenancePlan) -> str:
-    """Return the plan as a page of Markdown.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-
-    Returns
-    -------
-    str
-        Both tables, the picture, warnings and assumptions.
-    """
+    """Return the plan as a page of Markdown."""
     parts = [f"# {plan.title}", _markdown(POLICY_HEAD, [_policy_cells(p) for p in plan.policies])]
     parts += [*_answers(plan), "![policies](maintenance.svg)"]
     if plan.counts:
@@ -154,17 +95,7 @@ def maintenance_page(plan: MaintenancePlan) -> str:
 
 
 def save_maintenance(plan: MaintenancePlan, folder: Path, force: bool) -> None:
-    """Write tables and picture into a folder, all of it or nothing.
-
-    Parameters
-    ----------
-    plan : MaintenancePlan
-        The plan.
-    folder : pathlib.Path
-        New folder for policies.csv, tooth_counts.csv, maintenance.md and maintenance.svg and png.
-    force : bool
-        Replace a folder that is there.
-    """
+    """Write tables and picture into a folder, all of it or nothing."""
     import pandas as pd
 
     from wearsim.report.figures import save_figure

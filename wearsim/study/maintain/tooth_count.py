@@ -17,40 +17,16 @@ from wearsim.result.folder import FILE_KEYS
 
 @dataclass(frozen=True)
 class ToothCount:
-    """Numbers of teeth and links, and the lives that go with them.
+    """Numbers of teeth and links, and the lives that go with them."""
 
-    Attributes
-    ----------
-    meetings : Meetings
-        Who meets whom with these numbers.
-    run : bool
-        Whether their lives are to be calculated.
-    lives : mapping
-        Of ``chain`` and ``sprocket``; empty where they were not calculated.
-    """
-
-    meetings: Meetings
-    run: bool
+    meetings: Meetings  # who meets whom with these numbers
+    run: bool  # whether their lives are to be calculated
+    # of `chain` and `sprocket`; empty where they were not calculated
     lives: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
 def meetings_around(case: Case, drive: WrapDrive) -> tuple[ToothCount, ...]:
-    """Return the counts next to those of a drive: one tooth, two links more and less.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    drive : WrapDrive
-        Its drive.
-
-    Returns
-    -------
-    tuple of ToothCount
-        By teeth, then links; to be run are the case's own and those of a tooth or two links
-        more. The teeth of a drawing or of points stay as they are; a sprocket of which only
-        every second gap carries a roller has none.
-    """
+    """Return the counts next to those of a drive: one tooth, two links more and less."""
     if case.engaged_every > 1:
         return ()
     drawn = case.inputs["sprocket"]["profile"] not in STANDARD_FORMS
@@ -67,23 +43,6 @@ def variant(case: Case, meetings: Meetings) -> Case:
 
     Load, limits and the other sprocket stay; the tip diameter follows the teeth where it is
     the standard's, the centre distance follows the links.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a wrap.
-    meetings : Meetings
-        Teeth of the worn sprocket and links of the chain.
-
-    Returns
-    -------
-    Case
-        Complete.
-
-    Raises
-    ------
-    CaseError
-        No drive has these numbers.
     """
     inputs: dict[str, Any] = copy.deepcopy(dict(case.inputs))
     sprocket, drive = inputs["sprocket"], inputs.setdefault("drive", {})

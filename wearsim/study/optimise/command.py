@@ -18,12 +18,13 @@ if TYPE_CHECKING:
 @click.command(short_help="The best profile for life, mass and pressure; Pareto fronts.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--evaluations", type=click.IntRange(min=10, max=1_000_000), default=400, show_default=True,
+    "--evaluations",
+    type=click.IntRange(min=10, max=1_000_000),
+    default=400,
+    show_default=True,
     help="Designs that may be tried.",
-)  # fmt: skip
-@click.option(
-    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the search."
 )
+@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the search.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @place_options
 @overrides

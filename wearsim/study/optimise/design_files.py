@@ -15,22 +15,7 @@ from wearsim.runner.store import own_designs
 
 
 def save_designs(folder: Path, heads: Mapping[str, str], cases: Design) -> None:
-    """Write designs as cases, with the files that they name, in place of those of an earlier run.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Of the designs; what wearsim did not write there stays.
-    heads : mapping of str to str
-        First line of each file, by its name.
-    cases : Design
-        As many cases in the same order.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written, or something else has the name of a design.
-    """
+    """Write designs as cases, with the files that they name, in place of those of an earlier run."""
     try:
         own = {path.name: path for path in own_designs(folder)}
         _check_free(folder, heads.keys() - own.keys())

@@ -16,18 +16,7 @@ _BOUND = "> : limit not reached"
 
 
 def optimise_figures(outcome: Outcome) -> dict[str, Figure]:
-    """Return the pictures that suit an optimisation, by file stem.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-
-    Returns
-    -------
-    dict
-        ``convergence``; ``front`` for several objectives; ``parallel`` coordinates.
-    """
+    """Return the pictures that suit an optimisation, by file stem."""
     figures = {"convergence": _convergence(outcome)}
     if len(outcome.study.objectives) > 1:
         figures["front"] = _front(outcome)
@@ -54,32 +43,28 @@ def _convergence(outcome: Outcome) -> Figure:
         values = np.array([one.measures[name] for one in tried])
         better = np.maximum if name in MAXIMISED else np.minimum
         bound = np.array([_is_bound(one, name) for one in tried], bool)
-        panel.plot(
-            numbers[~bound],
-            values[~bound],
-            ".",
-            color="0.65",
-            markersize=4,
-            label="feasible design",
-        )
+        panel.plot(numbers[~bound], values[~bound], ".", color="0.65", markersize=4, label="feasible design")
         if bound.any():
             panel.plot(numbers[bound], values[bound], "^", color="0.65", mfc="white", label=_BOUND)
         panel.step(
             [*numbers, len(outcome.candidates)],
             [*better.accumulate(values), better.reduce(values)],
-            where="post", color="tab:red", label="best so far",
-        )  # fmt: skip
+            where="post",
+            color="tab:red",
+            label="best so far",
+        )
         if not outcome.given.error:
             panel.axhline(
-                outcome.given.measures[name], color="black", linestyle="--", linewidth=1.0,
+                outcome.given.measures[name],
+                color="black",
+                linestyle="--",
+                linewidth=1.0,
                 label="case as given",
-            )  # fmt: skip
+            )
         panel.set_ylabel(axis_label(name))
         panel.grid(alpha=0.3)
     panels[-1].set_xlabel("designs tried")
-    panels[0].legend(
-        frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3
-    )
+    panels[0].legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     return figure
 
 
@@ -101,8 +86,14 @@ def _front(outcome: Outcome) -> Figure:
             bounds = [_is_bound(one, across) or _is_bound(one, up) for one in designs]
             if any(bounds):
                 marked = np.column_stack([x, y])[bounds].T
-                panel.scatter(*marked, marker="^", s=60, facecolor="white", edgecolor=style["color"],
-                              label=f"{label}, {_BOUND}")  # fmt: skip
+                panel.scatter(
+                    *marked,
+                    marker="^",
+                    s=60,
+                    facecolor="white",
+                    edgecolor=style["color"],
+                    label=f"{label}, {_BOUND}",
+                )
         panel.set_xlabel(axis_label(across))
         panel.set_ylabel(axis_label(up))
         panel.grid(alpha=0.3)
@@ -119,8 +110,7 @@ def _parallel(outcome: Outcome) -> Figure:
     rows = [*(one for one in tried if one.number not in best), *outcome.front]
     columns = [*study.space.keys, *study.measures]
     table = pd.DataFrame(
-        [(*one.values, *(one.measures[name] for name in study.measures)) for one in rows],
-        columns=columns,
+        [(*one.values, *(one.measures[name] for name in study.measures)) for one in rows], columns=columns
     )
     figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
     panel = figure.subplots()
@@ -129,9 +119,12 @@ def _parallel(outcome: Outcome) -> Figure:
     for one, line in zip(rows, np.column_stack(heights), strict=True):
         top = one.number in best
         panel.plot(
-            places, line, color="tab:red" if top else "0.7", alpha=0.9 if top else 0.35,
+            places,
+            line,
+            color="tab:red" if top else "0.7",
+            alpha=0.9 if top else 0.35,
             linewidth=1.4 if top else 0.7,
-        )  # fmt: skip
+        )
         for place, name in enumerate(columns):
             if _is_bound(one, name):
                 colour = "tab:red" if top else "0.7"

@@ -33,24 +33,6 @@ def proposals(
     near, by least squares: lives, masses and pressures go with powers of most of them. For the
     largest radius and margin there is also a point with each parameter in turn as it is: designs
     that fail have no measures, so that a model may lead into them.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked, with one objective.
-    tried : sequence of Candidate
-        All designs.
-    best : Candidate
-        The best of them.
-    radii : sequence of float
-        Parts of the ranges around the best within which a model is trusted.
-    margins : sequence of float
-        Relative distances to be kept to the limits.
-
-    Returns
-    -------
-    list of numpy.ndarray
-        Points of the unit cube; none where no model can be made.
     """
     middle, free = study.space.place(best.values), np.flatnonzero(~study.space.whole)
     if middle is None or not free.size or best.error:
@@ -69,9 +51,7 @@ def proposals(
     return found
 
 
-def _alike(
-    study: OptimiseStudy, tried: Sequence[Candidate], best: Candidate
-) -> list[tuple[Vector, Vector]]:
+def _alike(study: OptimiseStudy, tried: Sequence[Candidate], best: Candidate) -> list[tuple[Vector, Vector]]:
     """Places of designs with the same values of lists, and logarithms of their measures."""
     lists = np.flatnonzero(study.space.whole)
     found = []
@@ -84,9 +64,8 @@ def _alike(
 
 
 def _model(
-    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Places,
-    radius: float,
-) -> Vector | None:  # fmt: skip
+    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Places, radius: float
+) -> Vector | None:
     """Coefficients of each measure, shape (terms, measures)."""
     offsets = np.array([(place[free] - middle) / radius for place, _ in near])
     logs = np.array([measures for _, measures in near])
@@ -122,23 +101,22 @@ def _solved(
 
     def room(offset: Vector) -> Vector:
         found = dict(zip(study.measures, logs(offset), strict=True))
-        high = [
-            np.log(limit.high) - found[name] for name, limit in study.limits.items() if limit.high
-        ]
+        high = [np.log(limit.high) - found[name] for name, limit in study.limits.items() if limit.high]
         low = [found[name] - np.log(limit.low) for name, limit in study.limits.items() if limit.low]
         return np.array([*high, *low]) - margin
 
-    ends = [
-        (max(-1.0, -part / radius), min(1.0, (1.0 - part) / radius)) for part in middle.tolist()
-    ]
+    ends = [(max(-1.0, -part / radius), min(1.0, (1.0 - part) / radius)) for part in middle.tolist()]
     if kept >= 0:
         ends[kept] = (0.0, 0.0)
     # Its types take neither numpy's numbers nor a list of constraints that is empty.
     solve: Any = minimize
     result = solve(
-        lambda offset: float(sign * logs(offset)[sought]), np.zeros(len(middle)), method="SLSQP",
-        bounds=ends, constraints=[{"type": "ineq", "fun": room}] if study.limits else [],
+        lambda offset: float(sign * logs(offset)[sought]),
+        np.zeros(len(middle)),
+        method="SLSQP",
+        bounds=ends,
+        constraints=[{"type": "ineq", "fun": room}] if study.limits else [],
         options={"maxiter": _STEPS},
-    )  # fmt: skip
+    )
     low, high = np.array(ends).T
     return np.asarray(np.clip(np.nan_to_num(result.x), low, high))

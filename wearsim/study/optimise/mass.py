@@ -9,25 +9,7 @@ _M3_PER_MM3 = 1e-9
 
 
 def blank_mass(case: Case) -> float:
-    """Return the mass of a new sprocket: its outline times face width and density.
-
-    Parameters
-    ----------
-    case : Case
-        A sprocket on a strand or in a wrap.
-
-    Returns
-    -------
-    float
-        Mass [kg], without bore, hub and chamfers.
-
-    Raises
-    ------
-    CaseError
-        The case has no sprocket whose whole outline is known.
-    GeometryError
-        The wheel does not exist.
-    """
+    """Return the mass of a new sprocket: its outline times face width and density."""
     drive = case.drive
     if isinstance(drive, StrandDrive):
         area = blank_area(tooth_space(drive.tooth), drive.tooth.teeth)
@@ -43,34 +25,12 @@ def blank_mass(case: Case) -> float:
 
 
 def density(case: Case) -> float:
-    """Return the density of a sprocket's material.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a sprocket.
-
-    Returns
-    -------
-    float
-        That of the named material, else of steel [kg/m3].
-    """
+    """Return the density of a sprocket's material."""
     return materials()[_material(case)].density
 
 
 def mass_assumption(case: Case) -> str:
-    """Return what the mass takes for granted.
-
-    Parameters
-    ----------
-    case : Case
-        A case with a sprocket.
-
-    Returns
-    -------
-    str
-        In words.
-    """
+    """Return what the mass takes for granted."""
     return (
         "the mass is that of the new outline over the face width, without bore, hub and chamfers, of "
         f"{_material(case)} with {density(case):g} kg/m3"

@@ -23,34 +23,16 @@ _BEYOND = 1.02
 
 @dataclass(frozen=True)
 class OptimiseStudy:
-    """What is asked of a case.
+    """What is asked of a case."""
 
-    Attributes
-    ----------
-    case : Case
-        As it is given.
-    given : Design
-        The case as the only one, without [optimise].
-    space : SearchSpace
-        What may change.
-    values : tuple
-        Of the parameters in the case, None where it has none.
-    objectives : tuple of str
-        What is sought.
-    limits : mapping of str to MeasureLimit
-        What a design must keep to.
-    seed, evaluations : int
-        Of the search, and how many designs it may try.
-    """
-
-    case: Case
-    given: Design
-    space: SearchSpace
-    values: tuple[Any, ...]
-    objectives: tuple[str, ...]
-    limits: Mapping[str, MeasureLimit]
-    seed: int
-    evaluations: int
+    case: Case  # as it is given
+    given: Design  # the case as the only one, without [optimise]
+    space: SearchSpace  # what may change
+    values: tuple[Any, ...]  # of the parameters in the case, None where it has none
+    objectives: tuple[str, ...]  # what is sought
+    limits: Mapping[str, MeasureLimit]  # what a design must keep to
+    seed: int  # of the search, and how many designs it may try
+    evaluations: int  # of the search, and how many designs it may try
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -58,39 +40,15 @@ class OptimiseStudy:
         return tuple(dict.fromkeys(("life_hours", *self.objectives, *self.limits)))
 
     def design(self, rows: Sequence[tuple[Any, ...]]) -> Design:
-        """Return the cases of some designs.
-
-        Parameters
-        ----------
-        rows : sequence of tuple
-            Values of the parameters.
-
-        Returns
-        -------
-        Design
-            To be run.
-        """
+        """Return the cases of some designs."""
         return replace(self.given, keys=self.space.keys, rows=tuple(rows))
 
     def assumptions(self, cases: Sequence[Case]) -> tuple[str, ...]:
-        """Return what is taken for granted of designs.
-
-        Parameters
-        ----------
-        cases : sequence of Case
-            The designs, at least one.
-
-        Returns
-        -------
-        tuple of str
-            What holds for all of them, and that more does where they differ.
-        """
+        """Return what is taken for granted of designs."""
         each = [(*self._of_measures(case), *case.assumptions) for case in cases]
         shared = [text for text in each[0] if all(text in other for other in each[1:])]
         if any(len(texts) > len(shared) for texts in each):
-            shared.append(
-                "more that differs from design to design: `wearsim check designs/01.toml` tells it"
-            )
+            shared.append("more that differs from design to design: `wearsim check designs/01.toml` tells it")
         return tuple(shared)
 
     def _of_measures(self, case: Case) -> list[str]:
@@ -107,33 +65,8 @@ class OptimiseStudy:
         return found
 
 
-def load_optimise(
-    path: Path, overrides: Sequence[str], evaluations: int, seed: int
-) -> OptimiseStudy:
-    """Return what is asked of a case by its table [optimise].
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The case.
-    overrides : sequence of str
-        ``table.key=VALUE``.
-    evaluations : int
-        Designs that may be tried.
-    seed : int
-        The same seed gives the same search.
-
-    Returns
-    -------
-    OptimiseStudy
-        To be searched. The horizon is raised to a limit of the life that lies beyond it.
-
-    Raises
-    ------
-    CaseError
-        The case is wrong, has no table [optimise], or has none of what is sought; a file that a
-        parameter names is not there.
-    """
+def load_optimise(path: Path, overrides: Sequence[str], evaluations: int, seed: int) -> OptimiseStudy:
+    """Return what is asked of a case by its table [optimise]."""
     document = read_document(path, overrides)
     case = load_case(path, overrides)
     if "optimise" not in case.inputs:
@@ -154,18 +87,21 @@ def load_optimise(
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     given, space = _with_files(replace(document, data=data), space, path)
     return OptimiseStudy(
-        case, replace(given, keys=(), rows=((),)), space,
+        case,
+        replace(given, keys=(), rows=((),)),
+        space,
         tuple(_value(case.inputs, key) for key in space.keys),
-        tuple(table.objectives), limits, seed, evaluations,
-    )  # fmt: skip
+        tuple(table.objectives),
+        limits,
+        seed,
+        evaluations,
+    )
 
 
 def _with_files(document: Document, space: SearchSpace, path: Path) -> tuple[Design, SearchSpace]:
     """Read the files that the case and the choices name; the choices are then bare names."""
     named = {
-        parameter.key: parameter.choices
-        for parameter in space.parameters
-        if parameter.key in NAMES_FILE
+        parameter.key: parameter.choices for parameter in space.parameters if parameter.key in NAMES_FILE
     }
     faults = [
         Fault(f"must name files that can be read, but {name!r} cannot", _place(key), str(path))

@@ -36,23 +36,6 @@ def search(study: OptimiseStudy, trials: Trials) -> bool:
     One objective: differential evolution in generations, then steps to the optimum of local
     models and along random directions. Several: NSGA-II, then the same around designs of the front.
     Designs that break limits come after all that do not, by how far; those that fail come last.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked.
-    trials : Trials
-        Takes what is tried.
-
-    Returns
-    -------
-    bool
-        Whether it ended as nothing was gained any more; of several objectives all trials are used.
-
-    Raises
-    ------
-    CaseError
-        Several objectives, and optuna is not installed.
     """
     size = generation_size(study)
     points = _start(study, trials, size)
@@ -66,18 +49,7 @@ def search(study: OptimiseStudy, trials: Trials) -> bool:
 
 
 def generation_size(study: OptimiseStudy) -> int:
-    """Return how many designs are tried together.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked.
-
-    Returns
-    -------
-    int
-        Ten a parameter, from 12 to 60, not more than a fourth of all, 5 at least.
-    """
+    """Return how many designs are tried together."""
     size = min(max(_PER_PARAMETER * len(study.space.parameters), _LEAST), _MOST)
     return max(min(size, study.evaluations // 4), 5)
 
@@ -107,9 +79,7 @@ def _cost(study: OptimiseStudy, candidate: Candidate | None) -> float:
 
 def _evolve(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
     whole = study.space.whole
-    ends = np.array(
-        [parameter.high if parameter.choices else 1.0 for parameter in study.space.parameters]
-    )
+    ends = np.array([parameter.high if parameter.choices else 1.0 for parameter in study.space.parameters])
 
     def costs(places: Vector) -> Vector:
         rows = [study.space.row(place) for place in (places.T / ends)]
@@ -121,10 +91,19 @@ def _evolve(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
     # Its types know one design at a time only.
     evolve: Any = differential_evolution
     evolve(
-        costs, [(0.0, end) for end in ends], init=points * ends, integrality=whole,
-        rng=np.random.default_rng(study.seed), vectorized=True, updating="deferred", polish=False,
-        maxiter=study.evaluations, tol=0.0, atol=_SAME, callback=enough,
-    )  # fmt: skip
+        costs,
+        [(0.0, end) for end in ends],
+        init=points * ends,
+        integrality=whole,
+        rng=np.random.default_rng(study.seed),
+        vectorized=True,
+        updating="deferred",
+        polish=False,
+        maxiter=study.evaluations,
+        tol=0.0,
+        atol=_SAME,
+        callback=enough,
+    )
 
 
 def _reserve(study: OptimiseStudy) -> int:
@@ -149,9 +128,7 @@ def _poll(study: OptimiseStudy, trials: Trials) -> bool:
             step, before = _FIRST_STEP, _cost(study, best)
         middle = study.space.place(best.values)
         assert middle is not None
-        places = proposals(
-            study, list(trials.found.values()), best, (_TRUSTED, 4.0 * step), _MARGINS
-        )
+        places = proposals(study, list(trials.found.values()), best, (_TRUSTED, 4.0 * step), _MARGINS)
         places += _around(middle, free, step, rng) + _neighbours(study, middle)
         tried = trials.at([study.space.row(place) for place in places])
         ahead = min(tried, key=lambda one: _cost(study, one))

@@ -29,28 +29,11 @@ _MOST_IDLE = 5
 
 
 def evolve_front(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
-    """Try designs by NSGA-II with constraints, until half of the trials are left.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked, with several objectives.
-    trials : Trials
-        Takes what is tried.
-    points : numpy.ndarray
-        First generation in the unit cube, shape (designs, parameters).
-
-    Raises
-    ------
-    CaseError
-        Optuna is not installed.
-    """
+    """Try designs by NSGA-II with constraints, until half of the trials are left."""
     optuna = library("optuna", "optimise", "several objectives")
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     directions = ["maximize" if name in MAXIMISED else "minimize" for name in study.objectives]
-    evolution = optuna.create_study(
-        directions=directions, sampler=_sampler(optuna, len(points), study.seed)
-    )
+    evolution = optuna.create_study(directions=directions, sampler=_sampler(optuna, len(points), study.seed))
     kinds = _distributions(optuna, study)
     for point in points:
         evolution.enqueue_trial(dict(zip(kinds, _params(study, point), strict=True)))
@@ -90,17 +73,7 @@ def _broken(trial: Any) -> Sequence[float]:
 
 
 def refine_front(study: OptimiseStudy, trials: Trials, size: int) -> None:
-    """Move each design of the front by models, then all in smaller and smaller random steps.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked, with several objectives.
-    trials : Trials
-        Takes what is tried, until none is left.
-    size : int
-        Designs that are tried together.
-    """
+    """Move each design of the front by models, then all in smaller and smaller random steps."""
     rng = np.random.default_rng((study.seed, 2))
     step, idle, done = _FIRST_STEP, 0, set[int]()
     while trials.left > 0 and idle < _MOST_IDLE:
@@ -116,11 +89,7 @@ def refine_front(study: OptimiseStudy, trials: Trials, size: int) -> None:
                 places.append((place, bool(np.abs(place - own).max() < _NEAR * _TRUSTED)))
         found = trials.at([study.space.row(place) for place, _ in places])
         # From the edge of what a model is trusted in it goes on.
-        done |= {
-            one.number
-            for one, (_, near) in zip(found, places, strict=True)
-            if one is not None and near
-        }
+        done |= {one.number for one, (_, near) in zip(found, places, strict=True) if one is not None and near}
         if not places:
             moved = [_moved(study, one, step, rng) for one in _spread(best, size)]
             trials.at([study.space.row(place) for place in moved])
@@ -178,9 +147,7 @@ def _params(study: OptimiseStudy, point: Vector) -> list[float | int]:
 
 def _row(study: OptimiseStudy, params: list[float | int]) -> tuple[Any, ...]:
     pairs = zip(study.space.parameters, params, strict=True)
-    return study.space.row(
-        [at / parameter.high if parameter.choices else at for parameter, at in pairs]
-    )
+    return study.space.row([at / parameter.high if parameter.choices else at for parameter, at in pairs])
 
 
 def _values(study: OptimiseStudy, candidate: Candidate | None) -> list[float]:

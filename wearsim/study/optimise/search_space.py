@@ -42,35 +42,16 @@ _NOT_OF_A_DESIGN = {
 
 @dataclass(frozen=True)
 class Parameter:
-    """A key that may change.
+    """A key that may change."""
 
-    Attributes
-    ----------
-    key : str
-        Its dotted name.
-    low, high : float
-        Ends; of a list its first and last place, from 0.
-    choices : tuple
-        Values of a list; empty where any value between the ends is allowed.
-    """
-
-    key: str
-    low: float
-    high: float
+    key: str  # its dotted name
+    low: float  # ends; of a list its first and last place, from 0
+    high: float  # ends; of a list its first and last place, from 0
+    # values of a list; empty where any value between the ends is allowed
     choices: tuple[Any, ...] = ()
 
     def value(self, part: float) -> Any:
         """Return the value at a part of the way from the low end to the high one.
-
-        Parameters
-        ----------
-        part : float
-            From 0 to 1.
-
-        Returns
-        -------
-        object
-            The nearest of a list, a number of seven digits between two ends.
 
         Examples
         --------
@@ -85,18 +66,7 @@ class Parameter:
         return min(max(float(f"{at:.{_DIGITS}g}"), self.low), self.high)
 
     def part(self, value: Any) -> float | None:
-        """Return the part of the way at which a value lies.
-
-        Parameters
-        ----------
-        value : object
-            Of the key.
-
-        Returns
-        -------
-        float or None
-            From 0 to 1; None where the parameter cannot have it.
-        """
+        """Return the part of the way at which a value lies."""
         if self.choices:
             return self.choices.index(value) / self.high if value in self.choices else None
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -105,18 +75,7 @@ class Parameter:
         return (value - self.low) / (self.high - self.low) if inside else None
 
     def end_of(self, value: Any) -> str:
-        """Return on which end of its range a value lies.
-
-        Parameters
-        ----------
-        value : object
-            Of the key.
-
-        Returns
-        -------
-        str
-            ``low``, ``high``, or empty; a list of words has no ends.
-        """
+        """Return on which end of its range a value lies."""
         part = self.part(value)
         if part is None or not all(isinstance(choice, int | float) for choice in self.choices):
             return ""
@@ -125,15 +84,9 @@ class Parameter:
 
 @dataclass(frozen=True)
 class SearchSpace:
-    """All that may change.
+    """All that may change."""
 
-    Attributes
-    ----------
-    parameters : tuple of Parameter
-        The keys.
-    """
-
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[Parameter, ...]  # the keys
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -156,58 +109,18 @@ class SearchSpace:
         )
 
     def row(self, place: Sequence[float] | Vector) -> tuple[Any, ...]:
-        """Return the values at a point of the unit cube.
-
-        Parameters
-        ----------
-        place : sequence of float
-            A part of the way for each parameter.
-
-        Returns
-        -------
-        tuple
-            A value for each parameter.
-        """
+        """Return the values at a point of the unit cube."""
         return tuple(
-            parameter.value(float(part))
-            for parameter, part in zip(self.parameters, place, strict=True)
+            parameter.value(float(part)) for parameter, part in zip(self.parameters, place, strict=True)
         )
 
     def place(self, row: Sequence[Any]) -> Vector | None:
-        """Return the point of the unit cube at which values lie.
-
-        Parameters
-        ----------
-        row : sequence
-            A value for each parameter.
-
-        Returns
-        -------
-        numpy.ndarray or None
-            None where one lies outside.
-        """
-        found = [
-            parameter.part(value) for parameter, value in zip(self.parameters, row, strict=True)
-        ]
+        """Return the point of the unit cube at which values lie."""
+        found = [parameter.part(value) for parameter, value in zip(self.parameters, row, strict=True)]
         return None if None in found else np.array(found, dtype=float)
 
     def start(self, count: int, seed: int, given: Sequence[Any]) -> Vector:
-        """Return points to start from.
-
-        Parameters
-        ----------
-        count : int
-            How many.
-        seed : int
-            The same seed gives the same points.
-        given : sequence
-            Values of the case, the first point where they lie in the space.
-
-        Returns
-        -------
-        numpy.ndarray
-            Shape (count, parameters), spread by scrambled Sobol' points.
-        """
+        """Return points to start from."""
         points = unit_samples(len(self.parameters), count, seed, "sobol")
         own = self.place(given)
         if own is not None:
@@ -216,26 +129,7 @@ class SearchSpace:
 
 
 def search_space(tables: Mapping[str, Any], parameters: Mapping[str, Any]) -> SearchSpace:
-    """Return what may change of a case.
-
-    Parameters
-    ----------
-    tables : mapping
-        Of the case.
-    parameters : mapping
-        Ranges and lists of the table [optimise] by dotted keys.
-
-    Returns
-    -------
-    SearchSpace
-        In the order of the table.
-
-    Raises
-    ------
-    CaseError
-        A key that tells how a case is calculated, a range where only words, files or whole numbers
-        are allowed, or one of too many.
-    """
+    """Return what may change of a case."""
     fields = {key.replace("[]", ""): field for key, field in schema_fields(schema_of(tables))}
     found, faults = [], []
     for key, given in parameters.items():
@@ -271,9 +165,7 @@ def _unfit_range(given: ParameterRange, field: FieldInfo) -> str:
     if not _is_whole(field):
         return ""
     if not (isinstance(given.low, int) and isinstance(given.high, int)):
-        return (
-            f"takes whole numbers: give low and high as such, not {given.low:g} and {given.high:g}"
-        )
+        return f"takes whole numbers: give low and high as such, not {given.low:g} and {given.high:g}"
     count = given.high - given.low + 1
     too_many = f"may hold at most {_MOST_WHOLE} whole numbers, holds {count}: give nearer ends"
     return too_many if count > _MOST_WHOLE else ""
@@ -282,9 +174,7 @@ def _unfit_range(given: ParameterRange, field: FieldInfo) -> str:
 def _parameter(key: str, given: Any, field: FieldInfo | None) -> Parameter:
     if isinstance(given, ParameterRange) and not (field is not None and _is_whole(field)):
         return Parameter(key, float(given.low), float(given.high))
-    whole = (
-        range(int(given.low), int(given.high) + 1) if isinstance(given, ParameterRange) else given
-    )
+    whole = range(int(given.low), int(given.high) + 1) if isinstance(given, ParameterRange) else given
     choices = tuple(whole)
     return Parameter(key, 0.0, float(len(choices) - 1), choices)
 

@@ -30,27 +30,19 @@ _MOST_SHOWN = 20
 
 
 def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.DataFrame:
-    """Return a row for each design.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-    candidates : sequence of Candidate
-        Some of its designs.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Number in the order of trial, values of the parameters, what came of them, whether the
-        life was reached, the relative distance to every limit, whether the design is feasible,
-        and why it failed.
-    """
+    """Return a row for each design."""
     study = outcome.study
     columns = [
-        "design", *study.space.keys, *study.measures, "life_reached", "stop",
-        *(f"margin_{name}" for name in limit_names(study)), "feasible", "error", "warnings",
-    ]  # fmt: skip
+        "design",
+        *study.space.keys,
+        *study.measures,
+        "life_reached",
+        "stop",
+        *(f"margin_{name}" for name in limit_names(study)),
+        "feasible",
+        "error",
+        "warnings",
+    ]
     rows = []
     for one in candidates:
         row = {"design": one.number, **dict(zip(study.space.keys, one.values, strict=True))}
@@ -58,25 +50,15 @@ def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.Da
         if not one.error:
             row |= {f"margin_{name}": value for name, value in margins(study, one).items()}
         rows.append(
-            row | {"life_reached": one.reached, "stop": one.stop, "feasible": one.feasible}
+            row
+            | {"life_reached": one.reached, "stop": one.stop, "feasible": one.feasible}
             | {"error": one.error, "warnings": one.warnings}
-        )  # fmt: skip
+        )
     return pd.DataFrame(rows, columns=columns)
 
 
 def warnings_of(outcome: Outcome) -> tuple[str, ...]:
-    """Return what is doubtful about the best designs.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-
-    Returns
-    -------
-    tuple of str
-        Parameters on their ends, lives beyond the horizon, and warnings of the case.
-    """
+    """Return what is doubtful about the best designs."""
     study, found = outcome.study, []
     for at, parameter in enumerate(study.space.parameters):
         ends = [parameter.end_of(one.values[at]) for one in outcome.front]
@@ -123,30 +105,14 @@ def _of_designs(outcome: Outcome) -> list[str]:
         for number, one in enumerate(outcome.front, 1)
         for text in filter(None, one.warnings.split("\n"))
     )
-    return [
-        first if count == 1 else f"{first} (and of {count - 1} more designs)"
-        for first, count in told
-    ]
+    return [first if count == 1 else f"{first} (and of {count - 1} more designs)" for first, count in told]
 
 
 def optimise_text(outcome: Outcome) -> str:
-    """Return the best designs as text.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-
-    Returns
-    -------
-    str
-        A Markdown table of the case as given and of the best designs, then what was tried.
-    """
+    """Return the best designs as text."""
     study, front = outcome.study, outcome.front
     kind = "best design" if len(study.objectives) == 1 else f"front of {len(front)} designs"
-    sought = ", ".join(
-        f"{'longest' if name in MAXIMISED else 'least'} {name}" for name in study.objectives
-    )
+    sought = ", ".join(f"{'longest' if name in MAXIMISED else 'least'} {name}" for name in study.objectives)
     lines = [study.case.title, "", f"{kind}: {sought}", "", *_table(outcome)]
     if len(front) > _MOST_SHOWN:
         lines.append(f"and {len(front) - _MOST_SHOWN} more: front.csv of --out holds all")
@@ -168,9 +134,7 @@ def _table(outcome: Outcome) -> list[str]:
     head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     shown = [("as given", outcome.given)]
-    shown += [
-        (_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MOST_SHOWN], 1)
-    ]
+    shown += [(_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MOST_SHOWN], 1)]
     for name, one in shown:
         cells = [name, *(_shown(value) for value in one.values)]
         if one.error:
@@ -215,18 +179,7 @@ def _gains(outcome: Outcome) -> list[str]:
 
 
 def optimise_json(outcome: Outcome) -> dict[str, Any]:
-    """Return the best designs as plain values.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-
-    Returns
-    -------
-    dict
-        What is not known is null.
-    """
+    """Return the best designs as plain values."""
     study = outcome.study
     failed = [one for one in outcome.candidates if not one.feasible]
     return {
@@ -259,39 +212,13 @@ def _plain(outcome: Outcome, one: Candidate) -> dict[str, Any]:
 
 
 def save_candidates(outcome: Outcome, folder: Path) -> None:
-    """Write the table of all designs that were tried into the folder of a study.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search, perhaps without a feasible design.
-    folder : pathlib.Path
-        Its folder.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    """
+    """Write the table of all designs that were tried into the folder of a study."""
     tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
     save_texts(folder, {"candidates.csv": tried.to_csv(index=False)})
 
 
 def save_optimise(outcome: Outcome, folder: Path) -> None:
-    """Write the best designs, as a table, as pictures and as cases, into the folder of a study.
-
-    Parameters
-    ----------
-    outcome : Outcome
-        Of a search.
-    folder : pathlib.Path
-        Its folder.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    """
+    """Write the best designs, as a table, as pictures and as cases, into the folder of a study."""
     texts = {
         "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
         "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
@@ -305,8 +232,7 @@ def _save_designs(outcome: Outcome, folder: Path) -> None:
     """Write each of the best designs as a case of its own, with the files that it names."""
     study = outcome.study
     heads = {
-        f"{_name(number, outcome)}.toml": _head(outcome, one)
-        for number, one in enumerate(outcome.front, 1)
+        f"{_name(number, outcome)}.toml": _head(outcome, one) for number, one in enumerate(outcome.front, 1)
     }
     save_designs(folder, heads, study.design([one.values for one in outcome.front]))
 

@@ -34,37 +34,17 @@ Run = Callable[[Design], pd.DataFrame]
 
 @dataclass(frozen=True)
 class Candidate:
-    """A design that was tried.
+    """A design that was tried."""
 
-    Attributes
-    ----------
-    number : int
-        In the order of trial, from 1; 0 is the case as given.
-    values : tuple
-        Of the parameters.
-    measures : mapping of str to float
-        What came of it; empty where it failed.
-    reached : bool
-        Whether the life was reached before the horizon.
-    stop : str
-        Limit that ended the life.
-    violation : float
-        Sum over the limits that it breaks of how far, as natural logarithms; infinite where it
-        failed.
-    error : str
-        Why it failed.
-    warnings : str
-        What is doubtful about it, a line for each.
-    """
-
-    number: int
-    values: tuple[Any, ...]
-    measures: Mapping[str, float]
-    reached: bool
-    stop: str
+    number: int  # in the order of trial, from 1; 0 is the case as given
+    values: tuple[Any, ...]  # of the parameters
+    measures: Mapping[str, float]  # what came of it; empty where it failed
+    reached: bool  # whether the life was reached before the horizon
+    stop: str  # limit that ended the life
+    # sum over the limits that it breaks of how far, as natural logarithms; infinite where it failed
     violation: float
-    error: str
-    warnings: str
+    error: str  # why it failed
+    warnings: str  # what is doubtful about it, a line for each
 
     @property
     def feasible(self) -> bool:
@@ -72,45 +52,21 @@ class Candidate:
         return self.violation == 0.0
 
     def cost(self, objective: str) -> float:
-        """Return what a search makes as small as it can.
-
-        Parameters
-        ----------
-        objective : str
-            A measure.
-
-        Returns
-        -------
-        float
-            The logarithm of the measure, its negative where more is better.
-        """
+        """Return what a search makes as small as it can."""
         return (-1.0 if objective in MAXIMISED else 1.0) * math.log(self.measures[objective])
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a search.
+    """What came of a search."""
 
-    Attributes
-    ----------
-    study : OptimiseStudy
-        What was asked.
-    given : Candidate
-        The case as it is.
-    candidates : tuple of Candidate
-        What was tried, in order.
-    front : tuple of Candidate
-        The best design, or those than which none is better in all objectives; none where no
-        design is feasible.
-    settled : bool
-        Whether the search ended as nothing was gained any more.
-    """
-
-    study: OptimiseStudy
-    given: Candidate
-    candidates: tuple[Candidate, ...]
+    study: OptimiseStudy  # what was asked
+    given: Candidate  # the case as it is
+    candidates: tuple[Candidate, ...]  # what was tried, in order
+    # the best design, or those than which none is better in all objectives; none where no design is
+    # feasible
     front: tuple[Candidate, ...]
-    settled: bool
+    settled: bool  # whether the search ended as nothing was gained any more
 
     @property
     def cases(self) -> list[Case]:
@@ -120,15 +76,7 @@ class Outcome:
 
 
 class Trials:
-    """Designs that were tried, each once.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked.
-    run : callable
-        Runs the cases of a design and returns a row for each.
-    """
+    """Designs that were tried, each once."""
 
     def __init__(self, study: OptimiseStudy, run: Run) -> None:
         self.study, self.run = study, run
@@ -141,18 +89,7 @@ class Trials:
         return self.study.evaluations - len(self.found)
 
     def at(self, rows: Sequence[tuple[Any, ...]]) -> list[Candidate | None]:
-        """Return what comes of designs; those that were tried before are not run again.
-
-        Parameters
-        ----------
-        rows : sequence of tuple
-            Values of the parameters.
-
-        Returns
-        -------
-        list of Candidate or None
-            None where no trial is left for it.
-        """
+        """Return what comes of designs; those that were tried before are not run again."""
         new = [row for row in dict.fromkeys(rows) if row not in self.found][: self.left]
         if new:
             first = len(self.found) + 1
@@ -171,9 +108,13 @@ class Trials:
 
 
 def _candidate(
-    study: OptimiseStudy, number: int, row: tuple[Any, ...], found: Mapping[Any, Any],
-    case: Case | WearsimError, needed: Sequence[str],
-) -> Candidate:  # fmt: skip
+    study: OptimiseStudy,
+    number: int,
+    row: tuple[Any, ...],
+    found: Mapping[Any, Any],
+    case: Case | WearsimError,
+    needed: Sequence[str],
+) -> Candidate:
     error, measures = str(found["error"]), {}
     reached = not math.isnan(found["life_hours"])
     if not error:
@@ -182,9 +123,7 @@ def _candidate(
             assert isinstance(case, Case)
             measures |= {name: _OF_THE_CASE[name](case) for name in needed}
             error = "".join(
-                f"{name} must be above 0, is {value:g}"
-                for name, value in measures.items()
-                if not value > 0.0
+                f"{name} must be above 0, is {value:g}" for name, value in measures.items() if not value > 0.0
             )
         except WearsimError as reason:
             error, measures = str(reason), {}
@@ -194,9 +133,7 @@ def _candidate(
     return Candidate(number, row, measures, reached, stop, violation, error, str(found["warnings"]))
 
 
-def _excesses(
-    limits: Mapping[str, MeasureLimit], measures: Mapping[str, float]
-) -> dict[str, float]:
+def _excesses(limits: Mapping[str, MeasureLimit], measures: Mapping[str, float]) -> dict[str, float]:
     """How far a design is beyond each limit, as a natural logarithm; 0 where it keeps it."""
     found = {}
     for name, limit in limits.items():
@@ -207,18 +144,7 @@ def _excesses(
 
 
 def limit_names(study: OptimiseStudy) -> list[str]:
-    """Return the limits by names such as ``life_hours.low``.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked.
-
-    Returns
-    -------
-    list of str
-        In the order of the table.
-    """
+    """Return the limits by names such as ``life_hours.low``."""
     return [
         f"{name}.{end}"
         for name, limit in study.limits.items()
@@ -228,20 +154,7 @@ def limit_names(study: OptimiseStudy) -> list[str]:
 
 
 def margins(study: OptimiseStudy, candidate: Candidate) -> dict[str, float]:
-    """Return how far a design is from its limits.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What is asked.
-    candidate : Candidate
-        A design that ran.
-
-    Returns
-    -------
-    dict of str to float
-        By limit such as ``life_hours.low``: relative distance to it, negative beyond.
-    """
+    """Return how far a design is from its limits."""
     found = {}
     for key in limit_names(study):
         name, end = key.split(".")
@@ -251,26 +164,9 @@ def margins(study: OptimiseStudy, candidate: Candidate) -> dict[str, float]:
 
 
 def front(candidates: Sequence[Candidate], objectives: Sequence[str]) -> list[Candidate]:
-    """Return the feasible designs than which none is better in all objectives.
-
-    Parameters
-    ----------
-    candidates : sequence of Candidate
-        What was tried.
-    objectives : sequence of str
-        What is sought.
-
-    Returns
-    -------
-    list of Candidate
-        The best of each objective first to last by the first one; one design where only one
-        objective is sought.
-    """
+    """Return the feasible designs than which none is better in all objectives."""
     feasible = [candidate for candidate in candidates if candidate.feasible]
-    costs = {
-        candidate.number: tuple(candidate.cost(name) for name in objectives)
-        for candidate in feasible
-    }
+    costs = {candidate.number: tuple(candidate.cost(name) for name in objectives) for candidate in feasible}
     feasible.sort(key=lambda candidate: (costs[candidate.number], candidate.number))
     kept: list[Candidate] = []
     for candidate in feasible:
@@ -285,20 +181,7 @@ def _covers(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 
 def check_feasible(study: OptimiseStudy, candidates: Sequence[Candidate]) -> None:
-    """Raise where no design is feasible.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What was asked.
-    candidates : sequence of Candidate
-        What was tried.
-
-    Raises
-    ------
-    StudyError
-        With the commonest reason.
-    """
+    """Raise where no design is feasible."""
     if any(candidate.feasible for candidate in candidates):
         return
     nearest = min(candidates, key=lambda one: one.violation)
@@ -313,20 +196,7 @@ def check_feasible(study: OptimiseStudy, candidates: Sequence[Candidate]) -> Non
 
 
 def commonest_reason(study: OptimiseStudy, candidates: Sequence[Candidate]) -> str:
-    """Return why most designs that are not feasible are not.
-
-    Parameters
-    ----------
-    study : OptimiseStudy
-        What was asked.
-    candidates : sequence of Candidate
-        What was tried.
-
-    Returns
-    -------
-    str
-        In words, with how many and one example; empty where all are feasible.
-    """
+    """Return why most designs that are not feasible are not."""
     reasons = kinds(text for candidate in candidates for text in _reasons(study, candidate))
     return f"{reasons[0][1]} of them by {reasons[0][0]}" if reasons else ""
 

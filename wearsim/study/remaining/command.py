@@ -5,15 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import (
-    error_json,
-    finite,
-    load_cases,
-    overrides,
-    print_json,
-    standard,
-    working,
-)
+from wearsim.command.options import error_json, finite, load_cases, overrides, print_json, standard, working
 from wearsim.errors import WearsimError
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
@@ -22,37 +14,62 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 @click.command(short_help="Hours left after one reading in service.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--hours", required=True, type=_POSITIVE, metavar="H", callback=finite,
+    "--hours",
+    required=True,
+    type=_POSITIVE,
+    metavar="H",
+    callback=finite,
     help="Running hours of the part that was measured, sprocket or chain, since it was new.",
-)  # fmt: skip
+)
 @click.option(
-    "--depth-mm", type=_POSITIVE, metavar="MM", callback=finite,
+    "--depth-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
     help="Depth worn off a tooth at the deepest point.",
-)  # fmt: skip
+)
 @click.option(
-    "--over-pins-mm", type=_POSITIVE, metavar="MM", callback=finite,
+    "--over-pins-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
     help="How much less the measurement over pins is than when new.",
-)  # fmt: skip
+)
 @click.option(
-    "--elongation", type=_POSITIVE, metavar="PERCENT", callback=finite,
-    help="Elongation of the chain.",
-)  # fmt: skip
+    "--elongation", type=_POSITIVE, metavar="PERCENT", callback=finite, help="Elongation of the chain."
+)
 @click.option(
-    "--reading-error-mm", type=_POSITIVE, default=0.02, show_default=True, metavar="MM",
-    callback=finite, help="Error of a reading in mm, to either side.",
-)  # fmt: skip
+    "--reading-error-mm",
+    type=_POSITIVE,
+    default=0.02,
+    show_default=True,
+    metavar="MM",
+    callback=finite,
+    help="Error of a reading in mm, to either side.",
+)
 @click.option(
-    "--reading-error-percent", type=_POSITIVE, default=0.05, show_default=True, metavar="PERCENT",
-    callback=finite, help="Error of an elongation, to either side.",
-)  # fmt: skip
+    "--reading-error-percent",
+    type=_POSITIVE,
+    default=0.05,
+    show_default=True,
+    metavar="PERCENT",
+    callback=finite,
+    help="Error of an elongation, to either side.",
+)
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
 @standard
 def remaining(
-    case: Path, hours: float, depth_mm: float | None, over_pins_mm: float | None,
-    elongation: float | None, reading_error_mm: float, reading_error_percent: float,
-    as_json: bool, settings: tuple[str, ...],
-) -> None:  # fmt: skip
+    case: Path,
+    hours: float,
+    depth_mm: float | None,
+    over_pins_mm: float | None,
+    elongation: float | None,
+    reading_error_mm: float,
+    reading_error_percent: float,
+    as_json: bool,
+    settings: tuple[str, ...],
+) -> None:
     """Print the hours that are left of CASE; one reading replaces the wear coefficient.
 
     Give one of --depth-mm, --over-pins-mm and --elongation. Life times coefficient is
@@ -65,9 +82,7 @@ def remaining(
     from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
     from wearsim.study.remaining.sheet import remaining_json, remaining_text
 
-    quantity = (
-        DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
-    )
+    quantity = DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
     error = reading_error_percent if elongation is not None else reading_error_mm
     try:
         with working(f"wearing {loaded.title}") as told:

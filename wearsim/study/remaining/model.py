@@ -17,18 +17,6 @@ from wearsim.study.constant_coefficient import check_constant
 def ambiguity(over_pins: Vector, error: float) -> str:
     """Return why a reading over pins may belong to several times of a life.
 
-    Parameters
-    ----------
-    over_pins : numpy.ndarray
-        The measurement over the life [mm].
-    error : float
-        Of the reading [mm].
-
-    Returns
-    -------
-    str
-        What must hold and what to do; empty where it falls all the time, but for the error.
-
     Examples
     --------
     >>> ambiguity(np.array([80.0, 79.9, 79.95]), 0.1)
@@ -50,61 +38,33 @@ DEPTH, OVER_PINS, ELONGATION = "max_depth_mm", "over_pins_mm", "elongation_perce
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of wear in service.
+    """One reading of wear in service."""
 
-    Attributes
-    ----------
-    quantity : str
-        ``max_depth_mm``, ``over_pins_mm`` (how much the measurement over pins has become
-        less) or ``elongation_percent``.
-    value, error : float
-        In the unit of the quantity, both above 0.
-    hours : float
-        Running time since the part that was measured, sprocket or chain, was new [h].
-    """
-
+    # `max_depth_mm`, `over_pins_mm` (how much the measurement over pins has become less) or
+    # `elongation_percent`
     quantity: str
-    value: float
-    error: float
-    hours: float
+    value: float  # in the unit of the quantity, both above 0
+    error: float  # in the unit of the quantity, both above 0
+    hours: float  # running time since the part that was measured, sprocket or chain, was new [h]
 
 
 @dataclass(frozen=True)
 class RemainingLife:
-    """What is left of the life of the part that was measured.
+    """What is left of the life of the part that was measured."""
 
-    Attributes
-    ----------
-    case, title : str
-        Of the case.
-    part : str
-        ``sprocket`` or ``chain``.
-    reading : Reading
-        What was measured.
-    model_hours : float
-        When the case's own coefficient gives that reading [h].
-    coefficient : float
-        That the reading stands for, in the unit of the case's law.
-    life, remaining : Life or LowerBound
-        From new, and from the reading on.
-    remaining_low, remaining_high : Life or LowerBound
-        With the reading at the high and at the low end of its error.
-    assumptions, warnings : tuple of str
-        What was taken for granted, and what the user should look at.
-    """
-
-    case: str
-    title: str
-    part: str
-    reading: Reading
-    model_hours: float
-    coefficient: float
-    life: Life | LowerBound
-    remaining: Life | LowerBound
+    case: str  # of the case
+    title: str  # of the case
+    part: str  # `sprocket` or `chain`
+    reading: Reading  # what was measured
+    model_hours: float  # when the case's own coefficient gives that reading [h]
+    coefficient: float  # that the reading stands for, in the unit of the case's law
+    life: Life | LowerBound  # from new, and from the reading on
+    remaining: Life | LowerBound  # from new, and from the reading on
+    # remaining_low, remaining_high: with the reading at the high and at the low end of its error
     remaining_low: Life | LowerBound
     remaining_high: Life | LowerBound
-    assumptions: tuple[str, ...]
-    warnings: tuple[str, ...]
+    assumptions: tuple[str, ...]  # what was taken for granted, and what the user should look at
+    warnings: tuple[str, ...]  # what was taken for granted, and what the user should look at
 
     @property
     def factor(self) -> float:
@@ -140,41 +100,13 @@ def remaining_life(
     is L h/h_m instead of L. On a wrap the coefficients of teeth and joints change alike for a
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
     long as the coefficient is constant.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    reading : Reading
-        The reading.
-    progress : callable, optional
-        Told how much of a run is done, from 0 to 1.
-
-    Returns
-    -------
-    RemainingLife
-        Of the part that was measured.
-
-    Raises
-    ------
-    CaseError
-        The case does not know the quantity, the reading is not above its error or beyond the
-        limit or the run, or it belongs to several times of the run.
-    ContactError
-        The contact leaves its theory or vanishes, or the chain jumps.
-    ConvergenceError
-        The life would be wrong.
     """
     check_constant(case, "remaining")
     if not 0.0 < reading.error < reading.value:
         raise _fault(
-            case,
-            reading,
-            f"must be larger than its error of {reading.error:g}: measure later or better",
+            case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"
         )
-    course = (
-        _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
-    )
+    course = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
     most = float(course.values.max())
     reached = isinstance(course.life, Life)
     if reading.value > most * (1.0 + 1e-12):

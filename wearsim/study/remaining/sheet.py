@@ -17,29 +17,13 @@ _WORDS = {
 
 
 def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
-    """Return the answer as ``wearsim remaining`` prints it.
-
-    Parameters
-    ----------
-    found : RemainingLife
-        The answer.
-    inputs : mapping
-        Tables of the case.
-
-    Returns
-    -------
-    str
-        Several lines, at most a hundred characters wide.
-    """
+    """Return the answer as ``wearsim remaining`` prints it."""
     reading = found.reading
     band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
     what = _WORDS[reading.quantity].format(f"{reading.value:g}")
     service = service_text(inputs, found.remaining, reading.hours)
     rows = [
-        (
-            "Remaining",
-            f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h",
-        ),
+        ("Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"),
         ("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
         *([("In service", service)] if service else []),
         ("Life", f"{hours(found.life)} of the {found.part} in all"),
@@ -55,20 +39,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
 
 
 def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the answer as ``wearsim remaining --json`` prints it.
-
-    Parameters
-    ----------
-    found : RemainingLife
-        The answer.
-    inputs : mapping
-        Tables of the case.
-
-    Returns
-    -------
-    dict
-        Numbers, strings, lists and None for a life that the run does not reach.
-    """
+    """Return the answer as ``wearsim remaining --json`` prints it."""
     reading = found.reading
     content = {
         "schema_version": 1,

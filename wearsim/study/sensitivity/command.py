@@ -19,25 +19,34 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
 @click.command(short_help="What of the input matters: Sobol', Morris, tornado.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--samples", type=click.IntRange(min=8, max=1 << 20), default=256, show_default=True,
+    "--samples",
+    type=click.IntRange(min=8, max=1 << 20),
+    default=256,
+    show_default=True,
     callback=_power_of_two,
     help="Base samples of Sobol's method, a power of two; keys + 2 lives each.",
-)  # fmt: skip
-@click.option(
-    "--trajectories", type=click.IntRange(min=4, max=10_000), default=20, show_default=True,
-    help="Of Morris' method; keys + 1 lives each.",
-)  # fmt: skip
-@click.option(
-    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples."
 )
+@click.option(
+    "--trajectories",
+    type=click.IntRange(min=4, max=10_000),
+    default=20,
+    show_default=True,
+    help="Of Morris' method; keys + 1 lives each.",
+)
+@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @place_options
 @overrides
 @standard
 def sensitivity(
-    case: Path, samples: int, trajectories: int, seed: int, as_json: bool, place: Place,
+    case: Path,
+    samples: int,
+    trajectories: int,
+    seed: int,
+    as_json: bool,
+    place: Place,
     settings: tuple[str, ...],
-) -> int:  # fmt: skip
+) -> int:
     """Print which keys of CASE (.toml) its life depends on, and what would double it.
 
     The table [uncertainty] of the case tells what scatters and how. With --out, DIR holds

@@ -34,56 +34,34 @@ _SAME = 1e-9
 
 @dataclass(frozen=True)
 class SensitivityStudy:
-    """The cases of a sensitivity study.
+    """The cases of a sensitivity study."""
 
-    Attributes
-    ----------
-    scattered : Scattered
-        The case and what of it scatters.
-    seed : int
-        Of the samples.
-    morris : numpy.ndarray
-        Shares of Morris' trajectories, shape (trajectories (keys + 1), keys).
-    sobol : int
-        Rows of Sobol's method, which come last.
-    design : Design
-        The middle, each key low and high, Morris' rows, Sobol's rows.
-    """
-
-    scattered: Scattered
-    seed: int
-    morris: Vector
-    sobol: int
-    design: Design
+    scattered: Scattered  # the case and what of it scatters
+    seed: int  # of the samples
+    morris: Vector  # shares of Morris' trajectories, shape (trajectories (keys + 1), keys)
+    sobol: int  # rows of Sobol's method, which come last
+    design: Design  # the middle, each key low and high, Morris' rows, Sobol's rows
 
 
 @dataclass(frozen=True)
 class Effect:
-    """What one key does to the life.
+    """What one key does to the life."""
 
-    Attributes
-    ----------
-    scatter : Scatter
-        The key.
-    low_hours, high_hours : float
-        Life with the key at its 10 % and 90 % point, all others in their middle [h].
-    first, first_error : float
-        Sobol's index of first order and its 95 % half-width: part of the variance of ln L that
-        goes when the key is known.
-    total, total_error : float
-        Sobol's total index: part of the variance that stays when all others are known.
-    morris, morris_error, interaction : float
-        Morris' mean of the size of the effects on ln L, its 95 % half-width, and their standard
-        deviation.
-    """
-
-    scatter: Scatter
+    scatter: Scatter  # the key
+    # low_hours, high_hours: life with the key at its 10 % and 90 % point, all others in their
+    # middle [h]
     low_hours: float
     high_hours: float
+    # first, first_error: sobol's index of first order and its 95 % half-width: part of the variance
+    # of ln L that goes when the key is known
     first: float
     first_error: float
+    # total, total_error: sobol's total index: part of the variance that stays when all others are
+    # known
     total: float
     total_error: float
+    # morris, morris_error, interaction: Morris' mean of the size of the effects on ln L, its 95 %
+    # half-width, and their standard deviation
     morris: float
     morris_error: float
     interaction: float
@@ -92,31 +70,7 @@ class Effect:
 def load_sensitivity(
     path: Path, overrides: Sequence[str], samples: int, trajectories: int, seed: int
 ) -> SensitivityStudy:
-    """Return the cases of a sensitivity study.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The case; its table [uncertainty] tells what scatters.
-    overrides : sequence of str
-        ``table.key=VALUE``.
-    samples : int
-        Base samples of Sobol's method, a power of two; it takes keys + 2 lives for each.
-    trajectories : int
-        Of Morris' method, keys + 1 lives for each.
-    seed : int
-        The same seed gives the same samples.
-
-    Returns
-    -------
-    SensitivityStudy
-        To be run.
-
-    Raises
-    ------
-    CaseError
-        The case is wrong, or a key of the table holds no number that could scatter.
-    """
+    """Return the cases of a sensitivity study."""
     scattered = load_scattered(path, overrides)
     problem = _problem(scattered)
     count = len(scattered.scatters)
@@ -133,25 +87,7 @@ def load_sensitivity(
 
 
 def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
-    """Return what every key does to the life.
-
-    Parameters
-    ----------
-    study : SensitivityStudy
-        The cases.
-    table : pandas.DataFrame
-        What came of them, of `run_study`.
-
-    Returns
-    -------
-    list of Effect
-        By the total index, the largest first.
-
-    Raises
-    ------
-    StudyError
-        A case failed or was not run to its life: the indices need them all.
-    """
+    """Return what every key does to the life."""
     _check(table)
     hours = table["life_hours"].to_numpy(float)
     count, problem = len(study.scattered.scatters), _problem(study.scattered)
@@ -160,11 +96,7 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
     if np.ptp(logs) < _SAME:
         raise StudyError("nothing that scatters changes the life: there is nothing to tell apart")
     screened = library("SALib.analyze.morris", "study", "sensitivity").analyze(
-        problem,
-        study.morris,
-        logs[1 + 2 * count : -study.sobol],
-        num_levels=_LEVELS,
-        seed=study.seed,
+        problem, study.morris, logs[1 + 2 * count : -study.sobol], num_levels=_LEVELS, seed=study.seed
     )
     # The estimators lose digits where the mean is large against the scatter.
     varied = logs[-study.sobol :] - logs[-study.sobol :].mean()
@@ -173,34 +105,18 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
     )
     found = [
         Effect(
-            scatter, *one[index].tolist(),
+            scatter,
+            *one[index].tolist(),
             *(float(indices[name][index]) for name in ("S1", "S1_conf", "ST", "ST_conf")),
             *(float(screened[name][index]) for name in ("mu_star", "mu_star_conf", "sigma")),
         )
         for index, scatter in enumerate(study.scattered.scatters)
-    ]  # fmt: skip
+    ]
     return sorted(found, key=lambda effect: -effect.total)
 
 
 def doubling(scattered: Scattered) -> dict[str, float]:
-    """Return the value of every key at which the case lives twice as long, the others as they are.
-
-    Parameters
-    ----------
-    scattered : Scattered
-        The case and what of it scatters.
-
-    Returns
-    -------
-    dict
-        By key; nan where no value that can run does it, and for a case with contact fatigue, whose
-        life may change by leaps.
-
-    Raises
-    ------
-    WearsimError
-        The case has no life to be doubled.
-    """
+    """Return the value of every key at which the case lives twice as long, the others as they are."""
     if scattered.case.fatigue is not None:
         return dict.fromkeys(scattered.keys, math.nan)
     hours = simulate(_case_with(scattered, "", math.nan)).life.hours

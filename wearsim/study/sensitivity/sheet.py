@@ -19,68 +19,26 @@ _NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may cha
 
 @dataclass(frozen=True)
 class Answer:
-    """What of the input matters.
+    """What of the input matters."""
 
-    Attributes
-    ----------
-    study : SensitivityStudy
-        What was asked.
-    hours : float
-        Life with every key in its middle [h].
-    effects : sequence of Effect
-        Of the keys, the largest first.
-    doubled : mapping of str to float
-        Values that double the life of the case, nan where none does.
-    warnings : tuple of str
-        What is doubtful about the indices.
-    """
-
-    study: SensitivityStudy
-    hours: float
-    effects: Sequence[Effect]
-    doubled: Mapping[str, float]
-    warnings: tuple[str, ...]
+    study: SensitivityStudy  # what was asked
+    hours: float  # life with every key in its middle [h]
+    effects: Sequence[Effect]  # of the keys, the largest first
+    doubled: Mapping[str, float]  # values that double the life of the case, nan where none does
+    warnings: tuple[str, ...]  # what is doubtful about the indices
 
 
 def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
-    """Return what is doubtful about indices.
-
-    Parameters
-    ----------
-    effects : sequence of Effect
-        Of all keys.
-    case : Case
-        The case.
-
-    Returns
-    -------
-    tuple of str
-        Indices that are not much larger than their errors, and what is left out.
-    """
+    """Return what is doubtful about indices."""
     found = (_NOT_DOUBLED,) if case.fatigue is not None else ()
     loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
     if not loose:
         return found
-    return (
-        *found,
-        f"the indices of {', '.join(loose)} are not known well: take more --samples",
-    )
+    return (*found, f"the indices of {', '.join(loose)} are not known well: take more --samples")
 
 
 def sensitivity_table(answer: Answer) -> pd.DataFrame:
-    """Return a row for each key.
-
-    Parameters
-    ----------
-    answer : Answer
-        What matters.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Lives with the key low and high, indices with their errors, the value that doubles the
-        life.
-    """
+    """Return a row for each key."""
     return pd.DataFrame(
         {
             "key": effect.scatter.key,
@@ -101,25 +59,10 @@ def sensitivity_table(answer: Answer) -> pd.DataFrame:
 
 
 def sensitivity_text(answer: Answer) -> str:
-    """Return what matters as text.
-
-    Parameters
-    ----------
-    answer : Answer
-        What matters.
-
-    Returns
-    -------
-    str
-        Lines.
-    """
+    """Return what matters as text."""
     scattered = answer.study.scattered
     width = max(len(key) for key in scattered.keys)
-    lines = [
-        scattered.case.title,
-        "",
-        f"life         {grouped(answer.hours)} h in the middle of all",
-    ]
+    lines = [scattered.case.title, "", f"life         {grouped(answer.hours)} h in the middle of all"]
     lines += ["", "part of the variance of ln L, and life with one key low and high (10 and 90 %):"]
     for effect in answer.effects:
         lines.append(
@@ -149,18 +92,7 @@ def sensitivity_text(answer: Answer) -> str:
 
 
 def sensitivity_json(answer: Answer) -> dict[str, Any]:
-    """Return what matters as plain values.
-
-    Parameters
-    ----------
-    answer : Answer
-        What matters.
-
-    Returns
-    -------
-    dict
-        What is not known is null.
-    """
+    """Return what matters as plain values."""
     rows = sensitivity_table(answer).to_dict("records")
     scattered = answer.study.scattered
     return {
@@ -175,22 +107,7 @@ def sensitivity_json(answer: Answer) -> dict[str, Any]:
 
 
 def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
-    """Write tables and the tornado into the folder of a study.
-
-    Parameters
-    ----------
-    answer : Answer
-        What matters.
-    table : pandas.DataFrame
-        A row for each case.
-    folder : pathlib.Path
-        Its folder.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    """
+    """Write tables and the tornado into the folder of a study."""
     texts = {
         "cases.csv": table.to_csv(index=False),
         "sensitivity.csv": sensitivity_table(answer).to_csv(index=False),
@@ -201,18 +118,7 @@ def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
 
 
 def tornado(answer: Answer) -> Figure:
-    """Return the picture of one key at a time, the widest on top.
-
-    Parameters
-    ----------
-    answer : Answer
-        What matters.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        A bar for each key from its life at 10 % to that at 90 %.
-    """
+    """Return the picture of one key at a time, the widest on top."""
     effects = sorted(answer.effects, key=lambda e: abs(math.log(e.high_hours / e.low_hours)))
     figure = Figure(figsize=(7.5, 1.6 + 0.55 * len(effects)), layout="constrained")
     panel = figure.subplots()

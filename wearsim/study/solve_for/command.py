@@ -16,16 +16,15 @@ if TYPE_CHECKING:
 
 
 def solve(
-    path: Path, key: str, hours: float, settings: Sequence[str], folder: Path | None, force: bool,
+    path: Path,
+    key: str,
+    hours: float,
+    settings: Sequence[str],
+    folder: Path | None,
+    force: bool,
     as_json: bool,
-) -> int:  # fmt: skip
-    """Print the value of a key at which a case lives so long, and its answer there.
-
-    Returns
-    -------
-    int
-        Exit code.
-    """
+) -> int:
+    """Print the value of a key at which a case lives so long, and its answer there."""
     (case,) = load_cases([path], settings, as_json)
     from wearsim.case.load_case import load_case
     from wearsim.study.solve_for.model import solve_for
@@ -60,13 +59,7 @@ def _start(case: "Case", key: str) -> float:
         raise CaseError([Fault(message, key, case.name)])
     if not value > 0:
         raise CaseError(
-            [
-                Fault(
-                    f"--solve-for needs a value above 0 to start from (got {value:g})",
-                    key,
-                    case.name,
-                )
-            ]
+            [Fault(f"--solve-for needs a value above 0 to start from (got {value:g})", key, case.name)]
         )
     return value
 
@@ -75,9 +68,7 @@ def _setting(key: str, value: float, start: float) -> str:
     return f"{key}={int(value) if isinstance(start, int) else repr(value)}"
 
 
-def _show(
-    solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool
-) -> None:
+def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool) -> None:
     from wearsim.report.answer import answer
     from wearsim.report.lines import grouped
     from wearsim.report.service import life_json

@@ -24,47 +24,24 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class Trial:
-    """A value and what the case does with it.
+    """A value and what the case does with it."""
 
-    Attributes
-    ----------
-    value : float
-        Of the key.
-    hours : float
-        Life, or twice the required hours where it is at least that [h].
-    result : WearResult
-        The run.
-    """
-
-    value: float
-    hours: float
-    result: WearResult
+    value: float  # of the key
+    hours: float  # life, or twice the required hours where it is at least that [h]
+    result: WearResult  # the run
 
 
 @dataclass(frozen=True)
 class Solved:
-    """The value that gives the required life, or the best that the allowed range has.
+    """The value that gives the required life, or the best that the allowed range has."""
 
-    Attributes
-    ----------
-    trial : Trial
-        At the value.
-    met : bool
-        Whether it gives the life; otherwise it is the one that comes nearest.
-    elasticity : float
-        Relative change of the life over that of the value, there; nan where not known.
-    low, high : float
-        Values between which the case could be run.
-    runs : int
-        Lives that were calculated.
-    """
-
-    trial: Trial
-    met: bool
+    trial: Trial  # at the value
+    met: bool  # whether it gives the life; otherwise it is the one that comes nearest
+    # relative change of the life over that of the value, there; nan where not known
     elasticity: float
-    low: float
-    high: float
-    runs: int
+    low: float  # values between which the case could be run
+    high: float  # values between which the case could be run
+    runs: int  # lives that were calculated
 
 
 class _Lives:
@@ -99,35 +76,12 @@ class _Lives:
         return Trial(value, result.life.hours_run, result)
 
 
-def solve_for(
-    case_at: Callable[[float], Case], start: float, hours: float, whole: bool = False
-) -> Solved:
+def solve_for(case_at: Callable[[float], Case], start: float, hours: float, whole: bool = False) -> Solved:
     """Find the value of a key at which a case lives as long as required.
 
     From the start the value is doubled or halved, to the side on which the life comes
     nearer first, until the life is met or the case refuses; Brent's method on the
     logarithms follows, for whole numbers bisection to the value that still lives as long.
-
-    Parameters
-    ----------
-    case_at : callable
-        The case with a value of the key; raises a `WearsimError` where it is not allowed.
-    start : float
-        Value to start from, above 0.
-    hours : float
-        Required life [h], above 0.
-    whole : bool
-        Whether only whole numbers are allowed.
-
-    Returns
-    -------
-    Solved
-        The value, or what comes nearest.
-
-    Raises
-    ------
-    WearsimError
-        The case cannot be run with the start.
     """
     lives = _Lives(case_at, hours, whole)
     first = lives.at(start)
@@ -142,9 +96,8 @@ def solve_for(
     allowed = [value for value, trial in lives.found.items() if trial is not None]
     trial = _nearest(lives) if bracket is None else _root(lives, *bracket)
     return Solved(
-        trial, bracket is not None, _elasticity(lives, trial), min(allowed), max(allowed),
-        len(lives.found),
-    )  # fmt: skip
+        trial, bracket is not None, _elasticity(lives, trial), min(allowed), max(allowed), len(lives.found)
+    )
 
 
 def _directions(lives: _Lives, start: float) -> tuple[float, float]:
@@ -173,9 +126,7 @@ def _bracket(lives: _Lives, start: float, factor: float) -> tuple[float, float] 
     return None
 
 
-def _at_edge(
-    lives: _Lives, inside: float, outside: float, sign: bool
-) -> tuple[float, float] | None:
+def _at_edge(lives: _Lives, inside: float, outside: float, sign: bool) -> tuple[float, float] | None:
     """Go on towards a value that is refused, as near as bisection comes."""
     start = inside
     for _ in range(_EDGE_STEPS):
@@ -198,9 +149,7 @@ def _root(lives: _Lives, one: float, other: float) -> Trial:
     def value(part: float) -> float:
         return high if part == 1.0 else low * (high / low) ** part
 
-    root = brentq(
-        lambda part: lives.excess(value(part)), 0.0, 1.0, xtol=tolerance / math.log(high / low)
-    )
+    root = brentq(lambda part: lives.excess(value(part)), 0.0, 1.0, xtol=tolerance / math.log(high / low))
     found = lives.at(value(root))
     assert found is not None
     return found

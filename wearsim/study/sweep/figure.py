@@ -23,21 +23,7 @@ _MOST_NUMBERS = 100
 
 
 def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
-    """Return the pictures that suit a sweep, by file stem.
-
-    Parameters
-    ----------
-    sweep : Sweep
-        Its axes.
-    table : pandas.DataFrame
-        A row for each case, of `run_study`.
-
-    Returns
-    -------
-    dict
-        ``curves`` where a key with numbers has up to 10 curves, ``heat_map`` for two axes of
-        numbers, ``parallel`` for two keys and more; none where no case has a life.
-    """
+    """Return the pictures that suit a sweep, by file stem."""
     if not (table["hours_run"] > 0.0).any():
         return {}
     figures: dict[str, Figure] = {}
@@ -63,16 +49,6 @@ def _is_whole(column: "pd.Series[Any]") -> bool:
 def axis_label(key: str) -> str:
     """Return the name of a key above its scale.
 
-    Parameters
-    ----------
-    key : str
-        Dotted key, or a column.
-
-    Returns
-    -------
-    str
-        With its unit apart.
-
     Examples
     --------
     >>> axis_label("load.tension_N")
@@ -95,19 +71,12 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     for number, (values, group) in enumerate(groups):
         group = group[group["error"] == ""].sort_values(key)
         shown = ", ".join(
-            f"{axis_label(key)} {value:.4g}"
-            if isinstance(value, float)
-            else f"{axis_label(key)} {value}"
+            f"{axis_label(key)} {value:.4g}" if isinstance(value, float) else f"{axis_label(key)} {value}"
             for key, value in zip(others, values, strict=True)
         )
         colour = f"C{number}"
         panel.plot(
-            group[key],
-            group["life_hours"],
-            "-o",
-            color=colour,
-            markersize=4,
-            label=literal(shown) or None,
+            group[key], group["life_hours"], "-o", color=colour, markersize=4, label=literal(shown) or None
         )
         bound = group[group["life_hours"].isna()]
         panel.plot(bound[key], bound["hours_run"], "^", color=colour, mfc="white", markersize=9)
@@ -140,9 +109,14 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
             sign = "" if reached[row, column] else "> "
             text = "failed" if np.isnan(value) else sign + grouped(float(f"{value:.3g}"))
             panel.text(
-                column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=8,
+                column + 0.5,
+                row + 0.5,
+                text,
+                ha="center",
+                va="center",
+                fontsize=8,
                 color="white" if dark else "black",
-            )  # fmt: skip
+            )
     figure.colorbar(image, label="life, h")
     panel.set_xlabel(axis_label(across))
     panel.set_ylabel(axis_label(up))
@@ -169,9 +143,7 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
     panel = figure.subplots()
     norm = _scale(table)
-    heights = np.column_stack(
-        [scaled_heights(panel, at, rows[key]) for at, key in enumerate(columns)]
-    )
+    heights = np.column_stack([scaled_heights(panel, at, rows[key]) for at, key in enumerate(columns)])
     colours = mpl.colormaps["viridis"](norm(rows["life"].to_numpy()))
     bounds = rows["life_hours"].isna()
     for line, colour, bound in zip(heights, colours, bounds, strict=True):
@@ -192,22 +164,7 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
 
 
 def scaled_heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
-    """Draw one scale of parallel coordinates.
-
-    Parameters
-    ----------
-    panel : matplotlib.axes.Axes
-        Where it is drawn.
-    at : int
-        Its place.
-    values : pandas.Series
-        Numbers or words.
-
-    Returns
-    -------
-    numpy.ndarray
-        Where the values lie on it, from 0 to 1.
-    """
+    """Draw one scale of parallel coordinates."""
     panel.axvline(at, color="0.3", linewidth=1.0)
     if _is_numeric(values):
         low, high = float(values.min()), float(values.max())

@@ -59,9 +59,7 @@ class SweepTables(CalculationTables):
         """Return what is wrong between the tables."""
         found = []
         if not (self.grid or self.zip or self.design):
-            found.append(
-                ("grid", "a sweep needs values for a key in [grid], [[zip]] or [[design]]")
-            )
+            found.append(("grid", "a sweep needs values for a key in [grid], [[zip]] or [[design]]"))
         found += [
             (f"grid.{key}", "every value once, but one is given twice: remove it")
             for key, values in self.grid.items()
@@ -71,9 +69,7 @@ class SweepTables(CalculationTables):
             counts = {key: len(values) for key, values in group.items()}
             if len(set(counts.values())) > 1:
                 shown = ", ".join(f"{key} {count}" for key, count in counts.items())
-                found.append(
-                    (f"zip.{number}", f"keys that go together need as many values: {shown}")
-                )
+                found.append((f"zip.{number}", f"keys that go together need as many values: {shown}"))
         if len({frozenset(entry) for entry in self.design}) > 1:
             found.append(("design", "every [[design]] must give the same keys"))
         keys = [*self.grid, *(key for group in self.zip for key in group)]

@@ -19,43 +19,16 @@ MOST_CASES = 10_000_000
 
 @dataclass(frozen=True)
 class Sweep:
-    """The cases of a sweep.
+    """The cases of a sweep."""
 
-    Attributes
-    ----------
-    title : str
-        What it is about.
-    axes : tuple of tuple of str
-        Keys that change together, one group for every dimension of the grid.
-    design : Design
-        The cases, those that differ in the last axis only next to one another.
-    """
-
-    title: str
+    title: str  # what it is about
+    # keys that change together, one group for every dimension of the grid
     axes: tuple[tuple[str, ...], ...]
-    design: Design
+    design: Design  # the cases, those that differ in the last axis only next to one another
 
 
 def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
-    """Return the cases of a sweep.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        Its file; the case that it names lies relative to it.
-    overrides : sequence of str
-        ``table.key=VALUE`` for the case, applied before the values of the sweep.
-
-    Returns
-    -------
-    Sweep
-        Every combination of the axes.
-
-    Raises
-    ------
-    CaseError
-        Something is wrong with the file, a key is none of a case, or there are too many cases.
-    """
+    """Return the cases of a sweep."""
     tables = load_calculation(path, SweepTables)
     axes = list(_axes(tables))
     keys = [key for names, _ in axes for key in names]
@@ -90,16 +63,6 @@ def _axes(tables: SweepTables) -> Iterator[Axis]:
 
 def values_of(given: Range) -> list[float]:
     """Return the values of a range.
-
-    Parameters
-    ----------
-    given : Range
-        Its ends, number and spacing.
-
-    Returns
-    -------
-    list of float
-        Both ends included, exactly.
 
     Examples
     --------

@@ -15,20 +15,7 @@ from wearsim.study.sweep.model import Sweep
 
 
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
-    """Return a sweep as a Markdown table.
-
-    Parameters
-    ----------
-    sweep : Sweep
-        Its keys.
-    table : pandas.DataFrame
-        A row for each case, of `run_study`.
-
-    Returns
-    -------
-    str
-        Keys, life and what ended it; a bound where no limit was met, the error where it failed.
-    """
+    """Return a sweep as a Markdown table."""
     head = [*sweep.design.keys, "life, h", "ended by"]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for row in table.to_dict("records"):
@@ -39,20 +26,7 @@ def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
 
 
 def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
-    """Return a sweep as JSON, an object for each case.
-
-    Parameters
-    ----------
-    sweep : Sweep
-        Its keys.
-    table : pandas.DataFrame
-        A row for each case, of `run_study`.
-
-    Returns
-    -------
-    list of str
-        A line for each; what is not known is null.
-    """
+    """Return a sweep as JSON, an object for each case."""
     lines = []
     for row in table.to_dict("records"):
         known = {name: plain(value) for name, value in row.items()}
@@ -63,22 +37,7 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
 
 
 def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
-    """Write the table and the pictures of a sweep into its folder.
-
-    Parameters
-    ----------
-    sweep : Sweep
-        Its axes.
-    table : pandas.DataFrame
-        A row for each case, of `run_study`.
-    folder : pathlib.Path
-        That of the study.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be written.
-    """
+    """Write the table and the pictures of a sweep into its folder."""
     texts = {
         "cases.csv": table.to_csv(index=False),
         "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",

@@ -22,32 +22,47 @@ _ROUNDING = 1e-9
 @click.command(short_help="P10, P50 and P90 of a life whose inputs scatter.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
-    "--samples", type=click.IntRange(min=2, max=10_000_000), default=1024, show_default=True,
+    "--samples",
+    type=click.IntRange(min=2, max=10_000_000),
+    default=1024,
+    show_default=True,
     help="Lives that are calculated.",
-)  # fmt: skip
+)
+@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples.")
 @click.option(
-    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples."
+    "--method",
+    type=click.Choice(("sobol", "lhs", "random")),
+    default="sobol",
+    show_default=True,
+    help="Scrambled Sobol' points, a Latin hypercube, or independent samples.",
 )
 @click.option(
-    "--method", type=click.Choice(("sobol", "lhs", "random")), default="sobol", show_default=True,
-    help="Scrambled Sobol' points, a Latin hypercube, or independent samples.",
-)  # fmt: skip
+    "--require-hours",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="H",
+    callback=finite,
+    help="Exit with 4 where P10 is shorter; raises the horizon to at least H.",
+)
 @click.option(
-    "--require-hours", type=click.FloatRange(min=0.0, min_open=True), metavar="H",
-    callback=finite, help="Exit with 4 where P10 is shorter; raises the horizon to at least H.",
-)  # fmt: skip
-@click.option(
-    "--cross-check", is_flag=True,
+    "--cross-check",
+    is_flag=True,
     help="Repeat the fits by the library reliability (pip install 'wearsim[crosscheck]').",
-)  # fmt: skip
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @place_options
 @overrides
 @standard
 def uncertainty(
-    case: Path, samples: int, seed: int, method: "Method", require_hours: float | None,
-    cross_check: bool, as_json: bool, place: Place, settings: tuple[str, ...],
-) -> int:  # fmt: skip
+    case: Path,
+    samples: int,
+    seed: int,
+    method: "Method",
+    require_hours: float | None,
+    cross_check: bool,
+    as_json: bool,
+    place: Place,
+    settings: tuple[str, ...],
+) -> int:
     """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
 
     The table [uncertainty] of the case tells what scatters and how; the wear coefficient does by
@@ -62,12 +77,7 @@ def uncertainty(
     if cross_check:
         check_installed(("reliability",), "crosscheck", "--cross-check")
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    told = {
-        "study": "uncertainty",
-        "case": study.scattered.case.name,
-        "method": method,
-        "seed": seed,
-    }
+    told = {"study": "uncertainty", "case": study.scattered.case.name, "method": method, "seed": seed}
     table = run(study.design, place, told, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0

@@ -22,74 +22,35 @@ TOLERANCE = 0.01
 
 @dataclass(frozen=True)
 class Bounded:
-    """A parameter between its bounds.
+    """A parameter between its bounds."""
 
-    Attributes
-    ----------
-    value : float
-        Estimate of greatest likelihood.
-    low, high : float
-        Ends of its 95 % interval by the curvature of the likelihood; nan where not known.
-    """
-
-    value: float
-    low: float
-    high: float
+    value: float  # estimate of greatest likelihood
+    low: float  # ends of its 95 % interval by the curvature of the likelihood; nan where not known
+    high: float  # ends of its 95 % interval by the curvature of the likelihood; nan where not known
 
 
 @dataclass(frozen=True)
 class CrossFit:
-    """A distribution fitted by reliability.
+    """A distribution fitted by reliability."""
 
-    Attributes
-    ----------
-    name : str
-        ``lognormal`` or ``weibull``.
-    shape, scale : Bounded
-        Those of `Fit`: sigma of ln L and the median [h]; modulus and characteristic life [h].
-    """
-
-    name: str
+    name: str  # `lognormal` or `weibull`
+    # shape, scale: those of `Fit`: sigma of ln L and the median [h]; modulus and characteristic
+    # life [h]
     shape: Bounded
     scale: Bounded
 
 
 @dataclass(frozen=True)
 class CrossCheck:
-    """What reliability makes of lives.
+    """What reliability makes of lives."""
 
-    Attributes
-    ----------
-    library : str
-        Its name and version.
-    fits : tuple of CrossFit
-        In the order of the fits that they repeat.
-    doubts : tuple of str
-        Where it differs from those, has failed or warns.
-    """
-
-    library: str
-    fits: tuple[CrossFit, ...]
-    doubts: tuple[str, ...]
+    library: str  # its name and version
+    fits: tuple[CrossFit, ...]  # in the order of the fits that they repeat
+    doubts: tuple[str, ...]  # where it differs from those, has failed or warns
 
 
 def cross_check(lives: Vector, reached: Flags, fits: Sequence[Fit]) -> CrossCheck:
-    """Return the fits to some lives repeated by reliability.
-
-    Parameters
-    ----------
-    lives : numpy.ndarray
-        Hours of the lives, or how long they are at least, shape (n,).
-    reached : numpy.ndarray of bool
-        Whether they are lives; the others are suspensions.
-    fits : sequence of Fit
-        Those of `wearsim.study.uncertainty.percentiles.fits` to the same lives.
-
-    Returns
-    -------
-    CrossCheck
-        Without fits where there are none to repeat.
-    """
+    """Return the fits to some lives repeated by reliability."""
     library = f"reliability {version('reliability')}"
     if not fits:
         return CrossCheck(library, (), ())
@@ -117,9 +78,12 @@ def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFi
 
         fitter = Fit_Weibull_2P if name == "weibull" else Fit_Lognormal_2P
         found: Any = fitter(
-            failures=failures, right_censored=suspensions, CI=CONFIDENCE,
-            show_probability_plot=False, print_results=False,
-        )  # fmt: skip
+            failures=failures,
+            right_censored=suspensions,
+            CI=CONFIDENCE,
+            show_probability_plot=False,
+            print_results=False,
+        )
     lines = re.sub(r"\x1b\[[\d;]*m", "", printed.getvalue()).splitlines()
     return _parameters(name, found), [line.removeprefix("WARNING: ") for line in lines if line]
 

@@ -8,18 +8,7 @@ from wearsim.study.uncertainty.cross_check import Bounded, CrossCheck, CrossFit
 
 
 def cross_check_lines(crossed: CrossCheck) -> list[str]:
-    """Return the repeated fits with the bounds of their parameters, as text.
-
-    Parameters
-    ----------
-    crossed : CrossCheck
-        Of the lives of a study.
-
-    Returns
-    -------
-    list of str
-        Lines.
-    """
+    """Return the repeated fits with the bounds of their parameters, as text."""
     if not crossed.fits:
         return [f"cross-check  by {crossed.library}: no fit"]
     head = f"cross-check  by {crossed.library}, parameters with their 95 % bounds"
@@ -35,18 +24,7 @@ def _parameters(fit: CrossFit) -> str:
 
 
 def cross_check_json(crossed: CrossCheck) -> dict[str, Any]:
-    """Return the repeated fits as plain values.
-
-    Parameters
-    ----------
-    crossed : CrossCheck
-        Of the lives of a study.
-
-    Returns
-    -------
-    dict
-        The library and its fits; bounds that are not known are null.
-    """
+    """Return the repeated fits as plain values."""
     return {
         "library": crossed.library,
         "fits": [
@@ -57,8 +35,4 @@ def cross_check_json(crossed: CrossCheck) -> dict[str, Any]:
 
 
 def _bounded(name: str, found: Bounded) -> dict[str, float | None]:
-    return {
-        name: plain(found.value),
-        f"{name}_low": plain(found.low),
-        f"{name}_high": plain(found.high),
-    }
+    return {name: plain(found.value), f"{name}_low": plain(found.low), f"{name}_high": plain(found.high)}

@@ -15,18 +15,7 @@ _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 
 
 def uncertainty_figures(answer: "Answer") -> dict[str, Figure]:
-    """Return the pictures by file stem.
-
-    Parameters
-    ----------
-    answer : Answer
-        Of a study.
-
-    Returns
-    -------
-    dict
-        ``lives``: lives on log-normal paper with the fits; ``convergence``.
-    """
+    """Return the pictures by file stem."""
     return {"lives": _lives(answer), "convergence": _convergence(answer)}
 
 
@@ -36,9 +25,7 @@ def _lives(answer: "Answer") -> Figure:
     lives = np.sort(np.where(answer.reached, answer.hours, np.inf))
     share = (np.arange(lives.size) + 0.5) / lives.size
     seen = np.isfinite(lives)
-    panel.plot(
-        lives[seen], stats.norm.ppf(share[seen]), ".", color="0.5", markersize=4, label="samples"
-    )
+    panel.plot(lives[seen], stats.norm.ppf(share[seen]), ".", color="0.5", markersize=4, label="samples")
     grid = np.geomspace(lives[0], lives[seen][-1], 200) if answer.fits else lives[:0]
     for fit, colour in zip(answer.fits, ("tab:blue", "tab:orange"), strict=False):
         law = stats.lognorm if fit.name == "lognormal" else stats.weibull_min
@@ -50,9 +37,15 @@ def _lives(answer: "Answer") -> Figure:
             ends = [found.hours - found.low], [found.high - found.hours]
             error = np.array(ends) if math.isfinite(found.high) else None
             panel.errorbar(
-                found.hours, place, xerr=error, fmt="o", color="tab:red", capsize=4, zorder=3,
+                found.hours,
+                place,
+                xerr=error,
+                fmt="o",
+                color="tab:red",
+                capsize=4,
+                zorder=3,
                 label="P10, P50, P90 and their intervals" if found.share == 0.5 else None,
-            )  # fmt: skip
+            )
     if lives[0] > 0.0:
         panel.set_xscale("log")
     panel.yaxis.set_major_locator(FixedLocator([float(stats.norm.ppf(q)) for q in _TICKS]))

@@ -22,58 +22,23 @@ EDGE = 0.5**33
 
 @dataclass(frozen=True)
 class UncertaintyStudy:
-    """The samples of a case.
+    """The samples of a case."""
 
-    Attributes
-    ----------
-    scattered : Scattered
-        The case and what of it scatters.
-    method : str
-        ``sobol``, ``lhs`` or ``random``.
-    seed : int
-        Of the samples.
-    design : Design
-        The cases of the samples.
-    """
-
-    scattered: Scattered
-    method: Method
-    seed: int
-    design: Design
+    scattered: Scattered  # the case and what of it scatters
+    method: Method  # `sobol`, `lhs` or `random`
+    seed: int  # of the samples
+    design: Design  # the cases of the samples
 
 
 def load_uncertainty(
-    path: Path, overrides: Sequence[str], samples: int, seed: int, method: Method,
+    path: Path,
+    overrides: Sequence[str],
+    samples: int,
+    seed: int,
+    method: Method,
     least_horizon: float | None = None,
-) -> UncertaintyStudy:  # fmt: skip
-    """Return the samples of a case.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The case; its table [uncertainty] tells what scatters.
-    overrides : sequence of str
-        ``table.key=VALUE``.
-    samples : int
-        Number of samples, at least 2.
-    seed : int
-        The same seed gives the same samples.
-    method : str
-        ``sobol``: scrambled Sobol' points; ``lhs``: a Latin hypercube; ``random``: independent,
-        every sample from its own generator.
-    least_horizon : float, optional
-        What run.horizon_hours is raised to where it is less [h].
-
-    Returns
-    -------
-    UncertaintyStudy
-        To be run.
-
-    Raises
-    ------
-    CaseError
-        The case is wrong, or a key of the table holds no number that could scatter.
-    """
+) -> UncertaintyStudy:
+    """Return the samples of a case."""
     scattered = load_scattered(path, overrides, least_horizon)
     shares = unit_samples(len(scattered.scatters), samples, seed, method)
     return UncertaintyStudy(scattered, method, seed, scattered.design(shares))
@@ -81,20 +46,6 @@ def load_uncertainty(
 
 def unit_samples(dimensions: int, count: int, seed: int, method: Method) -> Vector:
     """Return samples in the unit cube.
-
-    Parameters
-    ----------
-    dimensions, count : int
-        Numbers of keys and of samples.
-    seed : int
-        The same seed gives the same samples.
-    method : str
-        ``sobol``, ``lhs`` or ``random``.
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (count, dimensions), inside (0, 1).
 
     Examples
     --------

@@ -16,25 +16,13 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Percentile:
-    """The hours that a part of all lives does not exceed.
+    """The hours that a part of all lives does not exceed."""
 
-    Attributes
-    ----------
-    share : float
-        The part; 0.1 for P10, the life that 90 % reach (also called B10).
-    hours : float
-        Estimate [h]; a lower bound where it is not known.
-    low, high : float
-        Ends of the interval that holds it with 95 % confidence; inf where not known.
-    known : bool
-        Whether the hours are the percentile, not a bound.
-    """
-
-    share: float
-    hours: float
-    low: float
-    high: float
-    known: bool
+    share: float  # the part; 0.1 for P10, the life that 90 % reach (also called B10)
+    hours: float  # estimate [h]; a lower bound where it is not known
+    low: float  # ends of the interval that holds it with 95 % confidence; inf where not known
+    high: float  # ends of the interval that holds it with 95 % confidence; inf where not known
+    known: bool  # whether the hours are the percentile, not a bound
 
 
 def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
@@ -43,20 +31,6 @@ def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
     The interval lies between two of the ordered lives: of n independent ones the number below
     the percentile is binomial. For Sobol' points and Latin hypercubes, which scatter less, it
     is too wide.
-
-    Parameters
-    ----------
-    lives : numpy.ndarray
-        Hours of the lives, or how long they are at least, shape (n,).
-    reached : numpy.ndarray of bool
-        Whether they are lives.
-    share : float
-        The part of all lives, between 0 and 1.
-
-    Returns
-    -------
-    Percentile
-        The estimate interpolates between the ordered lives (median-unbiased).
 
     Examples
     --------
@@ -72,49 +46,22 @@ def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
     high = float(ordered[last]) if last < n else math.inf
     hours = float(np.quantile(ordered, share, method="median_unbiased"))
     known = float(np.quantile(ordered, share, method="higher")) < floor
-    return Percentile(
-        share, hours if known else floor, low, high if high < floor else math.inf, known
-    )
+    return Percentile(share, hours if known else floor, low, high if high < floor else math.inf, known)
 
 
 @dataclass(frozen=True)
 class Fit:
-    """A distribution fitted to lives by maximum likelihood.
+    """A distribution fitted to lives by maximum likelihood."""
 
-    Attributes
-    ----------
-    name : str
-        ``lognormal`` or ``weibull``.
-    shape, scale : float
-        sigma of ln L and the median [h]; Weibull's modulus and characteristic life [h].
-    log_likelihood : float
-        Of the lives, the larger the better; both have two parameters.
-    b10 : float
-        Life that 90 % reach, by the fit [h].
-    """
-
-    name: str
-    shape: float
-    scale: float
-    log_likelihood: float
-    b10: float
+    name: str  # `lognormal` or `weibull`
+    shape: float  # sigma of ln L and the median [h]; Weibull's modulus and characteristic life [h]
+    scale: float  # sigma of ln L and the median [h]; Weibull's modulus and characteristic life [h]
+    log_likelihood: float  # of the lives, the larger the better; both have two parameters
+    b10: float  # life that 90 % reach, by the fit [h]
 
 
 def fits(lives: Vector, reached: Flags) -> list[Fit]:
-    """Return a log-normal and a Weibull distribution fitted to lives.
-
-    Parameters
-    ----------
-    lives : numpy.ndarray
-        Hours of the lives, or how long they are at least, shape (n,).
-    reached : numpy.ndarray of bool
-        Whether they are lives; at least two that differ, and none of 0 h, else there is no fit.
-
-    Returns
-    -------
-    list of Fit
-        The better one first; both leave the origin at 0.
-    """
+    """Return a log-normal and a Weibull distribution fitted to lives."""
     seen = lives[reached]
     if seen.size < 2 or np.ptp(seen) <= 1e-9 * seen.max() or seen.min() == 0.0:
         return []

@@ -15,14 +15,7 @@ from wearsim.study.similar_texts import kinds
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.cross_check_sheet import cross_check_json, cross_check_lines
 from wearsim.study.uncertainty.model import UncertaintyStudy
-from wearsim.study.uncertainty.percentiles import (
-    CONFIDENCE,
-    Fit,
-    Flags,
-    Percentile,
-    fits,
-    percentile,
-)
+from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
 
 SHARES = (0.1, 0.5, 0.9)
 _MOST_KINDS = 8
@@ -32,20 +25,11 @@ _FEWEST = 16
 
 @dataclass(frozen=True)
 class Answer:
-    """The lives of the samples and what they tell.
+    """The lives of the samples and what they tell."""
 
-    Attributes
-    ----------
-    study : UncertaintyStudy
-        What was asked.
-    table : pandas.DataFrame
-        A row for each sample, of `run_study`.
-    crossed : CrossCheck, optional
-        The fits as another library repeats them, where that was asked.
-    """
-
-    study: UncertaintyStudy
-    table: pd.DataFrame
+    study: UncertaintyStudy  # what was asked
+    table: pd.DataFrame  # a row for each sample, of `run_study`
+    # the fits as another library repeats them, where that was asked
     crossed: CrossCheck | None = None
 
     @cached_property
@@ -77,9 +61,7 @@ class Answer:
     def convergence(self) -> pd.DataFrame:
         """Percentiles of the first samples, doubled from row to row up to all; nan for a bound."""
         count = len(self.sound)
-        counts = [
-            count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST
-        ]
+        counts = [count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST]
         rows = []
         for some in reversed(counts or [count]):
             found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
@@ -90,18 +72,7 @@ class Answer:
 
 
 def uncertainty_text(answer: Answer) -> str:
-    """Return percentiles, what they rest on, and fits, as text.
-
-    Parameters
-    ----------
-    answer : Answer
-        At least one sample that did not fail.
-
-    Returns
-    -------
-    str
-        Lines.
-    """
+    """Return percentiles, what they rest on, and fits, as text."""
     study = answer.study
     lines = [study.scattered.case.title, ""]
     for found, text in zip(answer.percentiles, _MEANING, strict=True):
@@ -126,9 +97,7 @@ def uncertainty_text(answer: Answer) -> str:
 
 
 _MEANING = ("9 of 10 live longer (B10)", "half live longer", "1 of 10 lives longer")
-_METHODS = {
-    "sobol": "scrambled Sobol' points", "lhs": "Latin hypercube", "random": "independent",
-}  # fmt: skip
+_METHODS = {"sobol": "scrambled Sobol' points", "lhs": "Latin hypercube", "random": "independent"}
 _OF_INTERVALS = (
     f"intervals hold the percentile with {100 * CONFIDENCE:.0f} % confidence for independent samples, "
     "whatever the distribution; they do not tell of errors of the model"
@@ -136,19 +105,7 @@ _OF_INTERVALS = (
 
 
 def warnings_of(answer: Answer) -> list[str]:
-    """Return what is doubtful about the percentiles.
-
-    Parameters
-    ----------
-    answer : Answer
-        Of a study.
-
-    Returns
-    -------
-    list of str
-        Failed samples, percentiles beyond the horizon, unbalanced points, fits that differ from
-        those of another library, and how often the samples warn of what.
-    """
+    """Return what is doubtful about the percentiles."""
     found = []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
     if failed:
@@ -171,27 +128,14 @@ def warnings_of(answer: Answer) -> list[str]:
 def _of_samples(warnings: "pd.Series[str]") -> list[str]:
     """Warnings of the samples, those that differ in their numbers only as one."""
     most = kinds(text for joined in warnings for text in filter(None, joined.split("\n")))
-    found = [
-        f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]
-    ]
+    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]]
     if len(most) > _MOST_KINDS:
         found.append(f"and {len(most) - _MOST_KINDS} other kinds of warnings, see cases.csv")
     return found
 
 
 def uncertainty_json(answer: Answer) -> dict[str, Any]:
-    """Return the answer as plain values.
-
-    Parameters
-    ----------
-    answer : Answer
-        Of a study.
-
-    Returns
-    -------
-    dict
-        A percentile that is not known is null, and its bound stands under ``at_least``.
-    """
+    """Return the answer as plain values."""
     study = answer.study
     case = study.scattered.case
     content: dict[str, Any] = {"schema_version": 1, "case": case.name, "title": case.title}
@@ -208,15 +152,19 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
         for scatter in study.scattered.scatters
     }
     content["fits"] = [
-        {"name": f.name, "shape": f.shape, "scale_hours": f.scale, "b10_hours": f.b10,
-         "log_likelihood": f.log_likelihood}
+        {
+            "name": f.name,
+            "shape": f.shape,
+            "scale_hours": f.scale,
+            "b10_hours": f.b10,
+            "log_likelihood": f.log_likelihood,
+        }
         for f in answer.fits
-    ]  # fmt: skip
+    ]
     if answer.crossed is not None:
         content["cross_check"] = cross_check_json(answer.crossed)
     content["convergence"] = [
-        {name: plain(value) for name, value in row.items()}
-        for row in answer.convergence.to_dict("records")
+        {name: plain(value) for name, value in row.items()} for row in answer.convergence.to_dict("records")
     ]
     content["assumptions"] = _assumptions(study)
     content["warnings"] = warnings_of(answer)
@@ -224,20 +172,7 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
 
 
 def save_uncertainty(answer: Answer, folder: Path) -> None:
-    """Write tables and pictures into the folder of a study.
-
-    Parameters
-    ----------
-    answer : Answer
-        Of a study.
-    folder : pathlib.Path
-        Its folder.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written.
-    """
+    """Write tables and pictures into the folder of a study."""
     from wearsim.study.uncertainty.figure import uncertainty_figures
 
     texts = {
@@ -273,8 +208,6 @@ def _columns(table: pd.DataFrame) -> list[str]:
     head = "".join(f"{name.removesuffix('_hours'):>12}" for name in table.columns)
     return [head] + [
         f"{int(row[0]):>12}"
-        + "".join(
-            f"{'not known' if math.isnan(value) else grouped(value):>12}" for value in row[1:]
-        )
+        + "".join(f"{'not known' if math.isnan(value) else grouped(value):>12}" for value in row[1:])
         for row in table.itertuples(index=False)
     ]
