@@ -14,7 +14,6 @@ import hashlib
 import io
 import json
 import math
-import platform
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -22,6 +21,8 @@ from concurrent.futures import ProcessPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from llvmlite import binding as llvm
 
 from wearsim.command.registry import CALCULATIONS
 
@@ -79,14 +80,12 @@ class Row(NamedTuple):
 
 def machine() -> str:
     """Name the processor and the libraries on which the last bits depend."""
-    names = platform.processor(), platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        models = [line for line in info.read_text("utf-8").splitlines() if "model name" in line]
-        names = (*models[:1], *names)
-    processor = next((name.split(":")[-1].strip() for name in names if name), "unknown")
+    # Processors that share a name differ in their instructions, and so in what the compiler makes.
+    features = hashlib.sha256(llvm.get_host_cpu_features().flatten().encode()).hexdigest()[:8]
     libraries = ("numpy", "scipy", "numba", "shapely", "pandas")
-    return "; ".join([processor, *(f"{name} {version(name)}" for name in libraries)])
+    return "; ".join(
+        [f"{llvm.get_host_cpu_name()} {features}", *(f"{name} {version(name)}" for name in libraries)]
+    )
 
 
 def runs() -> dict[str, tuple[str, ...]]:
