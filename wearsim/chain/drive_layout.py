@@ -185,18 +185,7 @@ class DriveLayout:
         return Meetings(self.teeth_2, self.links)
 
     def chain_speed(self, angular_speed: float) -> float:
-        """Return the mean speed of the chain, v = z1 p omega/(2 pi).
-
-        Parameters
-        ----------
-        angular_speed : float
-            Of sprocket 1 [rad/s].
-
-        Returns
-        -------
-        float
-            Speed [mm/s].
-        """
+        """Return the mean speed of the chain, v = z1 p omega/(2 pi)."""
         return self.teeth_1 * self.pitch * angular_speed / (2.0 * math.pi)
 
 

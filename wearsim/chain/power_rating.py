@@ -188,25 +188,7 @@ def roller_impact_rating(pitch: float, teeth: float, speed: float, light: bool =
 
 
 def power_rating(pitch: float, teeth: float, speed: float, light: bool = False) -> float:
-    """Return the power of one strand, the smaller of both fatigue ratings.
-
-    Parameters
-    ----------
-    pitch : float
-        Chain pitch [mm].
-    teeth : float
-        Gaps of the smaller sprocket.
-    speed : float
-        Speed of the smaller sprocket [rpm].
-    light : bool
-        Whether the chain is no. 41 (085-1).
-
-    Returns
-    -------
-    float
-        Rating [kW]; the third limit of the handbooks, galling of the joints at speeds above both,
-        is not in it.
-    """
+    """Return the power of one strand, the smaller of both fatigue ratings."""
     return min(
         plate_fatigue_rating(pitch, teeth, speed, light), roller_impact_rating(pitch, teeth, speed, light)
     )

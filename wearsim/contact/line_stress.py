@@ -60,18 +60,7 @@ def axis_stresses(depth: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def axis_shear(depth: ArrayLike) -> NDArray[np.float64]:
-    """Return the greatest shear stress in the plane, on the axis of the contact.
-
-    Parameters
-    ----------
-    depth : array_like
-        z/a, at least 0.
-
-    Returns
-    -------
-    numpy.ndarray
-        tau/p0 = (sigma_x - sigma_z)/(2 p0).
-    """
+    """Return the greatest shear stress in the plane, on the axis of the contact."""
     along, across = axis_stresses(depth)
     return 0.5 * (along - across)
 

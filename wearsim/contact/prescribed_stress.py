@@ -46,18 +46,7 @@ class LineLoad:
         return np.asarray(self.base / np.cos(pressure_angle) ** self.power)
 
     def growth(self, pressure_angle: float) -> float:
-        """Return d(ln q)/d(alpha).
-
-        Parameters
-        ----------
-        pressure_angle : float
-            alpha [rad].
-
-        Returns
-        -------
-        float
-            Per radian.
-        """
+        """Return d(ln q)/d(alpha)."""
         return self.power * math.tan(pressure_angle)
 
     @property
@@ -82,51 +71,18 @@ class StressLaw:
     stress: Vector
 
     def at(self, pole_distance: ArrayLike) -> Vector:
-        """Return the stress at some distances from the pole.
-
-        Parameters
-        ----------
-        pole_distance : array_like
-            l [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            sigma_H [MPa]; beyond the points as at the last one.
-        """
+        """Return the stress at some distances from the pole."""
         l = np.asarray(pole_distance, float)
         return np.asarray(np.interp(l, self.pole_distance, self.stress))
 
     def covers(self, pole_distance: ArrayLike) -> NDArray[np.bool_]:
-        """Return where a stress is given.
-
-        Parameters
-        ----------
-        pole_distance : array_like
-            l [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            Whether it is constant or l lies between the points.
-        """
+        """Return where a stress is given."""
         l = np.asarray(pole_distance)
         within = (self.pole_distance[0] <= l) & (l <= self.pole_distance[-1])
         return np.asarray(within | (self.stress.size == 1))
 
     def pole_slope(self, side: int) -> float:
-        """Return the slope beside the pole.
-
-        Parameters
-        ----------
-        side : int
-            -1 before the pole, 1 after it.
-
-        Returns
-        -------
-        float
-            d(sigma_H)/dl [MPa/mm].
-        """
+        """Return the slope beside the pole."""
         right = np.searchsorted(self.pole_distance, 0.0, "left" if side < 0 else "right")
         if not 0 < right < self.stress.size:
             return 0.0
@@ -179,18 +135,7 @@ class LoadedPair:
         return (at_one / self.stress.at(pole_distance)) ** 2
 
     def law(self, pole_distance: float, pressure_angle: float) -> float:
-        """Return the reduced radius at one point.
-
-        Parameters
-        ----------
-        pole_distance, pressure_angle : float
-            l [mm] and alpha [rad].
-
-        Returns
-        -------
-        float
-            rho [mm].
-        """
+        """Return the reduced radius at one point."""
         return float(self.reduced_radius(pole_distance, pressure_angle))
 
     def contact_stress(self, contacts: Contacts) -> Vector:

@@ -41,18 +41,7 @@ class SynthesisedPair:
         return self.loaded.pole_crossing().pressure_angle
 
     def line(self, points: int) -> LineOfAction:
-        """Return the line of action at points that are nearly evenly turned.
-
-        Parameters
-        ----------
-        points : int
-            At least 5.
-
-        Returns
-        -------
-        LineOfAction
-            From the first contact to the last.
-        """
+        """Return the line of action at points that are nearly evenly turned."""
         crossing, synthesis = (self.loaded.pole_crossing(), Synthesis(self.circles, self.loaded.law, 1))
         tried = np.linspace(*self.reach, points)
         roll = synthesis.through_pole(crossing, tried).roll_angle
@@ -61,21 +50,5 @@ class SynthesisedPair:
         return synthesis.through_pole(crossing, even)
 
     def mesh(self, points: int) -> Mesh:
-        """Return the way of a pair of teeth through contact.
-
-        Parameters
-        ----------
-        points : int
-            Of the flanks, at least 5.
-
-        Returns
-        -------
-        Mesh
-            Its places are lengths rolled on the pitch circles.
-
-        Raises
-        ------
-        GeometryError
-            There is no such line, or its flanks interfere.
-        """
+        """Return the way of a pair of teeth through contact."""
         return mesh_on(self.line(points), self.teeth)

@@ -90,18 +90,7 @@ def fatigue_life(
 
 
 def doubtful_hardness(materials: Mapping[str, FlankMaterial]) -> list[str]:
-    """Return warnings of endurance limits by a formula outside the range it is given for.
-
-    Parameters
-    ----------
-    materials : mapping of str to FlankMaterial
-        Materials by what is made of them.
-
-    Returns
-    -------
-    list of str
-        None where the endurance limit is given.
-    """
+    """Return warnings of endurance limits by a formula outside the range it is given for."""
     found = []
     for name, material in materials.items():
         treatment = treatments()[material.treatment]

@@ -285,18 +285,7 @@ class Endurance:
         return self.curve.allowable(self.equivalent_cycles)
 
     def allowable_at(self, hours: float) -> float:
-        """Return the allowable stress of other hours.
-
-        Parameters
-        ----------
-        hours : float
-            Running time [h].
-
-        Returns
-        -------
-        float
-            Stress [MPa].
-        """
+        """Return the allowable stress of other hours."""
         return self.curve.allowable(self.equivalent_cycles_at(hours))
 
     def life(self, stress: float) -> EnduredHours:

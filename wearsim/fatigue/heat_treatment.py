@@ -76,18 +76,7 @@ class Treatment:
         return slope * hardness + offset
 
     def own_hardness(self, brinell: float) -> float:
-        """Return a hardness in the treatment's scale.
-
-        Parameters
-        ----------
-        brinell : float
-            In HB.
-
-        Returns
-        -------
-        float
-            HB or HRC.
-        """
+        """Return a hardness in the treatment's scale."""
         return brinell if self.scale == "HB" else brinell / HB_PER_HRC
 
     def outside(self, hardness: float) -> str:
@@ -115,18 +104,7 @@ class Treatment:
         return f"table 2.3 holds for {span} {self.scale} where it is {self.name}, it is {hardness:g}"
 
     def bending_limit(self, hardness: float) -> float:
-        """Return the endurance limit in bending, sigma_Flim of table 2.3.
-
-        Parameters
-        ----------
-        hardness : float
-            Of the flank, or of the core of nitrided teeth, in the treatment's scale.
-
-        Returns
-        -------
-        float
-            Stress [MPa]; the middle where the table gives a band.
-        """
+        """Return the endurance limit in bending, sigma_Flim of table 2.3."""
         slope, offset = self.bending_line
         return slope * hardness + offset
 
@@ -154,32 +132,13 @@ class Treatment:
 
 
 def in_brinell(hardness: float, scale: str) -> float:
-    """Return a hardness in HB, 10 to 1 HRC.
-
-    Parameters
-    ----------
-    hardness : float
-        As given.
-    scale : str
-        ``HB`` or ``HRC``.
-
-    Returns
-    -------
-    float
-        HB.
-    """
+    """Return a hardness in HB, 10 to 1 HRC."""
     return hardness if scale == "HB" else HB_PER_HRC * hardness
 
 
 @cache
 def treatments() -> dict[str, Treatment]:
-    """Return the heat treatments of table 2.3 by name.
-
-    Returns
-    -------
-    dict
-        In the order of the table.
-    """
+    """Return the heat treatments of table 2.3 by name."""
 
     def _number(text: str, missing: float) -> float:
         return float(text) if text else missing

@@ -10,23 +10,7 @@ from wearsim.geometry.wheel import Space, ring, to_circle
 
 
 def tooth_space(tooth: Tooth) -> Space:
-    """Return the space beside a tooth around a working flank.
-
-    Parameters
-    ----------
-    tooth : Tooth
-        The tooth.
-
-    Returns
-    -------
-    Space
-        Back flank and root on its right, the working flank on its left.
-
-    Raises
-    ------
-    GeometryError
-        No seat clears the roller.
-    """
+    """Return the space beside a tooth around a working flank."""
     seat = tooth.seat[::-1]
     back = to_circle(_points(tooth.back_flank)[::-1], tooth.tip_radius)[::-1]
     return Space(
@@ -36,20 +20,7 @@ def tooth_space(tooth: Tooth) -> Space:
 
 
 def gap_space(outline: Profile, gap: Gap | None) -> Space:
-    """Return the space of a whole gap.
-
-    Parameters
-    ----------
-    outline : Profile
-        Its points from the right tip through the seat to the left one.
-    gap : Gap or None
-        Its exact arcs, where it is a standard's.
-
-    Returns
-    -------
-    Space
-        One stretch, the arcs where there are any.
-    """
+    """Return the space of a whole gap."""
     stretch = along_points("gap", _points(outline)) if gap is None else along_gap(gap)
     return Space((stretch,), ())
 

@@ -19,20 +19,7 @@ MOST_TEETH = 150
 
 
 def exit_cut(strand: Strand, contact_end: float, contact_start: float) -> float:
-    """Return how deep the leaving roller cuts the flank that drove it.
-
-    Parameters
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    contact_end, contact_start : float
-        Range of contact x_min, x_max [mm].
-
-    Returns
-    -------
-    float
-        Depth [mm]; negative where the roller clears the flank.
-    """
+    """Return how deep the leaving roller cuts the flank that drove it."""
     points = strand.conjugate_points(np.linspace(contact_end, contact_start, 200))
     path = sweep_path(strand, math.hypot(*points[-1]), -1.0)
     return cut_depth(points, path, strand.roller_radius)
@@ -42,25 +29,7 @@ def exit_cut(strand: Strand, contact_end: float, contact_start: float) -> float:
 def smallest_offset(
     centrode_radius: float, roller_radius: float, contact_end: float, contact_start: float
 ) -> float:
-    """Return the smallest evolute offset whose flank the leaving roller clears.
-
-    Parameters
-    ----------
-    centrode_radius, roller_radius : float
-        R and r [mm].
-    contact_end, contact_start : float
-        Range of contact x_min, x_max [mm].
-
-    Returns
-    -------
-    float
-        Offset h [mm], rounded up to four digits; about 3 p (eps + x_min/p)^2 / z.
-
-    Raises
-    ------
-    GeometryError
-        No offset below half the centrode radius is enough.
-    """
+    """Return the smallest evolute offset whose flank the leaving roller clears."""
 
     def _is_cut(offset: float) -> bool:
         strand = Strand(centrode_radius, roller_radius, offset)
@@ -83,22 +52,7 @@ def smallest_offset(
 def evolute_limits(
     strand: Strand, contact_end: float, contact_start: float, pitch: float
 ) -> list[tuple[str, str]]:
-    """Return what keeps an evolute flank from running on a strand.
-
-    Parameters
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    contact_end, contact_start : float
-        Range of contact x_min, x_max [mm].
-    pitch : float
-        Chain pitch [mm].
-
-    Returns
-    -------
-    list of tuple of str
-        Name of the parameter and message of the limit that fails; empty for a feasible flank.
-    """
+    """Return what keeps an evolute flank from running on a strand."""
     if contact_end <= 0.0:
         message = (
             f"contact_end must be above 0 (the flank ends before the pole line), is {contact_end:g} "
@@ -133,20 +87,7 @@ def evolute_limits(
 
 
 def tooth_limits(tooth: Tooth, pitch: float) -> list[str]:
-    """Return what keeps a tooth from standing or its gap from clearing the roller.
-
-    Parameters
-    ----------
-    tooth : Tooth
-        Tooth around a working flank.
-    pitch : float
-        Chain pitch [mm].
-
-    Returns
-    -------
-    list of str
-        One message for every limit that fails.
-    """
+    """Return what keeps a tooth from standing or its gap from clearing the roller."""
     least = THINNEST_PER_PITCH * pitch
     for name, value in (("neck thickness", tooth.neck), ("tip land", tooth.tip_land)):
         if value < least:
@@ -168,25 +109,7 @@ def feasible_offset(
     contact_end: float,
     contact_start: float,
 ) -> float | None:
-    """Return an evolute offset with which a tooth stands and runs, with a reserve of 5 %.
-
-    Parameters
-    ----------
-    pitch, roller_radius : float
-        Of the chain [mm].
-    teeth : int
-        Number of gaps.
-    engaged_every : int
-        Every which gap carries a roller.
-    contact_end, contact_start : float
-        Range of contact x_min, x_max [mm].
-
-    Returns
-    -------
-    float or None
-        1.05 of the smallest offset that the roller clears [mm]; None where the tooth is
-        too thin with it, or there is none.
-    """
+    """Return an evolute offset with which a tooth stands and runs, with a reserve of 5 %."""
     centrode = pitch * teeth / (2.0 * math.pi * engaged_every)
     try:
         smallest = smallest_offset(centrode, roller_radius, contact_end, contact_start)
@@ -207,24 +130,7 @@ def remedy(
     contact_end: float,
     contact_start: float,
 ) -> str:
-    """Return what makes an infeasible tooth feasible: an offset, else a number of teeth.
-
-    Parameters
-    ----------
-    pitch, roller_radius : float
-        Of the chain [mm].
-    teeth : int
-        Number of gaps of the infeasible tooth.
-    engaged_every : int
-        Every which gap carries a roller.
-    contact_end, contact_start : float
-        Range of contact x_min, x_max [mm].
-
-    Returns
-    -------
-    str
-        End of a message, with a value that satisfies every limit where there is one.
-    """
+    """Return what makes an infeasible tooth feasible: an offset, else a number of teeth."""
 
     def _offset(gaps: int) -> float | None:
         return feasible_offset(pitch, roller_radius, gaps, engaged_every, contact_end, contact_start)

@@ -268,19 +268,7 @@ class Gap:
         return 0.5 * math.pi - np.asarray(theta, dtype=float) - math.pi / self.teeth
 
     def outline(self, nodes: int) -> Profile:
-        """Return the whole gap, from the tip on its right through the bottom to the other tip.
-
-        Parameters
-        ----------
-        nodes : int
-            Number of points at equal arc length, three or more; an odd number puts one
-            on the centre line.
-
-        Returns
-        -------
-        Profile
-            Points exactly on the segments, symmetric to the bit.
-        """
+        """Return the whole gap, from the tip on its right through the bottom to the other tip."""
         way = self.half_length * np.linspace(1.0, -1.0, nodes)[: nodes // 2]
         x, y = points_along(self.segments, way).T
         bottom = nodes % 2
@@ -290,11 +278,5 @@ class Gap:
         )
 
     def roller_path(self) -> tuple[Segment, ...]:
-        """Return where the centre of a roller is that touches the right half.
-
-        Returns
-        -------
-        tuple of Arc or Line
-            The segments, offset into the gap by the roller's radius.
-        """
+        """Return where the centre of a roller is that touches the right half."""
         return tuple(segment.offset(self.roller_radius) for segment in self.segments)

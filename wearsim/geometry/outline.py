@@ -12,20 +12,7 @@ from wearsim.geometry.profile import Vector
 
 
 def turned(points: Vector, angle: float) -> Vector:
-    """Return points turned counterclockwise about the origin.
-
-    Parameters
-    ----------
-    points : numpy.ndarray
-        Coordinates [mm], shape (..., 2).
-    angle : float
-        Angle [rad].
-
-    Returns
-    -------
-    numpy.ndarray
-        Coordinates [mm].
-    """
+    """Return points turned counterclockwise about the origin."""
     cos, sin = math.cos(angle), math.sin(angle)
     return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]))
 
@@ -33,24 +20,7 @@ def turned(points: Vector, angle: float) -> Vector:
 def along_ways(
     starts: Vector, ends: Vector, bulges: Vector, tolerance: float
 ) -> tuple[Vector, NDArray[np.int64]]:
-    """Return points on lines and arcs, those by as many chords as a tolerance asks for.
-
-    Parameters
-    ----------
-    starts, ends : numpy.ndarray
-        Ends of the ways [mm], shape (n, 2).
-    bulges : numpy.ndarray
-        Of the ways, shape (n,).
-    tolerance : float
-        Greatest distance of a chord from its arc [mm].
-
-    Returns
-    -------
-    points : numpy.ndarray
-        Coordinates [mm], shape (points, 2); every way from its start, without its end.
-    which : numpy.ndarray
-        Index of the way that each belongs to.
-    """
+    """Return points on lines and arcs, those by as many chords as a tolerance asks for."""
     chord = ends - starts
     sweep = 4.0 * np.arctan(bulges)
     half = np.sin(0.5 * np.where(sweep == 0.0, 1.0, sweep))
@@ -105,23 +75,7 @@ class Outline:
         return 0.5 * float(np.sum(x * v - u * y) + np.sum(radius**2 * (sweep - np.sin(sweep))))
 
     def polygon(self, tolerance: float) -> Vector:
-        """Return points of the outline, arcs by chords.
-
-        Parameters
-        ----------
-        tolerance : float
-            Greatest distance of a chord from its arc [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm] on the outline, shape (points, 2); the first is not repeated.
-
-        Raises
-        ------
-        GeometryError
-            The outline crosses itself.
-        """
+        """Return points of the outline, arcs by chords."""
         points, _ = along_ways(self.vertices, np.roll(self.vertices, -1, axis=0), self.bulges, tolerance)
         if not shapely.Polygon(points).is_valid:
             raise GeometryError(

@@ -169,75 +169,25 @@ class Profile:
         return np.concatenate([[0.0], np.cumsum(chord * (1.0 + (mean * chord) ** 2 / 24.0))])
 
     def recede(self, depth: ArrayLike) -> "Profile":
-        """Return the profile with every point moved against its normal.
-
-        Parameters
-        ----------
-        depth : array_like
-            Material removed along the normal [mm], one value or one per point.
-
-        Returns
-        -------
-        Profile
-            The new flank, with as many points.
-        """
+        """Return the profile with every point moved against its normal."""
         return Profile(*self.receded(depth))
 
     def receded(self, depth: ArrayLike) -> tuple[Vector, Vector]:
-        """Return where the points lie after moving against their normals.
-
-        Parameters
-        ----------
-        depth : array_like
-            Material removed along the normal [mm]; one value, one per point, or rows of these.
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            x and y [mm].
-        """
+        """Return where the points lie after moving against their normals."""
         removed = np.asarray(depth, dtype=float)
         return self.x - removed * self.normal_x, self.y - removed * self.normal_y
 
     def mirrored(self) -> "Profile":
-        """Return the mirror image on the gap's centre line, run from tip to root.
-
-        Returns
-        -------
-        Profile
-            Points (-x, y) in reverse order, so that the gap stays on the right.
-        """
+        """Return the mirror image on the gap's centre line, run from tip to root."""
         return Profile(-self.x[::-1], self.y[::-1])
 
     def rotated(self, angle: float) -> "Profile":
-        """Return the profile turned counterclockwise about the origin.
-
-        Parameters
-        ----------
-        angle : float
-            Angle [rad].
-
-        Returns
-        -------
-        Profile
-            The turned flank.
-        """
+        """Return the profile turned counterclockwise about the origin."""
         cosine, sine = np.cos(angle), np.sin(angle)
         return Profile(self.x * cosine - self.y * sine, self.x * sine + self.y * cosine)
 
     def area_from(self, other: "Profile") -> float:
-        """Return the area between this flank and another, by the shoelace formula.
-
-        Parameters
-        ----------
-        other : Profile
-            The flank before; need not have as many points.
-
-        Returns
-        -------
-        float
-            Area [mm2], positive where this flank lies behind the other (material removed).
-        """
+        """Return the area between this flank and another, by the shoelace formula."""
         return area_between(other.x, other.y, self.x, self.y)
 
     def regridded(self, nodes: int) -> "Profile":
@@ -245,16 +195,6 @@ class Profile:
 
         A cubic spline carries the points over; a uniform shift along the normals then
         closes the area between old and new flank.
-
-        Parameters
-        ----------
-        nodes : int
-            Number of points, at least three.
-
-        Returns
-        -------
-        Profile
-            The new points; the shoelace area to the old flank is below 1e-12 of length squared.
         """
         from scipy.interpolate import CubicSpline
 

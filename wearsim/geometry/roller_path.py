@@ -47,33 +47,11 @@ class WornPath:
     touched: Vector
 
     def node_place(self, node: Vector) -> Vector:
-        """Return where places between nodes stand on the unworn line.
-
-        Parameters
-        ----------
-        node : numpy.ndarray
-            Number of the node, with its fraction.
-
-        Returns
-        -------
-        numpy.ndarray
-            Place, counted in nodes of the unworn line.
-        """
+        """Return where places between nodes stand on the unworn line."""
         return np.interp(node, np.arange(self.place.size), self.place)
 
     def node_of(self, place: Vector) -> Vector:
-        """Return the nodes at places of the unworn line, the inverse of ``node_place``.
-
-        Parameters
-        ----------
-        place : numpy.ndarray
-            Place, counted in nodes of the unworn line.
-
-        Returns
-        -------
-        numpy.ndarray
-            Number of the node, with its fraction.
-        """
+        """Return the nodes at places of the unworn line, the inverse of ``node_place``."""
         return np.interp(place, self.place, np.arange(self.place.size))
 
 
@@ -98,16 +76,6 @@ class RollerPath:
 
         Where a worn pocket holds the roller the line turns on the spot: nodes are spread
         by length and by turn of a first line.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the outline [mm].
-
-        Returns
-        -------
-        WornPath
-            The line.
         """
         first = self._cast(x, y, np.arange(self.base.shape[1], dtype=float))
         chord = np.hypot(np.diff(first.locus[0]), np.diff(first.locus[1]))

@@ -75,66 +75,22 @@ class Arc:
         return self.last + self.sense * 0.5 * math.pi
 
     def point_at(self, arc_length: ArrayLike) -> Vector:
-        """Return points of the arc.
-
-        Parameters
-        ----------
-        arc_length : array_like
-            Way from the start [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm], the shape of ``arc_length`` and one axis of two behind it.
-        """
+        """Return points of the arc."""
         direction = self.first + self.sense * np.asarray(arc_length, dtype=float) / self.radius
         unit = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         return np.asarray(self.centre) + self.radius * unit
 
     def shortened(self, arc_length: float) -> "Arc":
-        """Return the arc's first part.
-
-        Parameters
-        ----------
-        arc_length : float
-            Length that remains [mm].
-
-        Returns
-        -------
-        Arc
-            The part.
-        """
+        """Return the arc's first part."""
         turn = self.sense * arc_length / self.radius
         return Arc(self.centre, self.radius, self.first, self.first + turn)
 
     def offset(self, distance: float) -> "Arc":
-        """Return the parallel arc on the left of the direction of travel (in the gap).
-
-        Parameters
-        ----------
-        distance : float
-            Distance [mm], below the radius of a concave arc.
-
-        Returns
-        -------
-        Arc
-            About the same centre between the same directions.
-        """
+        """Return the parallel arc on the left of the direction of travel (in the gap)."""
         return Arc(self.centre, self.radius - self.sense * distance, self.first, self.last)
 
     def length_to_circle(self, radius: float) -> float:
-        """Return the way to the first point at a distance from the origin.
-
-        Parameters
-        ----------
-        radius : float
-            Distance of the point from the origin [mm].
-
-        Returns
-        -------
-        float
-            Way [mm], infinite where the arc does not get there.
-        """
+        """Return the way to the first point at a distance from the origin."""
         far = math.hypot(*self.centre)
         beyond = (far + self.radius - radius) * (far + self.radius + radius)
         within = (radius - far + self.radius) * (radius + far - self.radius)
@@ -144,18 +100,7 @@ class Arc:
         return self._way(math.atan2(self.centre[1], self.centre[0]), half)
 
     def length_to_ray(self, angle: float) -> float:
-        """Return the way to the first point on a line through the origin.
-
-        Parameters
-        ----------
-        angle : float
-            Angle of the line clockwise from +y [rad].
-
-        Returns
-        -------
-        float
-            Way [mm], infinite where the arc does not get there.
-        """
+        """Return the way to the first point on a line through the origin."""
         cosine = -_beyond_ray(self.centre, angle) / self.radius
         return self._way(-angle, math.acos(cosine)) if abs(cosine) <= 1.0 else math.inf
 
@@ -221,50 +166,17 @@ class Line:
         return self.direction
 
     def point_at(self, arc_length: ArrayLike) -> Vector:
-        """Return points of the line.
-
-        Parameters
-        ----------
-        arc_length : array_like
-            Way from the start [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm], the shape of ``arc_length`` and one axis of two behind it.
-        """
+        """Return points of the line."""
         unit = np.array([math.cos(self.direction), math.sin(self.direction)])
         points: Vector = np.asarray(arc_length, dtype=float)[..., None] * unit + self.start
         return points
 
     def shortened(self, arc_length: float) -> "Line":
-        """Return the line's first part.
-
-        Parameters
-        ----------
-        arc_length : float
-            Length that remains [mm].
-
-        Returns
-        -------
-        Line
-            The part.
-        """
+        """Return the line's first part."""
         return Line(self.start, self.direction, arc_length)
 
     def offset(self, distance: float) -> "Line":
-        """Return the parallel line on the left of the direction of travel (in the gap).
-
-        Parameters
-        ----------
-        distance : float
-            Distance [mm].
-
-        Returns
-        -------
-        Line
-            As long as this one.
-        """
+        """Return the parallel line on the left of the direction of travel (in the gap)."""
         start = (
             self.start[0] - distance * math.sin(self.direction),
             self.start[1] + distance * math.cos(self.direction),
@@ -272,18 +184,7 @@ class Line:
         return Line(start, self.direction, self.length)
 
     def length_to_circle(self, radius: float) -> float:
-        """Return the way to the first point at a distance from the origin.
-
-        Parameters
-        ----------
-        radius : float
-            Distance of the point from the origin [mm].
-
-        Returns
-        -------
-        float
-            Way [mm], infinite where the line does not get there.
-        """
+        """Return the way to the first point at a distance from the origin."""
         along = self.start[0] * math.cos(self.direction) + self.start[1] * math.sin(self.direction)
         far = math.hypot(*self.start)
         root = along**2 + (radius - far) * (radius + far)
@@ -292,18 +193,7 @@ class Line:
         return self._way(*(sign * math.sqrt(root) - along for sign in (-1.0, 1.0)))
 
     def length_to_ray(self, angle: float) -> float:
-        """Return the way to the point on a line through the origin.
-
-        Parameters
-        ----------
-        angle : float
-            Angle of that line clockwise from +y [rad].
-
-        Returns
-        -------
-        float
-            Way [mm], infinite where the line does not get there.
-        """
+        """Return the way to the point on a line through the origin."""
         rate = math.cos(angle + self.direction)
         return self._way(-_beyond_ray(self.start, angle) / rate) if rate != 0.0 else math.inf
 

@@ -44,51 +44,16 @@ class Stretch:
         return float((0.5 * chord * np.abs(self.bulges)).max())
 
     def turned(self, angle: float) -> "Stretch":
-        """Return the stretch turned counterclockwise about the origin.
-
-        Parameters
-        ----------
-        angle : float
-            Angle [rad].
-
-        Returns
-        -------
-        Stretch
-            The same part.
-        """
+        """Return the stretch turned counterclockwise about the origin."""
         return replace(self, vertices=turned(self.vertices, angle))
 
     def mirrored(self, part: str) -> "Stretch":
-        """Return the mirror image on +y, run from the other end.
-
-        Parameters
-        ----------
-        part : str
-            What it is there.
-
-        Returns
-        -------
-        Stretch
-            Bulges keep their signs: mirror image and reversal both turn them.
-        """
+        """Return the mirror image on +y, run from the other end."""
         return Stretch(part, self.vertices[::-1] * (-1.0, 1.0), self.bulges[::-1], self.is_curve)
 
 
 def line(part: str, start: Vector, end: Vector) -> tuple[Stretch, ...]:
-    """Return the line between two points, none where they are one.
-
-    Parameters
-    ----------
-    part : str
-        What it is.
-    start, end : numpy.ndarray
-        Coordinates [mm].
-
-    Returns
-    -------
-    tuple of Stretch
-        One or none.
-    """
+    """Return the line between two points, none where they are one."""
     if math.dist(start, end) < APART:
         return ()
     return (Stretch(part, np.array([start, end]), np.zeros(1)),)
@@ -164,20 +129,7 @@ def along_points(part: str, points: Vector) -> Stretch:
 
 
 def up_to(flank: Stretch, point: Vector) -> Stretch:
-    """Return the first part of a flank that is run from root to tip.
-
-    Parameters
-    ----------
-    flank : Stretch
-        Farther from the axis from vertex to vertex.
-    point : numpy.ndarray
-        Point of the flank [mm] where it ends.
-
-    Returns
-    -------
-    Stretch
-        Its vertices below the point, and the point.
-    """
+    """Return the first part of a flank that is run from root to tip."""
     below = np.hypot(*flank.vertices.T) < math.hypot(*point) - APART
     kept = int(below.argmin())
     start, end = flank.vertices[kept - 1 : kept + 1]
@@ -192,18 +144,7 @@ def up_to(flank: Stretch, point: Vector) -> Stretch:
 
 
 def along_gap(gap: Gap) -> Stretch:
-    """Return the gap of a standard form by its own arcs and lines.
-
-    Parameters
-    ----------
-    gap : Gap
-        The gap.
-
-    Returns
-    -------
-    Stretch
-        From its right tip to its left one; exact.
-    """
+    """Return the gap of a standard form by its own arcs and lines."""
     half = gap.segments
     points = np.array([part.start for part in half] + [half[-1].end])
     bulges = np.array([_bulge(part) for part in half])
@@ -225,20 +166,7 @@ def _bulge(part: Segment) -> float:
 
 
 def arc_about_axis(part: str, start: Vector, end: Vector) -> tuple[Stretch, ...]:
-    """Return the arc about the axis from one point to another at its radius.
-
-    Parameters
-    ----------
-    part : str
-        What it is.
-    start, end : numpy.ndarray
-        Coordinates [mm].
-
-    Returns
-    -------
-    tuple of Stretch
-        The shorter way round; none where both are one point.
-    """
+    """Return the arc about the axis from one point to another at its radius."""
     if math.dist(start, end) < APART:
         return ()
     bulge = math.tan(0.25 * angle_between(start, end))
@@ -246,16 +174,5 @@ def arc_about_axis(part: str, start: Vector, end: Vector) -> tuple[Stretch, ...]
 
 
 def angle_between(start: Vector, end: Vector) -> float:
-    """Return the angle from one point to another about the axis.
-
-    Parameters
-    ----------
-    start, end : numpy.ndarray
-        Coordinates [mm].
-
-    Returns
-    -------
-    float
-        Counterclockwise positive, between -pi and pi [rad].
-    """
+    """Return the angle from one point to another about the axis."""
     return math.atan2(start[0] * end[1] - start[1] * end[0], float(start @ end))

@@ -22,44 +22,14 @@ _SEAT_CLEARANCES = (0.005, 0.01, 0.02, 0.04)
 
 
 def sweep_path(strand: Strand, tip_radius: float, side: float) -> shapely.LineString:
-    """Return the way of a roller centre in the sprocket's frame, from the pole line out.
-
-    Parameters
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    tip_radius : float
-        Radius of the tip circle [mm]; the way ends where the roller is clear of it.
-    side : float
-        +1 for the entry, -1 for the exit (its mirror image).
-
-    Returns
-    -------
-    shapely.LineString
-        Way of the centre, in steps whose arcs stray less than 1e-5 mm.
-    """
+    """Return the way of a roller centre in the sprocket's frame, from the pole line out."""
     reach = tip_radius + strand.roller_radius
     far = math.sqrt(max(reach**2 - strand.height**2, strand.roller_radius**2))
     return shapely.LineString(strand.roller_path(side * np.linspace(0.0, far, 1000)))
 
 
 def cut_depth(points: Vector, path: shapely.Geometry, roller_radius: float) -> float:
-    """Return how deep a roller that follows a path enters behind the given points.
-
-    Parameters
-    ----------
-    points : numpy.ndarray
-        Points of an outline [mm], shape (n, 2).
-    path : shapely geometry
-        Way of the roller centre.
-    roller_radius : float
-        Radius of the roller [mm].
-
-    Returns
-    -------
-    float
-        Greatest depth [mm]; negative where there is clearance all along.
-    """
+    """Return how deep a roller that follows a path enters behind the given points."""
     shapely.prepare(path)
     return roller_radius - float(shapely.distance(shapely.multipoints(points), path))
 
@@ -134,13 +104,7 @@ class Tooth:
         return np.concatenate([working, self.seat[1:-1], back])
 
     def cut_depth(self) -> float:
-        """Return how deep the roller cuts the outline on its way in and out.
-
-        Returns
-        -------
-        float
-            Greatest depth [mm] over entry and exit; about zero where the flank is touched.
-        """
+        """Return how deep the roller cuts the outline on its way in and out."""
         path = shapely.union(
             sweep_path(self.strand, self.tip_radius, 1.0), sweep_path(self.strand, self.tip_radius, -1.0)
         )
@@ -149,18 +113,7 @@ class Tooth:
         return cut_depth(outline, path, self.strand.roller_radius)
 
     def thickness(self, radius: "float | Vector") -> Vector:
-        """Return the chordal thickness of the tooth on a circle around the axis.
-
-        Parameters
-        ----------
-        radius : float or numpy.ndarray
-            Radius [mm], held inside the range of the working flank.
-
-        Returns
-        -------
-        numpy.ndarray
-            Thickness [mm]; negative where the flanks have met.
-        """
+        """Return the chordal thickness of the tooth on a circle around the axis."""
         radius = np.clip(radius, *_radii(self.flank)[[0, -1]])
         return 2.0 * radius * np.sin(0.5 * self._angle(radius))
 
@@ -180,18 +133,7 @@ class Tooth:
         return float(self.thickness(self.strand.centrode_radius))
 
     def worn_tip_land(self, x: Vector, y: Vector) -> float:
-        """Return the tip land that a worn working flank leaves.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank, root to tip [mm].
-
-        Returns
-        -------
-        float
-            Length along the tip circle [mm]; the flank is extended straight to the circle.
-        """
+        """Return the tip land that a worn working flank leaves."""
         radius, angle = np.hypot(x, y), np.arctan2(-x, y)
         last = angle[-1] + (self.tip_radius - radius[-1]) * (angle[-1] - angle[-2]) / (
             radius[-1] - radius[-2]
@@ -200,18 +142,7 @@ class Tooth:
         return float(self.tip_land - self.tip_radius * (last - unworn))
 
     def worn_thickness(self, x: Vector, y: Vector) -> float:
-        """Return the thickness on the centrode that a worn working flank leaves.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank, root to tip [mm].
-
-        Returns
-        -------
-        float
-            Chordal thickness [mm].
-        """
+        """Return the thickness on the centrode that a worn working flank leaves."""
         radius = float(np.clip(self.strand.centrode_radius, *_radii(self.flank)[[0, -1]]))
         worn = np.interp(radius, np.hypot(x, y), np.arctan2(-x, y))
         new = np.interp(radius, _radii(self.flank), np.arctan2(-self.flank.x, self.flank.y))
@@ -219,13 +150,7 @@ class Tooth:
         return 2.0 * radius * math.sin(0.5 * angle)
 
     def polygon(self) -> shapely.Polygon:
-        """Return one tooth, cut off at the circle through the bottoms of the seats.
-
-        Returns
-        -------
-        shapely.Polygon
-            The tooth on the left of the gap; valid.
-        """
+        """Return one tooth, cut off at the circle through the bottoms of the seats."""
         angle = 2.0 * math.pi / self.teeth
         gap, lowest = self.gap, int(np.hypot(*self.gap.T).argmin())
         right = gap[: lowest + 1][::-1]
@@ -233,18 +158,7 @@ class Tooth:
         return shapely.Polygon(np.concatenate([right, self._tip(right[-1], left[0]), left]))
 
     def wheel(self) -> shapely.Polygon:
-        """Return the outline of the whole wheel, without a bore.
-
-        Returns
-        -------
-        shapely.Polygon
-            All teeth, run through clockwise by gaps; valid.
-
-        Raises
-        ------
-        GeometryError
-            The outline crosses itself.
-        """
+        """Return the outline of the whole wheel, without a bore."""
         angle = 2.0 * math.pi / self.teeth
         pieces = []
         for i in range(self.teeth):

@@ -66,18 +66,7 @@ class Chain:
         return np.concatenate([stretch.bulges for stretch in self.stretches])
 
     def moved(self, centre: tuple[float, float]) -> "Chain":
-        """Return the chain about another centre.
-
-        Parameters
-        ----------
-        centre : tuple of float
-            Where the axis comes to lie [mm].
-
-        Returns
-        -------
-        Chain
-            As it is, elsewhere.
-        """
+        """Return the chain about another centre."""
         there = (replace(part, vertices=part.vertices + centre) for part in self.stretches)
         return Chain(tuple(there), self.teeth, self.closed)
 
@@ -92,18 +81,6 @@ def worn_space(new: Space, points: Vector) -> Space:
 
     Where wear reaches an end of the points a straight step joins it to what is not worn, unless
     the worn end lies above the tip, where there was nothing: there the tip cuts the flank off.
-
-    Parameters
-    ----------
-    new : Space
-        The new space; ``left`` ends with the flank that wears.
-    points : numpy.ndarray
-        Where the points of the flank lie now [mm], root to tip, shape (n, 2).
-
-    Returns
-    -------
-    Space
-        The worn space.
     """
     *below, flank = new.left
     first = line("step", flank.vertices[0], points[0]) if new.rooted else ()
@@ -113,20 +90,7 @@ def worn_space(new: Space, points: Vector) -> Space:
 
 
 def worn_gap(new: Space, points: Vector) -> Space:
-    """Return a space that is worn from tip to tip.
-
-    Parameters
-    ----------
-    new : Space
-        The new space, one stretch.
-    points : numpy.ndarray
-        Where its points lie now [mm], from the right tip to the left one, shape (n, 2).
-
-    Returns
-    -------
-    Space
-        The worn space.
-    """
+    """Return a space that is worn from tip to tip."""
     (gap,) = new.right
     kept, last = _to_tip(points, gap.vertices[-1])
     backwards, first = _to_tip(kept[::-1], gap.vertices[0])

@@ -85,6 +85,18 @@ def halving_error(runs: Sequence[Trajectory], by_points: float) -> float:
     run of n times the step, 1/(sqrt(n) - 1) may be left.
 
     Equation physics.md (W14).
+
+    Parameters
+    ----------
+    runs : sequence of Trajectory
+        At least two.
+    by_points : float
+        Relative difference of the life on half the points.
+
+    Returns
+    -------
+    float
+        Relative.
     """
     last = len(runs) - 1
     by_steps = max(

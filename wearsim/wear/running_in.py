@@ -69,6 +69,16 @@ class RunningIn:
         """Return the cycles of constant coefficient that wear as much.
 
         Equation physics.md (R2).
+
+        Parameters
+        ----------
+        cycles : float
+            N, cycles run.
+
+        Returns
+        -------
+        float
+            Tau.
         """
         if self.factor == 1.0:
             return cycles
@@ -78,6 +88,16 @@ class RunningIn:
         """Return the cycles after which a drive that runs in has worn as much.
 
         Equation physics.md (R2), solved for N.
+
+        Parameters
+        ----------
+        constant : numpy.ndarray
+            Tau, cycles of constant coefficient.
+
+        Returns
+        -------
+        numpy.ndarray
+            N, by Newton's method from tau/f, from where it rises to the answer: tau is concave.
         """
         tau = np.asarray(constant, dtype=float)
         if self.factor == 1.0:

@@ -70,34 +70,11 @@ class TypeIITooth(ConcaveTooth):
         return self.pitch * (0.6 + 1.0 / math.tan(math.pi / self.teeth))
 
     def root_diameter(self, seat_centre: SeatCentre = "pitch_circle") -> float:
-        """Return the diameter of the circle through the bottoms of the gaps.
-
-        Parameters
-        ----------
-        seat_centre : str
-            ``"pitch_circle"``: PD - Ds, or ``"root_diameter"``: PD - Dr.
-
-        Returns
-        -------
-        float
-            Diameter [mm].
-        """
+        """Return the diameter of the circle through the bottoms of the gaps."""
         return 2.0 * (self._height(seat_centre) - self.seat_radius)
 
     def pointed_diameter(self, seat_centre: SeatCentre = "pitch_circle") -> float:
-        """Return the diameter at which the teeth are pointed.
-
-        Parameters
-        ----------
-        seat_centre : str
-            ``"pitch_circle"``: P cot(180/N) + 2 H; ``"root_diameter"`` adds
-            cos(180/N) (Ds - Dr).
-
-        Returns
-        -------
-        float
-            Diameter [mm].
-        """
+        """Return the diameter at which the teeth are pointed."""
         half = math.pi / self.teeth
         shift = self._height(seat_centre) - 0.5 * self.pitch_diameter
         return self.pitch / math.tan(half) + 2.0 * math.cos(half) * shift + 2.0 * self.pointed_height

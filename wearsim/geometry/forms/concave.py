@@ -115,20 +115,7 @@ class ConcaveTooth:
         )
 
     def segments(self, seat_height: float, bottom_width: float = 0.0) -> tuple[Segment, ...]:
-        """Return the right half of the gap from the bottom to the top of the head.
-
-        Parameters
-        ----------
-        seat_height : float
-            Distance of the seat arc's centre from the sprocket's axis along +y [mm].
-        bottom_width : float
-            Length of the flat bottom between the two halves [mm], 0 for none.
-
-        Returns
-        -------
-        tuple of Arc or Line
-            Each placed by the standard's own coordinates, not by the one before.
-        """
+        """Return the right half of the gap from the bottom to the top of the head."""
         aside = 0.5 * bottom_width
         seat_end = self.seat_half_angle
         working_end = seat_end + self.working_angle

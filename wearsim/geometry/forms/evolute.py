@@ -101,18 +101,7 @@ class Strand:
         return self.roller_radius + distance**3 / (self.centrode_radius * self.offset + distance**2)
 
     def roller_path(self, x: ArrayLike) -> Vector:
-        """Return the roller centre in the sprocket's frame.
-
-        Parameters
-        ----------
-        x : array_like
-            Distance of the roller centre before the pole line [mm]; negative after it.
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm], shape (n, 2).
-        """
+        """Return the roller centre in the sprocket's frame."""
         x = np.asarray(x, dtype=float)
         return self._turned(-x, np.full_like(x, self.height), x)
 
@@ -244,18 +233,5 @@ def evolute_flank(strand: Strand, contact_end: float, contact_start: float, node
 
 
 def contact_ratio(contact_end: float, contact_start: float, pitch: float) -> float:
-    """Return the contact ratio (x_max - x_min) / p of an unworn evolute flank.
-
-    Parameters
-    ----------
-    contact_end, contact_start : float
-        Range of contact along the strand [mm].
-    pitch : float
-        Chain pitch [mm].
-
-    Returns
-    -------
-    float
-        Mean number of rollers in contact.
-    """
+    """Return the contact ratio (x_max - x_min) / p of an unworn evolute flank."""
     return (contact_start - contact_end) / pitch

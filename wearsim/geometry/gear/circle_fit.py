@@ -29,18 +29,7 @@ class CircleFit:
     rms: float
 
     def distances(self, points: Vector) -> Vector:
-        """Return the distances of points from the circle.
-
-        Parameters
-        ----------
-        points : numpy.ndarray
-            Coordinates [mm], shape (n, 2).
-
-        Returns
-        -------
-        numpy.ndarray
-            Distances [mm], positive outside.
-        """
+        """Return the distances of points from the circle."""
         return np.asarray(np.hypot(*(points - self.centre).T) - self.radius)
 
 
@@ -93,18 +82,6 @@ def rack_arc(flank: Flank, end: float) -> CircleFit:
 
     Squares are summed over the length of the flank (Gauss points; the flank turns with alpha,
     so that ds = rho d alpha).
-
-    Parameters
-    ----------
-    flank : Flank
-        Flank that the rack cuts.
-    end : float
-        Pressure angle at the end of the rack's flank [rad].
-
-    Returns
-    -------
-    CircleFit
-        In the coordinates of :meth:`Flank.rack_points`.
     """
     nodes, weights = np.polynomial.legendre.leggauss(48)
     alpha = flank.pole_angle + 0.5 * (end - flank.pole_angle) * (nodes + 1.0)

@@ -41,18 +41,7 @@ class Zone:
     end: float
 
     def angles(self, count: int) -> Vector:
-        """Return pressure angles from the pole to the end of contact.
-
-        Parameters
-        ----------
-        count : int
-            How many.
-
-        Returns
-        -------
-        numpy.ndarray
-            Angles [rad], evenly spaced.
-        """
+        """Return pressure angles from the pole to the end of contact."""
         return np.linspace(self.pinion.pole_angle, self.end, count)
 
     def reduced_radius(self, alpha: ArrayLike) -> Vector:
@@ -222,18 +211,7 @@ class ConvexConcave:
         )
 
     def line(self, points: int) -> LineOfAction:
-        """Return the line of action at points that are evenly turned.
-
-        Parameters
-        ----------
-        points : int
-            At least 5.
-
-        Returns
-        -------
-        LineOfAction
-            From the tip of the wheel to that of the pinion.
-        """
+        """Return the line of action at points that are evenly turned."""
         after, before = (zone.pinion for zone in self.zones)
         last, first = (float(zone.pinion.rolled_length(zone.end)) for zone in self.zones)
         rolled = np.linspace(first, last, points)
@@ -245,16 +223,5 @@ class ConvexConcave:
         return LineOfAction(Contacts(self.circles, l, alpha, turn), rolled / self.pinion.pitch_radius)
 
     def mesh(self, points: int) -> Mesh:
-        """Return the way of a pair of teeth through contact.
-
-        Parameters
-        ----------
-        points : int
-            Of the flanks, at least 5.
-
-        Returns
-        -------
-        Mesh
-            Its places are lengths rolled on the pitch circles.
-        """
+        """Return the way of a pair of teeth through contact."""
         return mesh_on(self.line(points), self.teeth)

@@ -106,16 +106,6 @@ class Flank:
 
         d(length)/d(alpha) = +-2 r_k cos(alpha - alpha_C)/cos(alpha) is above 0 and grows, so
         that it comes down to the root from above.
-
-        Parameters
-        ----------
-        length : array_like
-            Length [mm], not positive on the foot and not negative on the head.
-
-        Returns
-        -------
-        numpy.ndarray
-            Angle [rad].
         """
         wanted = np.abs(np.asarray(length, dtype=float)) / (2.0 * self.arc_radius)
         angle = np.minimum(self.pole_angle + wanted, 0.5 * math.pi - 1e-6)
@@ -146,33 +136,11 @@ class Flank:
         return np.asarray(0.5 * self.side * change / self.arc_radius)
 
     def roll_angle(self, alpha: ArrayLike) -> Vector:
-        """Return the angle phi_r that the gear turns from contact in the pole.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Angle [rad], negative on the foot.
-        """
+        """Return the angle phi_r that the gear turns from contact in the pole."""
         return self.rolled_length(alpha) / self.pitch_radius
 
     def path_points(self, alpha: ArrayLike) -> Vector:
-        """Return points of the line of action.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm], shape (..., 2): (-l cos alpha, r + l sin alpha).
-        """
+        """Return points of the line of action."""
         a, l = np.asarray(alpha, dtype=float), self.path_coordinate(alpha)
         return np.stack([-l * np.cos(a), self.pitch_radius + l * np.sin(a)], axis=-1)
 
@@ -200,34 +168,12 @@ class Flank:
         return np.stack([x, y], axis=-1)
 
     def normals(self, alpha: ArrayLike) -> Vector:
-        """Return the unit normals that point from the tooth into the gap.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            (-cos(alpha + phi_r), sin(alpha + phi_r)), shape (..., 2).
-        """
+        """Return the unit normals that point from the tooth into the gap."""
         turned = np.asarray(alpha, dtype=float) + self.roll_angle(alpha)
         return np.stack([-np.cos(turned), np.sin(turned)], axis=-1)
 
     def radius(self, alpha: ArrayLike) -> Vector:
-        """Return the distance of the flank from the axis, r_y^2 = r^2 + l^2 + 2 r l sin alpha.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Distance [mm].
-        """
+        """Return the distance of the flank from the axis, r_y^2 = r^2 + l^2 + 2 r l sin alpha."""
         l, r = self.path_coordinate(alpha), self.pitch_radius
         return np.asarray(np.sqrt(r**2 + l**2 + 2.0 * r * l * np.sin(alpha)))
 
@@ -254,34 +200,12 @@ class Flank:
         return np.asarray((1.0 + change) / speed)
 
     def curvature_radius(self, alpha: ArrayLike) -> Vector:
-        """Return the radius of curvature, convex positive.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Radius [mm]; inf where the flank is straight.
-        """
+        """Return the radius of curvature, convex positive."""
         with np.errstate(divide="ignore"):
             return 1.0 / self.curvature(alpha)
 
     def rack_points(self, alpha: ArrayLike) -> Vector:
-        """Return the flank of the rack that this flank is in contact with.
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Coordinates [mm] from the pole, shape (..., 2); the same for every number of teeth.
-        """
+        """Return the flank of the rack that this flank is in contact with."""
         a, l = np.asarray(alpha, dtype=float), self.path_coordinate(alpha)
         return np.stack([self.rolled_length(a) - l * np.cos(a), l * np.sin(a)], axis=-1)
 
@@ -289,16 +213,6 @@ class Flank:
         """Return the radius of curvature of the rack's flank without its sign.
 
         2 r_k (sin(alpha - alpha_C) + tan alpha cos(alpha - alpha_C)).
-
-        Parameters
-        ----------
-        alpha : array_like
-            Pressure angle [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            Radius [mm].
         """
         a = np.asarray(alpha, dtype=float)
         e = a - self.pole_angle
@@ -333,21 +247,6 @@ class Flank:
         """Return the pressure angle of the rack's point at a distance from the pitch line.
 
         alpha = (alpha_C + arccos(cos alpha_C - h / r_k)) / 2, from h = |l| sin alpha.
-
-        Parameters
-        ----------
-        depth : float
-            Distance h [mm], not negative.
-
-        Returns
-        -------
-        float
-            Angle [rad].
-
-        Raises
-        ------
-        GeometryError
-            The line of action does not reach so far.
         """
         reach = 2.0 * self.arc_radius * math.cos(self.pole_angle)
         if not depth < reach:
@@ -359,21 +258,6 @@ class Flank:
         """Return the pressure angle at which the flank is at a distance from the axis.
 
         The distance changes monotonically with alpha up to the last angle of the flank.
-
-        Parameters
-        ----------
-        radius : float
-            Distance [mm].
-
-        Returns
-        -------
-        float
-            Angle [rad].
-
-        Raises
-        ------
-        GeometryError
-            The flank does not reach so far.
         """
         r, c, end = self.pitch_radius, self.pole_angle, self.last_angle
         beyond, reach = self.side * (radius - r), self.side * (float(self.radius(end)) - r)

@@ -134,13 +134,7 @@ class ConvexConcaveGear:
         return self.foot.angle_at_depth(self.addendum)
 
     def flanks(self) -> tuple[tuple[Flank, float], tuple[Flank, float]]:
-        """Return head and foot, each with the pressure angle at which it ends.
-
-        Returns
-        -------
-        tuple of tuple
-            Flank and angle [rad].
-        """
+        """Return head and foot, each with the pressure angle at which it ends."""
         return (self.head, self.tip_angle), (self.foot, self.foot_angle)
 
     @property
@@ -180,18 +174,6 @@ class ConvexConcaveGear:
         With the gap's centre line under an angle theta to the radius through the flank at the
         pitch circle and P + n D / 2 on it: D = 2 P u / cos(alpha + phi_r + theta),
         u = (cos theta, sin theta).
-
-        Parameters
-        ----------
-        flank : Flank
-            ``head`` or ``foot`` of this gear.
-        alpha : float
-            Pressure angle of the point [rad].
-
-        Returns
-        -------
-        float
-            Diameter D [mm].
         """
         u = self._across_gap
         return float(-2.0 * (flank.points(alpha) @ u) / (flank.normals(alpha) @ u))
@@ -205,21 +187,6 @@ class ConvexConcaveGear:
         """Return the measurement over two rollers.
 
         2 R_c cos(90 deg / z) + D for odd z, 2 R_c + D for even z.
-
-        Parameters
-        ----------
-        diameter : float
-            Diameter D of the rollers [mm].
-
-        Returns
-        -------
-        Roller
-            Where they rest and what they measure.
-
-        Raises
-        ------
-        GeometryError
-            The roller does not rest on the flank, or in two places of it.
         """
         (head, tip), (foot, end) = self.flanks()
         least, most = self.seated_diameter(foot, end), self.seated_diameter(head, tip)

@@ -24,28 +24,7 @@ _FLANK_POINTS = 33
 
 
 def root_radius(gear: ConvexConcaveGear, clearance: float | None, root: RootForm) -> float:
-    """Return the radius of the root circle.
-
-    Parameters
-    ----------
-    gear : ConvexConcaveGear
-        The gear.
-    clearance : float or None
-        What the root circle lies below the addendum of a rack [mm], not negative. None leaves
-        0.25 module below a radial line, and below a fillet the one arc that joins two teeth.
-    root : str
-        ``radial`` or ``fillet``.
-
-    Returns
-    -------
-    float
-        Radius [mm].
-
-    Raises
-    ------
-    GeometryError
-        There is none.
-    """
+    """Return the radius of the root circle."""
     depth = gear.addendum + (0.25 * gear.module if clearance is None else clearance)
     radius = gear.pitch_radius - depth
     if root == "fillet" and clearance is None:
@@ -59,28 +38,7 @@ def root_radius(gear: ConvexConcaveGear, clearance: float | None, root: RootForm
 
 
 def gear_outline(gear: ConvexConcaveGear, clearance: float | None, root: RootForm) -> Outline:
-    """Return the outline of a gear.
-
-    Parameters
-    ----------
-    gear : ConvexConcaveGear
-        The gear.
-    clearance : float or None
-        What the root circle lies below the addendum of a rack [mm]; see :func:`root_radius`.
-    root : str
-        From the end of the foot: ``radial``, a radial line with the largest arc that rounds it
-        to the root circle; or ``fillet``, one arc from the flank to the root circle.
-
-    Returns
-    -------
-    Outline
-        Lines and arcs; the working flank of the first tooth on +y.
-
-    Raises
-    ------
-    GeometryError
-        The root circle is none, or the fillet is too large for the gap.
-    """
+    """Return the outline of a gear."""
     half, half_bulges, _ = half_tooth(gear, clearance, root)
     tip = 2.0 * math.atan2(-half[0, 0], half[0, 1])
     tooth = np.concatenate([half[:0:-1] * (-1.0, 1.0), half[:1] * (-1.0, 1.0), half[:-1]])
@@ -93,29 +51,7 @@ def gear_outline(gear: ConvexConcaveGear, clearance: float | None, root: RootFor
 def half_tooth(
     gear: ConvexConcaveGear, clearance: float | None, root: RootForm
 ) -> tuple[Vector, Vector, int]:
-    """Return the left half of a tooth whose centre line is +y.
-
-    Parameters
-    ----------
-    gear : ConvexConcaveGear
-        The gear.
-    clearance : float or None
-        What the root circle lies below the addendum of a rack [mm]; see :func:`root_radius`.
-    root : str
-        ``radial`` or ``fillet``; see :func:`gear_outline`.
-
-    Returns
-    -------
-    vertices, bulges : numpy.ndarray
-        From the tip to the middle of the gap [mm], and the arcs between the vertices.
-    foot : int
-        Index of the vertex where the foot ends.
-
-    Raises
-    ------
-    GeometryError
-        The root circle is none, or the fillet is too large for the gap.
-    """
+    """Return the left half of a tooth whose centre line is +y."""
     vertices, bulges = _flank(gear)
     radius = root_radius(gear, clearance, root)
     below, below_bulges = (_radial if root == "radial" else _fillet)(gear, radius)
@@ -187,19 +123,6 @@ def tip_overlap(pair: ConvexConcave, pinion: Vector, wheel: Vector) -> tuple[flo
     """Return how deep the tips of each gear enter the other.
 
     The corner of the tip goes round the other gear while the flanks stay in contact.
-
-    Parameters
-    ----------
-    pair : ConvexConcave
-        The pair.
-    pinion, wheel : numpy.ndarray
-        Their outlines as polygons [mm], shape (points, 2).
-
-    Returns
-    -------
-    tuple of float
-        Depth of the wheel's tips in the pinion and of the pinion's in the wheel [mm]; no more
-        than the tolerance of the polygons where they run free.
     """
     return (_entered(pair.wheel, pair.pinion, pinion), _entered(pair.pinion, pair.wheel, wheel))
 

@@ -150,14 +150,7 @@ class InvolutePair:
         return math.sqrt(tip * tip - base * base)
 
     def check(self) -> None:
-        """Raise where the pair cannot run.
-
-        Raises
-        ------
-        GeometryError
-            Interference beyond a base circle, a contact ratio below 1 or of 2 and more, or a pointed
-            tooth.
-        """
+        """Raise where the pair cannot run."""
         for name, least, limit in (
             ("2", self.path_start, "path of contact starts"),
             ("1", self.line_length - self.path_end, "path of contact ends"),
@@ -175,16 +168,6 @@ class InvolutePair:
         """Return the thickness of a tooth on its tip circle.
 
         2 r_a (pi/(2 z) + 2 x tan(alpha)/z + inv(alpha) - inv(alpha_a)), cos(alpha_a) = r_b/r_a.
-
-        Parameters
-        ----------
-        gear : int
-            0 for the pinion, 1 for the wheel.
-
-        Returns
-        -------
-        float
-            Thickness [mm]; below 0 where the flanks cross before.
         """
         z, shift, tip = self.teeth[gear], self.profile_shift[gear], self.tip_radius[gear]
         at_tip = math.acos(self.base_radius[gear] / tip)
@@ -203,18 +186,7 @@ class InvolutePair:
         return self.working_angle
 
     def mesh(self, points: int) -> Mesh:
-        """Return the way of a pair of teeth through contact.
-
-        Parameters
-        ----------
-        points : int
-            Of the flanks, at least 5.
-
-        Returns
-        -------
-        Mesh
-            Its places are those on the path of contact, from A to E.
-        """
+        """Return the way of a pair of teeth through contact."""
         place = np.linspace(self.path_start, self.path_end, points)
         rest, (own, other) = self.line_length - place, self.base_radius
         lever = np.full(points, own)
@@ -239,16 +211,6 @@ class InvolutePair:
 
         Before A the corner of the wheel's tip is next to the pinion's flank, after E that of
         the pinion's to the wheel's; the gap is measured along the line of action.
-
-        Parameters
-        ----------
-        place : numpy.ndarray
-            Where a pair would touch on the line of action, from the pinion's base circle [mm].
-
-        Returns
-        -------
-        numpy.ndarray
-            Gap [mm]: 0 on the path of contact, infinite where the corner meets no involute.
         """
         base, tips, line = self.base_radius, self.tip_radius, self.line_length
         before = _corner_gap(place, base, tips[1], line)
@@ -257,34 +219,11 @@ class InvolutePair:
         return np.where(place > self.path_end, after, gap)
 
     def flank(self, place: Vector) -> Profile:
-        """Return the points of the pinion's flank that touch at places of the path.
-
-        Parameters
-        ----------
-        place : numpy.ndarray
-            Increasing places on the path [mm], above 0.
-
-        Returns
-        -------
-        Profile
-            Around the pinion's axis, from root to tip; the involute starts at (0, rb1) and leans
-            to -x.
-        """
+        """Return the points of the pinion's flank that touch at places of the path."""
         return _involute(self.base_radius[0], place)
 
     def mating_flank(self, place: Vector) -> Profile:
-        """Return the points of the wheel's flank that touch at places of the path.
-
-        Parameters
-        ----------
-        place : numpy.ndarray
-            Increasing places on the path [mm], below the length of the line.
-
-        Returns
-        -------
-        Profile
-            Around the wheel's axis, from root to tip: in the reverse order of the places.
-        """
+        """Return the points of the wheel's flank that touch at places of the path."""
         return _involute(self.base_radius[1], (self.line_length - place)[::-1])
 
 

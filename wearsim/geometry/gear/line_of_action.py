@@ -52,22 +52,7 @@ def _turned(points: Vector, angle: Vector) -> Vector:
 
 
 def involute(circles: PitchCircles, pressure_angle: float, pole_distance: ArrayLike) -> LineOfAction:
-    """Return the straight line of action, whose profiles are involutes.
-
-    Parameters
-    ----------
-    circles : PitchCircles
-        The pair.
-    pressure_angle : float
-        alpha [rad].
-    pole_distance : array_like
-        l [mm].
-
-    Returns
-    -------
-    LineOfAction
-        phi1 = l/(r1 cos(alpha)).
-    """
+    """Return the straight line of action, whose profiles are involutes."""
     l = np.asarray(pole_distance, dtype=float)
     contacts = Contacts(circles, l, np.full_like(l, pressure_angle), np.zeros_like(l))
     return LineOfAction(contacts, l / (circles.pinion_radius * math.cos(pressure_angle)))

@@ -65,23 +65,6 @@ class Synthesis:
         Where alpha is below 45 deg, what is wrong near the pole fades on the way outward (as
         l^(-1/2) under a constant normal load); inward it would grow. Only the family 1 gets
         there.
-
-        Parameters
-        ----------
-        crossing : PoleCrossing
-            Where and how it crosses the pole; the law must give sin(alpha)/A there.
-        pole_distance : array_like
-            l of the points [mm], ascending.
-
-        Returns
-        -------
-        LineOfAction
-            phi1 = 0 in the pole.
-
-        Raises
-        ------
-        GeometryError
-            The line ends before the last point.
         """
         l = np.asarray(pole_distance, dtype=float)
         near = _NEAREST * float(self.circles.pole_radius(crossing.pressure_angle))
@@ -99,25 +82,7 @@ class Synthesis:
         return LineOfAction(Contacts(self.circles, l, angle, turn), roll)
 
     def from_point(self, start: tuple[float, float], pole_distance: ArrayLike) -> LineOfAction:
-        """Return the line of action from a point on.
-
-        Parameters
-        ----------
-        start : tuple of float
-            l [mm], not 0, and alpha [rad], between 0 and 90 deg.
-        pole_distance : array_like
-            l of the points [mm], from the start on, all on its side of the pole.
-
-        Returns
-        -------
-        LineOfAction
-            phi1 = 0 at the start.
-
-        Raises
-        ------
-        GeometryError
-            The line ends before the last point.
-        """
+        """Return the line of action from a point on."""
         l = np.asarray(pole_distance, dtype=float)
         angle, roll = self._march((*start, 0.0), l)
         return LineOfAction(Contacts(self.circles, l, angle, self._turn(l, angle)), roll)
@@ -127,18 +92,6 @@ class Synthesis:
 
         It ends where its pressure angle comes to 90 deg, or to 0, where the contact would run
         back on one of the profiles.
-
-        Parameters
-        ----------
-        start : tuple of float
-            l [mm] and alpha [rad].
-        last : float
-            l to go to [mm], on the same side of the pole.
-
-        Returns
-        -------
-        tuple of float
-            l [mm] to 1e-8 of it, and alpha [rad] there; at ``last`` where the line goes on.
         """
         with np.errstate(invalid="ignore"):
             found = solve_ivp(

@@ -85,41 +85,13 @@ class ToothPair(Protocol):
         """Pressure angle in the pole [rad]."""
 
     def mesh(self, points: int) -> Mesh:
-        """Return the way through contact at so many points, both ends included.
-
-        Parameters
-        ----------
-        points : int
-            At least 5.
-
-        Returns
-        -------
-        Mesh
-            From the tip of the wheel to that of the pinion.
-        """
+        """Return the way through contact at so many points, both ends included."""
 
 
 def mesh_on(line: LineOfAction, teeth: tuple[int, int]) -> Mesh:
     """Return the way of a pair of teeth along a line of action.
 
     The places are lengths that the pitch circles roll on each other, from the pole.
-
-    Parameters
-    ----------
-    line : LineOfAction
-        From the tip of the wheel to that of the pinion, with the roll angle 0 in the pole.
-    teeth : tuple of int
-        z1 and z2.
-
-    Returns
-    -------
-    Mesh
-        At the points of the line.
-
-    Raises
-    ------
-    GeometryError
-        The flanks interfere, contact runs back on one of them, or a tooth is pointed.
     """
     contacts = line.contacts
     circles = contacts.circles
@@ -163,20 +135,7 @@ def _check_tips(line: LineOfAction, teeth: tuple[int, int]) -> None:
 
 
 def check_tip(name: str, width: float) -> None:
-    """Raise where a tooth is pointed.
-
-    Parameters
-    ----------
-    name : str
-        ``pinion`` or ``wheel``.
-    width : float
-        Of its tip [mm].
-
-    Raises
-    ------
-    GeometryError
-        It is not above 0.
-    """
+    """Raise where a tooth is pointed."""
     if not width > 0.0:
         raise GeometryError(
             f"gear pair: the width of the tip of the {name} must be above 0 mm, but is {width:.3g} mm: "
@@ -185,18 +144,7 @@ def check_tip(name: str, width: float) -> None:
 
 
 def check_contact_ratio(ratio: float) -> None:
-    """Raise where more than two pairs of teeth, or none, would touch.
-
-    Parameters
-    ----------
-    ratio : float
-        Contact ratio.
-
-    Raises
-    ------
-    GeometryError
-        It is below 1, or 2 and more.
-    """
+    """Raise where more than two pairs of teeth, or none, would touch."""
     if not 1.0 <= ratio < 2.0:
         raise GeometryError(
             f"gear pair: the contact ratio must be at least 1 and below 2, but is {ratio:.4g}: change "

@@ -66,16 +66,6 @@ class PitchCircles:
         """Return the reduced radius of any regular pair of profiles that touches in the pole.
 
         s = sin(alpha)/A.
-
-        Parameters
-        ----------
-        pressure_angle : array_like
-            alpha [rad].
-
-        Returns
-        -------
-        numpy.ndarray
-            s [mm].
         """
         return np.sin(pressure_angle) / self.curvature_sum
 

@@ -80,18 +80,7 @@ def _smoothing_spline(x: Vector, y: Vector, chord: Vector, noise: float) -> "BSp
 
 
 def working_side(profile: Profile) -> Profile:
-    """Return a flank on the left of the gap, as the mechanisms expect it.
-
-    Parameters
-    ----------
-    profile : Profile
-        A flank from root to tip, on either side of the gap's centre line.
-
-    Returns
-    -------
-    Profile
-        The flank itself, or its mirror image where it bounds the gap on the right.
-    """
+    """Return a flank on the left of the gap, as the mechanisms expect it."""
     if float(profile.x.mean()) <= 0.0:
         return profile
     return Profile(-profile.x, profile.y)
@@ -102,18 +91,6 @@ def phase_error(profile: Profile, strand: Strand) -> float:
 
     The sprocket turns by psi = x/R while the roller comes in, so the turn at which a point
     touches tells where the centre line of its gap is.
-
-    Parameters
-    ----------
-    profile : Profile
-        The flank, root to tip; a roller on the strand reaches both ends.
-    strand : Strand
-        Sprocket and line of roller centres.
-
-    Returns
-    -------
-    float
-        Angle [rad], counterclockwise positive, median over the points.
     """
     centre_x = profile.x + strand.roller_radius * profile.normal_x
     centre_y = profile.y + strand.roller_radius * profile.normal_y
@@ -125,27 +102,7 @@ def phase_error(profile: Profile, strand: Strand) -> float:
 
 
 def contact_range(profile: Profile, height: float, roller_radius: float) -> tuple[float, float]:
-    """Return where along the strand the roller touches the two ends of a flank.
-
-    Parameters
-    ----------
-    profile : Profile
-        The flank, root to tip.
-    height : float
-        Height of the line of roller centres above the axis [mm].
-    roller_radius : float
-        Radius of the roller [mm].
-
-    Returns
-    -------
-    tuple of float
-        Distance before the pole line at the root end and at the tip end [mm].
-
-    Raises
-    ------
-    GeometryError
-        A roller on the strand does not reach one of the ends.
-    """
+    """Return where along the strand the roller touches the two ends of a flank."""
     distances = []
     for end, name in ((0, "root"), (-1, "tip")):
         centre_x = profile.x[end] + roller_radius * profile.normal_x[end]

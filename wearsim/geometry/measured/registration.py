@@ -87,27 +87,6 @@ def register(
     tangents (point to plane). Without what is expected a worn profile is moved too far by
     that: whoever compares the recess with a model must let the model move by `moves`, and
     register again with what it says.
-
-    Parameters
-    ----------
-    nominal : Profile
-        The new profile.
-    x, y : numpy.ndarray
-        Points in the same frame, a few millimetres off at most [mm], shape (n,).
-    freedom : str
-        ``none``, ``turn`` about the axis, or ``free``.
-    expected : numpy.ndarray, optional
-        Recess at the points of the nominal profile [mm]; 0 where it is left out.
-
-    Returns
-    -------
-    Registered
-        The points that have a foot on the profile.
-
-    Raises
-    ------
-    GeometryError
-        Fewer than 11 points have one, or the points do not settle.
     """
     turn, shift = 0.0, np.zeros(2)
     chords = chord_lengths(nominal.x, nominal.y)

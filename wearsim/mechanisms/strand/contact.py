@@ -20,6 +20,20 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     successive rollers sum to 1. It is a convention, kept as the flank wears.
 
     Equation physics.md (S11).
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        Distance of the roller centre before the pole line [mm].
+    contact_end, contact_start : float
+        x_min and x_max [mm].
+    pitch : float
+        Chain pitch [mm], less than x_max - x_min.
+
+    Returns
+    -------
+    numpy.ndarray
+        Share from 0 to 1.
     """
     overlap = contact_start - contact_end - pitch
     return np.clip(np.minimum(contact_start - x, x - contact_end) / overlap, 0.0, 1.0)
@@ -111,6 +125,17 @@ class StrandMechanism:
         """Return the range of sprocket turn over which the flank can touch, in pitches.
 
         Equation physics.md (S8), for where the roller is.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Points of the worn flank [mm].
+
+        Returns
+        -------
+        float
+            (psi_max - psi_min) R / p; below 1 the next roller comes before this one
+            has left only on the edge of the tip, which is not modelled.
         """
         frame, radius = np.empty((4, x.size)), self.strand.roller_radius
         flank_frame(x, y, *frame)

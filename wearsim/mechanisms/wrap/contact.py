@@ -195,6 +195,31 @@ class WrapContact(Dwelling):
         """Return what worn gaps meet in one revolution.
 
         Equation physics.md (W9), of the slip where the chain articulates.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray
+            Worn outlines [mm], shape (bodies, points).
+        wear : ChainWear
+            What the chain has lost.
+        memory : numpy.ndarray
+            Where the rollers were last; replaced by where they are.
+        at : float, optional
+            From 0 to 1: place of every phase in its part of the pitch; the middle otherwise.
+
+        Returns
+        -------
+        numpy.ndarray
+            Table of events, a column for every block, kind of link, phase and roller. How
+            often each comes in a cycle holds its block's share and factor on wear. All
+            zero where the chain is not pulled.
+
+        Raises
+        ------
+        JumpError
+            The chain jumps.
+        ConvergenceError
+            No equilibrium is found.
         """
         worn = self.worn_paths(x, y, wear)
         tables = [

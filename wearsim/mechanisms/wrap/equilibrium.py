@@ -67,6 +67,16 @@ class WrapChain:
         """Return the pitches of an inner and of an outer link.
 
         Equation physics.md (W7).
+
+        Parameters
+        ----------
+        elongation : float
+            Mean relative elongation of the chain.
+
+        Returns
+        -------
+        tuple of float
+            p and p (1 + 2 eps), or p (1 + eps) twice [mm].
         """
         if self.alternating:
             return self.pitch, self.pitch * (1.0 + 2.0 * elongation)
