@@ -19,7 +19,6 @@ import numpy as np
 import wearsim
 from wearsim.catalogue.catalogues import chains
 from wearsim.result import Life, WearResult
-from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
 from wearsim.wear import trajectory
 
@@ -268,7 +267,7 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
             result = wearsim.simulate(case)
             tighter = replace(case.run, life_tolerance=0.1 * drawn.tolerance)
             stage = "with a tenth of the tolerance"
-            contact = pointwise_mechanism(case).contact
+            contact = case.drive.mechanism(case).contact
             loose, tight = (task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter))
             stage = "with that on four times the points"
             finer = wearsim.load_case(drawn.tables(finer_points(drawn.points)))

@@ -32,9 +32,8 @@ from random_lives import add_limit, add_range, draw, log_uniform, random_wear, u
 import wearsim
 from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile import Profile
-from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
-from wearsim.simulation.wrap_life import wrap_contact, wrap_problem
+from wearsim.simulation.wrap_life import wrap_problem
 from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.trajectory import Trajectory
 
@@ -180,7 +179,7 @@ def table_drive(rng: Random, folder: Path) -> Callable[[int], Tables]:
 
 def points_life(case: wearsim.Case, flank: Profile | None = None, points: int = 0) -> float:
     """Cycles of a case on a flank, or a number of points, of one's own, with tight steps."""
-    mechanism: Any = pointwise_mechanism(case)
+    mechanism: Any = case.drive.mechanism(case)
     if flank is not None:
         mechanism = replace(mechanism, profile=flank)
     if points:
@@ -198,7 +197,7 @@ def extrapolated(coarse: float, fine: float) -> float:
 
 def steps_life(case: wearsim.Case, level: int) -> Trajectory:
     """Wear a wrap by steps that are halved so many times."""
-    contact = wrap_contact(case, case.drive)
+    contact = case.drive.contact(case)
     law, limits, horizon = wrap_problem(case, contact)
     run = run_dwelling(contact.thinned(), law, limits, horizon, level)
     if run.met is None:

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import wearsim
 from wearsim.case.load_case import load_case
+from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.result import Life, WearResult
-from wearsim.simulation.tooth_loads import tooth_loads
 
 ROOT = Path(__file__).parent.parent
 DRIVES = {

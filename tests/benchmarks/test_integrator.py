@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from wearsim.case.load_case import load_case
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Kind
 from wearsim.kernels.hertz_wear import DEPTH_REACHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
-from wearsim.simulation.pointwise import pointwise_mechanism
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
 
@@ -101,7 +100,8 @@ def test_solve_of_b9(benchmark):
 
 def test_solve_of_the_strand(benchmark):
     """Against the loop over updates of 1000 cycles, some 15 000 of them, explicit and stable."""
-    contact = pointwise_mechanism(load_case(STRAND)).contact
+    case = load_case(STRAND)
+    contact = case.drive.mechanism(case).contact
     life = Solve(contact, 0.2, True).measured(benchmark) / 5e-11
     loop = run_per_cycle(contact, archard(5e-11), (depth_criterion(0.2),), 1e9, 1000)
     benchmark.extra_info["life_error"] = life / float(loop.cycles[-1]) - 1.0

@@ -2,8 +2,8 @@
 
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4])

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.model import GearDrive
+from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.result import Life, LowerBound, WearResult
 
 FOLDER = Path(__file__).parents[2] / "cases"

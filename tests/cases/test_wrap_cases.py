@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.result import WearResult
-from wearsim.simulation.tooth_loads import tooth_loads
 
 FOLDER = Path(__file__).parents[2] / "cases"
 PATHS = {

@@ -20,11 +20,11 @@ import wearsim
 import wearsim.cli
 from wearsim.catalogue.catalogues import rows
 from wearsim.input.schema import CaseTables
+from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
 from wearsim.report.lines import grouped
 from wearsim.report.loads_table import loads_json
-from wearsim.simulation.tooth_loads import tooth_loads
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

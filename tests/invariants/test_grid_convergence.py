@@ -11,10 +11,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.profile import area_between
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import power
 
 

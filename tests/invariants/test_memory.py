@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Mechanism
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
 

@@ -9,10 +9,10 @@ import math
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Kind
 from wearsim.contact.hertz import contact_modulus
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
 

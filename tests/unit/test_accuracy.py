@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.accuracy import SAFETY, depth_missed, exceeds, grid_error, grid_study
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.trajectory import Trajectory
 

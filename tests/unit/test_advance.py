@@ -9,11 +9,11 @@ import re
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import Criterion, depth_criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.trajectory import difference
 

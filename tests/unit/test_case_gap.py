@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.model import WrapDrive
 from wearsim.catalogue.catalogues import chains
 from wearsim.errors import CaseError
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
@@ -23,7 +22,8 @@ from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import gap_form, iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import lowest_centre
-from wearsim.simulation.tooth_loads import tooth_loads
+from wearsim.mechanisms.wrap.drive import WrapDrive
+from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 
 PITCH, ROLLER = 12.7, 8.51
 CASE: dict[str, Any] = {

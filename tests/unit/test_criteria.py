@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wearsim.wear.criteria import depth_criterion, first_met, tip_land_criterion
+from wearsim.contact.criteria import depth_criterion, first_met, tip_land_criterion
 
 ZERO = np.zeros(3)
 

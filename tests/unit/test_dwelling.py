@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import Criterion, depth_criterion
 from wearsim.contact.engagement import Kind
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ContactError, ConvergenceError, JumpError
@@ -13,7 +14,6 @@ from wearsim.kernels import event_rows as kernels
 from wearsim.kernels import wrap_wear as engine
 from wearsim.wear.advance import run_advance
 from wearsim.wear.bodies import Start
-from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.halving import advance_dwelling, halving_error, run_together
 from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard, drozdov

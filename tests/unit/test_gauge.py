@@ -10,10 +10,10 @@ import shapely
 from shapely import affinity
 
 from wearsim.case.load_case import load_case
-from wearsim.case.model import StrandDrive
 from wearsim.export.gauge import gauge
 from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.geometry.wheel import worn_gap, worn_space
+from wearsim.mechanisms.strand.drive import StrandDrive
 
 CASES = Path(__file__).parents[2] / "cases"
 WRAP = """\

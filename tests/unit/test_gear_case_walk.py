@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.input.schema.gear import GearTables
+from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.simulation.simulate_many import CaseLife
 
 WITHOUT_EFFECT = {

@@ -8,20 +8,19 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import ChainWear
 from wearsim.errors import CaseError
 from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
 from wearsim.report.service import life_json
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.law_of_case import wear_law
-from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.simulation.task import wear_law
 from wearsim.study.maintain.model import MaintenancePlan, Policy, cost_per_1000_hours, maintain
 from wearsim.study.maintain.reversed_sprocket import turned_life
 from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
 from wearsim.study.maintain.tooth_count import meetings_around, variant
 from wearsim.wear.bodies import Start
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.implicit_steps import run_dwelling
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -219,7 +218,7 @@ def test_sprocket_whose_limit_is_not_reached(without_counts):
 def test_a_run_goes_on_from_where_another_ended():
     """Half and half is the whole, as near as steps are (first order: smaller with each level)."""
     drive = case(stop={"critical_depth_mm": 0.02})
-    contact = wrap_contact(drive, drive.drive)
+    contact = drive.drive.contact(drive)
     law, criteria = wear_law(drive.wear, drive.wear.coefficient), (depth_criterion(0.02),)
     whole = run_dwelling(contact, law, criteria, 1e12, 1)
     half = run_dwelling(contact, law, criteria, 0.5 * whole.cycles[-1], 1)

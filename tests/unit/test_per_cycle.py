@@ -11,12 +11,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import Criterion, depth_criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
-from wearsim.wear.criteria import Criterion, depth_criterion
 from wearsim.wear.law import Law, archard, drozdov, power
 from wearsim.wear.per_cycle import run_per_cycle
 

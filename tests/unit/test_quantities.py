@@ -22,6 +22,7 @@ from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
 from wearsim.input.schema.uncertainty import Distribution
+from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
@@ -29,7 +30,6 @@ from wearsim.report.loads_table import loads_json
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.runner.scatter import Scatter
 from wearsim.runner.shard import COLUMNS
-from wearsim.simulation.tooth_loads import tooth_loads
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import OPTIONAL, REQUIRED
 from wearsim.study.calibrate.sheet import readings_table, values_table

@@ -3,10 +3,9 @@
 import pytest
 
 import wearsim
-from wearsim.chain.selection import Finding, RatedDrive, assess
+from wearsim.chain.selection import Finding, RatedDrive, assess, rating_warnings, warning
 from wearsim.errors import CaseError
-from wearsim.report.rating import drive_notes
-from wearsim.simulation.chain_rating import rated_drive, rating, rating_warnings, rules_without_limit, warning
+from wearsim.mechanisms.wrap.rating import rated_drive, rules_without_limit
 
 WRAP = {
     "format_version": 1,
@@ -16,6 +15,10 @@ WRAP = {
     "load": {"power_kW": 30, "speed_rpm": 750},
     "wear": {"condition": "hardened, oiled"},
 }
+
+
+def ratings(case):
+    return case.drive.ratings(case)
 
 
 def case(**tables):
@@ -93,15 +96,15 @@ def test_a_strand_has_no_rating():
     tables = {**WRAP, "sprocket": sprocket}
     del tables["drive"]
     strand = wearsim.load_case(tables)
-    assert (rating(strand), rating_warnings(strand)) == ((), [])
+    assert (strand.drive.ratings(strand), strand.drive.notes(strand)) == ((), [])
 
 
 def test_warnings_are_of_what_is_outside():
     """Two strands carry 1.7 * 29.33 = 49.9 kW; K_e = 3 asks 4724 * 3 * 2/(358.8 * 1.7) = 46 MPa."""
     power = case(drive={"service_factor": 1.7})
-    assert [found.ok for found in rating(power)][:3] == [False, True, False]
+    assert [found.ok for found in ratings(power)][:3] == [False, True, False]
     joints = case(drive={"exploitation_factor": 3.0})
-    (text,) = rating_warnings(joints)
+    (text,) = rating_warnings(ratings(joints))
     assert text.startswith("outside a rating: joint pressure 46.47 MPa, allowed at most 21.62 MPa")
     assert text.endswith("(GOST practice (Dunaev); indicative here)")
 
@@ -125,9 +128,9 @@ def test_every_rule_is_judged_by_its_own_worst_block():
     """The lighter block runs five times as fast: each rule as of the block alone that is worse."""
     slow, fast = ({"tension_N": 790, "speed_rpm": 1000}, {"tension_N": 780, "speed_rpm": 5000})
     both = [{"share_of_time": 0.5, **slow}, {"share_of_time": 0.5, **fast}]
-    together = {found.name: found for found in rating(wearsim.load_case({**ONE_19, "duty": both}))}
+    together = {found.name: found for found in ratings(wearsim.load_case({**ONE_19, "duty": both}))}
     alone = [
-        {found.name: found for found in rating(wearsim.load_case({**ONE_19, "load": load}))}
+        {found.name: found for found in ratings(wearsim.load_case({**ONE_19, "load": load}))}
         for load in (slow, fast)
     ]
     for name, found in together.items():
@@ -135,22 +138,22 @@ def test_every_rule_is_judged_by_its_own_worst_block():
         assert (found.value, found.limit) == (worst.value, worst.limit)
     assert not together["roller impact"].ok
     assert together["roller impact"].load == "780 N at 5000 rpm"
-    warned = rating_warnings(wearsim.load_case({**ONE_19, "duty": both}))
+    warned = rating_warnings(ratings(wearsim.load_case({**ONE_19, "duty": both})))
     assert any("roller impact of 780 N at 5000 rpm" in text for text in warned)
 
 
 def test_a_rule_without_a_row_is_named():
     """The table of joint pressures ends below 5000 rpm at this pitch."""
     fast = wearsim.load_case({**ONE_19, "load": {"tension_N": 780, "speed_rpm": 5000}})
-    assert rules_without_limit(fast) == ("joint pressure",)
-    assert "joint pressure" in drive_notes(fast)[-1]
+    assert rules_without_limit(fast, fast.drive) == ("joint pressure",)
+    assert "joint pressure" in fast.drive.notes(fast)[-1]
     slow = wearsim.load_case({**ONE_19, "load": {"tension_N": 780, "speed_rpm": 500}})
-    assert rules_without_limit(slow) == ()
+    assert rules_without_limit(slow, slow.drive) == ()
 
 
 def test_a_typical_regime_is_rated_by_the_load_given():
     constant, light = (
-        rating(wearsim.load_case({**ONE_19, "load": {"power_kW": 6, "speed_rpm": 1000, **regime}}))
+        ratings(wearsim.load_case({**ONE_19, "load": {"power_kW": 6, "speed_rpm": 1000, **regime}}))
         for regime in ({}, {"regime": "V"})
     )
     assert light == constant

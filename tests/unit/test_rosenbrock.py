@@ -7,6 +7,7 @@ IV.7), second differences of quadratics, and runs of far smaller steps.
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Kind
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.kernels.hertz_wear import flank_rate
@@ -16,7 +17,6 @@ from wearsim.kernels.tridiagonal import factorise, solve
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard, power
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from wearsim.input.keys import schema_fields
 from wearsim.input.schema import CaseTables
-from wearsim.input.schema.gear import GearTables
+from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.page.fields import form_fields, table_meaning
 from wearsim.quantities import quantities
 

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import ChainWear
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels.wrap_cycle import engaged
-from wearsim.simulation.wrap_life import wrap_contact
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard
 
@@ -32,7 +31,7 @@ CASE = {
 
 def contact(*settings):
     case = wearsim.load_case(CASE, settings)
-    return wrap_contact(case, case.drive)
+    return case.drive.contact(case)
 
 
 def unworn(of):
@@ -142,7 +141,7 @@ def test_coarsened_keeps_ends_and_loads(nodes):
 def test_every_other_gap_engaged():
     """A crawler's 27 gaps of which every other one carries a bush: 13.5 to the turn, all alike."""
     case = wearsim.load_case(Path(__file__).parents[2] / "cases" / "d6-crawler-27t-wrap.toml")
-    of = wrap_contact(case, case.drive)
+    of = case.drive.contact(case)
     assert of.mechanism.pitch_angle == pytest.approx(2.0 * math.pi / 13.5)
     assert of.bodies == 1
 
@@ -201,5 +200,5 @@ def test_rollers_lose_area_to_both_sprockets():
         "wear": {"specific_wear_rate_mm2_per_N": 1e-9, "roller_wear_ratio": 0.5},
     }
     case = wearsim.load_case(tables)
-    ratio = wrap_contact(case, case.drive).roller_area_ratio
+    ratio = case.drive.contact(case).roller_area_ratio
     assert ratio == pytest.approx(0.5 * 13 / 60 * (1.0 + 13 / 20), rel=1e-12)

@@ -11,9 +11,8 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.case.model import WrapDrive
+from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import WearResult
-from wearsim.simulation.wrap_mechanism import wrap_mechanism
 
 HERE = Path(__file__).parent
 CASES = HERE.parents[1] / "cases"
@@ -82,7 +81,7 @@ def span() -> Callable[..., float]:
     def length(pitches: int, elongation: float, first: str = "inner", pattern: str = "alternating") -> float:
         case = wearsim.load_case(CASES / "bicycle-17t-road.toml", [f"joint.pitch={pattern}"])
         assert isinstance(case.drive, WrapDrive)
-        inner, outer = wrap_mechanism(case, case.drive).chain.pitches(elongation)
+        inner, outer = case.drive.rollers.chain.pitches(elongation)
         more, less = (pitches + 1) // 2, pitches // 2
         inners = more if first == "inner" else less
         return inners * inner + (pitches - inners) * outer

@@ -23,7 +23,6 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.simulation.wrap_life import wrap_contact
 
 CASE = "bicycle-17t-road"
 KM_PER_HOUR = 33.0
@@ -62,7 +61,7 @@ def oiled(grown, coefficient, excess, later_rate, request):
     amount, distance = excess
     case = wearsim.load_case(request.path.parents[2] / "cases" / f"{CASE}.toml")
     cycles_per_km = case.cycles_per_hour / KM_PER_HOUR
-    path = wrap_contact(case, case.drive).sliding_per_cycle * cycles_per_km * distance
+    path = case.drive.contact(case).sliding_per_cycle * cycles_per_km * distance
     return grown(
         coefficient,
         2500.0,

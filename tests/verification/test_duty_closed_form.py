@@ -15,7 +15,6 @@ import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.contact.resting_engagement import ChainWear
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
-from wearsim.simulation.wrap_life import wrap_contact
 
 STRAND = {
     "format_version": 1,
@@ -203,7 +202,7 @@ class TestWrap:
     @staticmethod
     def contact(**tables):
         case = load_case({**WRAP, **tables})
-        return wrap_contact(case, case.drive)
+        return case.drive.contact(case)
 
     @staticmethod
     def table(contact):

@@ -9,11 +9,11 @@ of linear wear is k q s for any pressure where its directions are parallel.
 import numpy as np
 import pytest
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import NEW_CHAIN, Dwelling
 from wearsim.geometry.profile import Profile, area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.wear.bodies import Start, highest_load
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard, power
 

@@ -14,7 +14,6 @@ import pytest
 import wearsim
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.joint import elongation_per_loop
-from wearsim.simulation.wrap_life import wrap_contact
 
 PITCH, PIN, AREA, MASS = 12.7, 3.98, 44.5, 0.60
 CHAIN = {
@@ -62,7 +61,7 @@ def load_case(
 
 
 def contact_of(case: wearsim.Case) -> WrapContact:
-    return wrap_contact(case, case.drive)
+    return case.drive.contact(case)
 
 
 def chain_hours(case: wearsim.Case) -> float:

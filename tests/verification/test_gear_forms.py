@@ -14,6 +14,7 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
 from wearsim.contact.synthesised_pair import SynthesisedPair
@@ -27,7 +28,6 @@ from wearsim.geometry.profile import Profile
 from wearsim.kernels.gear_pair import turned
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 
 CASES = Path(__file__).parents[2] / "cases"

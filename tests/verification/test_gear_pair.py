@@ -14,12 +14,12 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.hertz import contact_modulus, half_width, peak_pressure
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard, power
 
 C14 = InvolutePair((16, 24), 4.5, math.radians(20.0), (0.1817, 0.1715), (41.318, 59.272))

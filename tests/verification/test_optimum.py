@@ -16,11 +16,11 @@ import tomlkit
 from scipy.optimize import minimize_scalar
 
 import wearsim
-from wearsim.case.model import StrandDrive
+from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.result import Life
 from wearsim.runner.run_study import run_study
 from wearsim.runner.workers import Threads
-from wearsim.simulation.new_flank import new_peak_pressure
+from wearsim.simulation import new_peak_pressure
 from wearsim.study.optimise.mass import blank_mass
 from wearsim.study.optimise.model import OptimiseStudy, load_optimise
 from wearsim.study.optimise.search import search

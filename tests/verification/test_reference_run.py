@@ -12,11 +12,10 @@ import pytest
 import shapely
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.mechanisms.strand.contact import StrandMechanism
-from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import task
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import power
 
 CaseMaker = Callable[..., wearsim.Case]
@@ -76,7 +75,7 @@ def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float)
     """
     stop = f"stop.critical_depth_mm={depth}"
     case = reference(exponent, stop, "run.life_tolerance=1e-6")
-    advance, _ = task(case, pointwise_mechanism(case).contact).run()
+    advance, _ = task(case, case.drive.mechanism(case).contact).run()
     per_cycle = wearsim.simulate(reference(exponent, stop, PER_CYCLE))
     assert advance.cycles[-1] == pytest.approx(per_cycle.cycles, rel=1e-4)
     flank = shapely.LineString(np.column_stack([advance.x[-1], advance.y[-1]]))

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.geometry.profile import Profile
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.signatures import CONTACT
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import archard
 from wearsim.wear.trajectory import Trajectory, check_fold
 

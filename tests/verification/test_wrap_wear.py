@@ -15,14 +15,13 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
-from wearsim.simulation.wrap_life import wrap_contact
 from wearsim.wear.bodies import Start, highest_load
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.implicit_steps import DwellingTrajectory, run_dwelling
 from wearsim.wear.law import archard, power
 
@@ -47,7 +46,7 @@ ENDLESS = 1e12
 @cache
 def contact(*settings: str) -> WrapContact:
     case = wearsim.load_case(CASE, settings)
-    return wrap_contact(case, case.drive)
+    return case.drive.contact(case)
 
 
 def wear(
@@ -490,7 +489,7 @@ def test_margin_against_jumping_is_that_of_the_worn_gaps():
     """Worn pockets hold the chain otherwise than new teeth; a jump ends the life where it is used up."""
     case = wearsim.load_case({**CASE, "run": {"horizon_hours": 2000}})
     found = {state.name: state for state in wearsim.simulate(case).limits}["min_slack_tension_N"]
-    new = wrap_contact(case, case.drive).mechanism.smallest_slack_tension(0.0)
+    new = case.drive.contact(case).mechanism.smallest_slack_tension(0.0)
     assert found.limit == case.drive.slack
     assert 0.0 < found.value < found.limit
     assert found.value != pytest.approx(new, rel=0.02)

@@ -1,13 +1,15 @@
-"""What cases of all kinds complete alike: materials, wear law and how the life is calculated."""
+"""What cases of all kinds complete alike: materials, wear law, fatigue and how the life is calculated."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 
-from wearsim.case.model import RunInput, WearInput
+from wearsim.case.model import FatigueInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
+from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.case_record import Record
 from wearsim.input.schema import MaterialTable, RunTable, Table, WearTable
+from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
@@ -25,6 +27,14 @@ _TOLD = {
     "run": {"method": "default", "horizon_hours": "default: until a limit is met"},
 }
 """Defaults of the schema itself that matter for the life, and what is said of them."""
+
+
+_SPROCKET = (
+    "contact fatigue of the sprocket by formulas (21) to (26) of source 001, which are those of gears: "
+    "that they hold for its teeth is this project's reconstruction",
+    "the stress of contact fatigue is the highest contact pressure on the new flank, once in a cycle; "
+    "loads of a duty add up by the sixth power of it (Miner), and what wear does to it is left out",
+)
 
 
 def take_defaults(case: Record, tables: Table) -> None:
@@ -135,3 +145,27 @@ def _condition(case: Record, table: WearTable, name: str) -> WearInput:
         f"(wear condition {name!r})"
     )
     return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
+
+
+def resolve_fatigue(case: Record, table: FatigueTable | None) -> FatigueInput | None:
+    """Return what a case says about contact fatigue."""
+    if table is None:
+        return None
+    if "load_factor" not in table.model_fields_set:
+        case.assumptions.append("fatigue.load_factor = 1 (default)")
+    sides = {name: side for name, side in dict(table).items() if isinstance(side, FlankMaterialTable)}
+    if "sprocket" in sides:
+        case.assumptions += _SPROCKET
+    return FatigueInput(
+        load_factor=table.load_factor,
+        materials={
+            name: FlankMaterial(
+                treatment=side.treatment,
+                hardness=side.hardness_HB or side.hardness_HRC or 0.0,
+                scale="HB" if side.hardness_HB else "HRC",
+                contact_limit=side.contact_limit_MPa,
+                contact_safety=side.contact_safety,
+            )
+            for name, side in sides.items()
+        },
+    )

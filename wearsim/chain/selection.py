@@ -17,6 +17,8 @@ from wearsim.errors import CaseError, Fault
 LARGEST_PITCH = 76.2
 """Of the chains that the ANSI rating knows, no. 240 [mm]."""
 
+_SAFETY = "safety against breaking"
+
 RULES = (
     "plate fatigue",
     "roller impact",
@@ -24,7 +26,7 @@ RULES = (
     "joint pressure",
     "recommended speed",
     "greatest speed",
-    "safety against breaking",
+    _SAFETY,
 )
 """Names of the findings in the order of `assess`."""
 
@@ -327,4 +329,27 @@ def _tensile_findings(drive: RatedDrive) -> list[Finding]:
         return []
     safety = drive.tensile / (drive.pull + drive.own_tension)
     rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
-    return [Finding("safety against breaking", safety, LEAST_SAFETY, "", rule, at_least=True)]
+    return [Finding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+
+
+def rating_warnings(findings: Sequence[Finding]) -> list[str]:
+    """Return a warning for every rating that a drive is outside of."""
+    return [warning(finding) for finding in findings if not finding.ok and finding.name != _SAFETY]
+
+
+def warning(finding: Finding) -> str:
+    """Return a finding outside its limit in words.
+
+    Examples
+    --------
+    >>> warning(Finding("plate fatigue", 30.0, 29.33, "kW", "ANSI B29.1, H1"))
+    'outside a rating: plate fatigue 30 kW, allowed at most 29.33 kW (ANSI B29.1, H1)'
+    """
+    side = "least" if finding.at_least else "most"
+    unit = f" {finding.unit}" if finding.unit else ""
+    source = f"{finding.source}; indicative here" if finding.note else finding.source
+    of = f" of {finding.load}" if finding.load else ""
+    return (
+        f"outside a rating: {finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
+        f"{finding.limit:.4g}{unit} ({source})"
+    )

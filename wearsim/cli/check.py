@@ -17,11 +17,11 @@ from wearsim.command.options import load_cases, overrides, standard
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
     loaded = load_cases(cases, settings, as_json)
+    from wearsim.chain.selection import rating_warnings
     from wearsim.report.rating import notes_text, rating_json, rating_table
-    from wearsim.simulation.chain_rating import rating_warnings
 
     for path, case in zip(cases, loaded, strict=True):
-        warnings = [*case.warnings, *rating_warnings(case)]
+        warnings = [*case.warnings, *rating_warnings(case.drive.ratings(case))]
         if as_json:
             content = {
                 "schema_version": 1,

@@ -38,8 +38,8 @@ def loads(
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
     (loaded,) = load_cases([case], settings, as_json)
+    from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
     from wearsim.report.loads_table import loads_json, loads_table
-    from wearsim.simulation.tooth_loads import tooth_loads
 
     found = tooth_loads(loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase)
     if as_json:

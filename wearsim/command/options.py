@@ -138,7 +138,7 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
     for path in paths:
         try:
             case = load_case(path, settings)
-            _check_hold(case)
+            case.drive.check(case)
             cases.append(case)
         except (CaseError, GeometryError) as error:
             failed = True
@@ -148,14 +148,6 @@ def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) ->
     if failed:
         raise click.exceptions.Exit(BAD_INPUT)
     return cases
-
-
-def _check_hold(case: "Case") -> None:
-    """Find a chain that jumps, which takes the solver but no run."""
-    if case.inputs["mechanism"]["kind"] == "wrap":
-        from wearsim.simulation.tooth_loads import check_hold
-
-        check_hold(case)
 
 
 def finite(context: click.Context, parameter: click.Parameter, value: float | None) -> float | None:

@@ -17,7 +17,7 @@ CALCULATIONS = tuple(_HANDBOOK)
 """Commands that read an input file of their own."""
 
 _PLACES = {
-    "gear": ("wearsim.input.schema.gear", "GearTables"),
+    "gear": ("wearsim.mechanisms.gear_pair.keys", "GearTables"),
     "sweep": ("wearsim.study.sweep.keys", "SweepTables"),
     **{
         command: (f"wearsim.handbook.{command.replace('-', '_')}.keys", name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim._version import __version__
-from wearsim.case.model import Case, GearDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.export.dxf_writer import add_polyline, new_drawing
 from wearsim.export.gauge import Gauge, gauge
@@ -18,7 +18,6 @@ from wearsim.geometry.wheel import Chain
 from wearsim.report.flank_view import flanks
 from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
-from wearsim.simulation.limits import tooth_criteria
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -145,12 +144,7 @@ def _add_check(drawing: "Drawing", place: tuple[float, float]) -> None:
 
 
 def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
-    drive = case.drive
-    if isinstance(drive, GearDrive):
-        what = f"{drive.pair.teeth[0]} and {drive.pair.teeth[1]} teeth"
-    else:
-        chain = drive.chain.designation or f"of {drive.chain.pitch:g} mm pitch"
-        what = f"{case.inputs['sprocket']['teeth']} teeth, chain {chain}"
+    what = case.drive.teeth_in_words(case)
     depth = float(flanks(result, -1)["depth_mm"].max())
     coarse = (
         f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
@@ -176,7 +170,7 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
 def _limit(case: Case, result: WearResult) -> str:
     """The limit that ends the life of the teeth, in words."""
     name, value = result.stop, result.stop_value
-    if isinstance(case.drive, WrapDrive) and name == "elongation_percent":
+    if name == "elongation_percent":
         name, value = _sprocket_limit(case, result)
     if name == "min_slack_tension_N":
         return "the wear at which the chain jumps"
@@ -191,7 +185,7 @@ def _sprocket_limit(case: Case, result: WearResult) -> tuple[str, float]:
     kinds = [last["gap_kind"] == kind for kind in set(last["gap_kind"].tolist())]
     margins = [
         (criterion.margin(*(column[kind] for column in columns)) / criterion.limit, criterion)
-        for criterion in tooth_criteria(case)
+        for criterion in case.drive.tooth_limits(case)
         for kind in kinds
     ]
     least, criterion = min(margins, key=lambda pair: pair[0])

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from wearsim.case.model import GearDrive
 from wearsim.export.wheel_shapes import WheelShape
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_function
@@ -12,6 +11,7 @@ from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.stretch import Stretch, along_points, up_to
 from wearsim.geometry.wheel import Space, worn_space
+from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.report.flank_view import flanks
 from wearsim.result import WearResult
 

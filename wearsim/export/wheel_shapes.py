@@ -6,11 +6,15 @@ from typing import Literal
 
 import numpy as np
 
-from wearsim.case.model import Case, GearDrive, PrescribedDrive, StrandDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import gap_space, tooth_space
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.wheel import Chain, Space, ring, worn_gap, worn_space
+from wearsim.mechanisms.gear_pair.drive import GearDrive
+from wearsim.mechanisms.prescribed.drive import PrescribedDrive
+from wearsim.mechanisms.strand.drive import StrandDrive
+from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.report.flank_view import flanks
 from wearsim.result import WearResult
 
@@ -66,6 +70,7 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
         return gear_shapes(drive, result)
     if isinstance(drive, StrandDrive):
         return (_strand_shape(case, drive, result),)
+    assert isinstance(drive, WrapDrive)
     return (_wrap_shape(case, drive, result),)
 
 

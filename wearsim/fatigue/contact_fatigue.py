@@ -6,8 +6,8 @@ project's reconstruction.
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from wearsim.case.flank_endurance import FlankMaterial
 from wearsim.fatigue.endurance import (
     CONTACT_EXPONENT,
     Endurance,
@@ -16,6 +16,17 @@ from wearsim.fatigue.endurance import (
     contact_base_cycles,
 )
 from wearsim.fatigue.heat_treatment import in_brinell, treatments
+
+
+@dataclass(frozen=True)
+class FlankMaterial:
+    """Material of the flanks of a sprocket, pinion or wheel against contact fatigue."""
+
+    treatment: str  # heat treatment
+    hardness: float  # of the flank
+    scale: str  # `HB` or `HRC`
+    contact_limit: float | None  # sigma_Hlim [MPa]; None for that of the treatment
+    contact_safety: float | None  # S_H; None for that of the treatment
 
 
 def stress_equivalence(stresses: Sequence[tuple[float, float]]) -> float:

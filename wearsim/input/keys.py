@@ -5,7 +5,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.input.schema import CaseTables
+from wearsim.input.kind import mechanism_of
 from wearsim.input.schema.table import Table
 
 
@@ -17,12 +17,9 @@ def schema_of(tables: Mapping[str, Any]) -> type[Table]:
     >>> schema_of({"chain": {}}).__name__, schema_of({"gear": {}}).__name__
     ('CaseTables', 'GearTables')
     """
-    if "gear" not in tables:
-        return CaseTables
-    # Models of tables take time to build, and most cases are not of gears.
-    from wearsim.input.schema.gear import GearTables
-
-    return GearTables
+    # Models of tables take time to build: only those of one mechanism are.
+    found: type[Table] = mechanism_of(tables).load("tables")
+    return found
 
 
 def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:

@@ -1,10 +1,53 @@
 """Which mechanism a case is about, and which keys belong to it."""
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
 from wearsim.input.case_record import Resolution
 from wearsim.input.schema import CaseTables
 
 WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
 """Tooth forms for a chain that wraps the sprocket."""
+
+
+@dataclass(frozen=True)
+class Registered:
+    """Where a mechanism stands; its modules are imported only for a case of it."""
+
+    tables: str  # `module:class` of the tables of its input
+    read: str  # `module:function` from a document to a complete case
+
+    def load(self, name: str) -> Any:
+        """Return the object behind one of these fields."""
+        module, _, attribute = getattr(self, name).partition(":")
+        return getattr(import_module(module), attribute)
+
+
+_CHAIN = "wearsim.input.schema:CaseTables"
+
+MECHANISMS = {
+    "strand": Registered(_CHAIN, "wearsim.mechanisms.strand.build:read"),
+    "prescribed": Registered(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
+    "wrap": Registered(_CHAIN, "wearsim.mechanisms.wrap.build:read"),
+    "gear_pair": Registered(
+        "wearsim.mechanisms.gear_pair.keys:GearTables", "wearsim.mechanisms.gear_pair.build:read"
+    ),
+}
+"""The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""
+
+
+def mechanism_of(data: Mapping[str, Any]) -> Registered:
+    """Return the mechanism that tables are about, whether or not they are right."""
+    if "gear" in data:
+        return MECHANISMS["gear_pair"]
+    mechanism, sprocket = data.get("mechanism"), data.get("sprocket")
+    kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
+    profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
+    default = "wrap" if profile in WRAP_PROFILES else "strand"
+    return MECHANISMS.get(kind or default, MECHANISMS[default])
+
 
 _BELONGS_TO = {
     "mechanism.table_file": "prescribed",

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from wearsim.case.load_case import load_case
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.input.document import CaseText, retitled
 from wearsim.page.file import CaseFile
@@ -52,7 +52,7 @@ def edited_case(source: CaseText, file: CaseFile) -> Case:
 
 def is_slow(case: Case) -> bool:
     """Whether the life of a case takes so long that an estimate helps."""
-    return isinstance(case.drive, WrapDrive)
+    return case.drive.rests
 
 
 def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:

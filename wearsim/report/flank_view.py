@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from wearsim.case.load_case import load_case
-from wearsim.case.model import Case, GearDrive, StrandDrive
+from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile import Vector
+from wearsim.mechanisms.gear_pair.drive import GearDrive
+from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 from wearsim.result.folder import with_files

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
 from wearsim.report.answer import jumping
 from wearsim.report.lines import grouped
-from wearsim.simulation.tooth_loads import ToothLoads
 
 _COLUMNS = (
     "tension_N",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.input.schema.uncertainty import Distribution
 from wearsim.result import Life, WearResult
 from wearsim.runner.distributions import quantile
@@ -18,7 +18,7 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     L k / k_(1-p).
     """
     table = result.inputs.get("uncertainty") or {}
-    steady = not isinstance(case.drive, WrapDrive) and case.wear.running_in_factor == 1.0
+    steady = not case.drive.wear_coefficients and case.wear.running_in_factor == 1.0
     alone = list(table) == [coefficient_key(case)] and not result.fatigue
     if not alone or not steady or not isinstance(result.life, Life):
         return []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.load_case import load_case
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.input.document import Document, read_document
@@ -21,8 +21,6 @@ PUBLISHED_SIGMA = 0.5
 """Scatter of published wear coefficients about those of one system: standard deviation of ln k,
 as +-40 to 60 % (Podra and Andersson 1999)."""
 
-
-_JOINT = "joint.specific_wear_rate_mm2_per_N"
 
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
 
@@ -99,8 +97,7 @@ def coefficient_key(case: Case) -> str:
 
 def _coefficients(case: Case) -> list[str]:
     """Wear coefficients of the teeth and, on a wrap, of the joints."""
-    joints = [_JOINT] if isinstance(case.drive, WrapDrive) else []
-    return [coefficient_key(case), *joints]
+    return [coefficient_key(case), *case.drive.wear_coefficients]
 
 
 def _given(case: Case) -> dict[str, Distribution]:
@@ -131,8 +128,8 @@ def plain_document(document: Document, case: Case) -> Document:
     if "condition" in data["wear"]:
         wear = {name: value for name, value in data["wear"].items() if name != "condition"}
         data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
-        if isinstance(case.drive, WrapDrive):
-            data = replaced(data, _JOINT.split("."), case.drive.joint.coefficient)
+        for key, value in case.drive.wear_coefficients.items():
+            data = replaced(data, key.split("."), value)
     for table, key in FILE_KEYS:
         if key in data.get(table, {}):
             path = (document.folder / data[table][key]).resolve()

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.result import WearResult
 
 if TYPE_CHECKING:
@@ -55,12 +55,11 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     True
     """
     # Kernels compile where their module is imported for the first time: only those needed.
-    if isinstance(case.drive, WrapDrive):
-        from wearsim.simulation.tooth_loads import check_hold
+    case.drive.check(case)
+    if case.drive.rests:
         from wearsim.simulation.wrap_life import simulate_wrap
 
-        check_hold(case)
-        return simulate_wrap(case, case.drive, progress)
+        return simulate_wrap(case, progress)
     from wearsim.simulation.pointwise import simulate_points
 
     return simulate_points(case)
@@ -87,10 +86,23 @@ def verify_grid(case: Case) -> "GridStudy":
         A life would be wrong.
     """
     tolerance = case.run.life_tolerance
-    if isinstance(case.drive, WrapDrive):
+    if case.drive.rests:
         from wearsim.simulation.wrap_life import wrap_grid_study
 
-        return wrap_grid_study(case, case.drive, tolerance)
+        return wrap_grid_study(case, tolerance)
     from wearsim.simulation.pointwise import points_grid_study
 
     return points_grid_study(case, max(_TIGHTER * tolerance, _TIGHTEST))
+
+
+def new_peak_pressure(case: Case) -> float:
+    """Return the highest pressure of a case on its new flanks, without a run."""
+    from wearsim.simulation.task import new_flank_pressure, wear_law
+
+    if case.drive.rests:
+        from wearsim.simulation.wrap_life import wrap_of
+        from wearsim.wear.bodies import highest_load
+
+        law = wear_law(case.wear, case.wear.coefficient)
+        return highest_load(wrap_of(case).contact(case), law, None)[0]
+    return new_flank_pressure(case.drive.mechanism(case).contact)

@@ -2,24 +2,14 @@
 
 from collections.abc import Sequence
 
-from wearsim.case.flank_endurance import FatigueInput
-from wearsim.case.model import Case, GearDrive, StrandDrive
-from wearsim.fatigue.contact_fatigue import doubtful_hardness, fatigue_life
+from wearsim.case.model import Case, FatigueInput
+from wearsim.fatigue.contact_fatigue import doubtful_hardness
 from wearsim.fatigue.endurance import EnduredHours
-from wearsim.fatigue.gear_fatigue import gear_fatigue_lives
 from wearsim.result import Life, LowerBound, life_of
 
 Stresses = Sequence[tuple[float, float]]
 """Highest pressures on a new flank under the loads of a duty, with the load factor [MPa], each with
 its share of the cycles."""
-
-
-def pointwise_stresses(case: Case, fatigue: FatigueInput, peak_pressure: float) -> Stresses:
-    """Return the highest pressure on a new flank in every block of the duty."""
-    drive, highest = case.drive, fatigue.load_factor**0.5 * peak_pressure
-    if not isinstance(drive, StrandDrive):
-        return [(highest, 1.0)]
-    return [(highest * (block.tension / drive.pull) ** 0.5, block.share) for block in drive.blocks]
 
 
 def fatigue_parts(
@@ -30,12 +20,8 @@ def fatigue_parts(
     sprocket: Life | LowerBound,
 ) -> tuple[dict[str, Life | LowerBound], list[str]]:
     """Return the lives of a case until pitting."""
-    drive, rate = case.drive, case.cycles_per_hour
-    if isinstance(drive, GearDrive):
-        endured = gear_fatigue_lives(case, drive, fatigue, stresses[0][0])
-    else:
-        material = fatigue.materials["sprocket"]
-        endured = {"sprocket": fatigue_life(material, stresses, rate, case.run.horizon_hours)}
+    rate = case.cycles_per_hour
+    endured = case.drive.fatigue_lives(case, fatigue, stresses)
     warnings = doubtful_hardness(fatigue.materials)
     for name, found in endured.items():
         warnings += _early(name, found, life, sprocket)

@@ -4,18 +4,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.case.model import Case, GearDrive, PrescribedDrive, StrandDrive
-from wearsim.contact.engagement import Contact, Kind, Mechanism
+from wearsim.case.model import Case
+from wearsim.contact.engagement import Contact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.grids import LEVELS, Search, Settled, settle
-from wearsim.simulation.law_of_case import running_in_assumptions
-from wearsim.simulation.limits import limit_states
-from wearsim.simulation.new_flank import new_contact_pressure
-from wearsim.simulation.task import Task, task
+from wearsim.simulation.task import Task, limit_states, new_flank_pressure, running_in_assumptions, task
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
@@ -24,7 +21,7 @@ from wearsim.wear.trajectory import Trajectory, check_fold, difference
 def simulate_points(case: Case) -> WearResult:
     """Wear the flank of a case on a strand or under a table of loads."""
     warnings = list(case.warnings)
-    new = pointwise_mechanism(case)
+    new = case.drive.mechanism(case)
     settled = _settled(case, new, warnings)
     mechanism, asked, run = settled.mechanism, settled.run.asked, settled.run.trajectory
     history, flank = _tables(case, mechanism, run)
@@ -33,7 +30,7 @@ def simulate_points(case: Case) -> WearResult:
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
     # On the points of the case, as all that is asked of a new flank.
-    new_pressure = new_contact_pressure(new.contact)
+    new_pressure = new_flank_pressure(new.contact)
     fatigue = _fatigue(case, _life(case, run), new_pressure, warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
@@ -79,61 +76,7 @@ def simulate_points(case: Case) -> WearResult:
 def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run a case on a strand or under a table of loads on three grids."""
     tight = replace(case, run=replace(case.run, life_tolerance=life_tolerance))
-    return grid_study(pointwise_mechanism(case).contact, lambda grid: task(tight, grid).run()[0])
-
-
-def pointwise_mechanism(case: Case) -> Mechanism:
-    """Return the mechanism of a case that loads every point of a flank once a cycle."""
-    # Kernels compile where they are imported for the first time: each case imports its own.
-    drive = case.drive
-    if isinstance(drive, StrandDrive):
-        from wearsim.mechanisms.strand.contact import StrandMechanism
-
-        return StrandMechanism(
-            strand=drive.tooth.strand,
-            profile=drive.profile,
-            contact_end=drive.contact_end,
-            contact_start=drive.contact_start,
-            pitch=drive.chain.pitch,
-            pull_per_width=drive.pull / drive.face_width,
-            angular_speed=2.0 * np.pi * drive.heaviest.speed_rpm / 60.0,
-            slip_fraction=drive.slip_fraction,
-            modulus=case.modulus,
-        )
-    if isinstance(drive, GearDrive):
-        from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
-
-        return GearPairMechanism(
-            pair=drive.pair,
-            torque=drive.torque / drive.face_width,
-            angular_speed=2.0 * np.pi * case.speed_rpm / 60.0,
-            modulus=case.modulus,
-            mate_coefficient=drive.wheel_wear_ratio,
-            stiffness=drive.stiffness,
-            points=drive.points,
-        )
-    assert isinstance(drive, PrescribedDrive)
-    return _prescribed(case, drive)
-
-
-def _prescribed(case: Case, drive: PrescribedDrive) -> Mechanism:
-    from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
-
-    table = drive.table
-    path = table.sliding_distance
-    slip = table.slip_ratio if table.slip_ratio is not None else path
-    assert slip is not None
-    speed = table.sliding_speed
-    return PrescribedMechanism(
-        kind=Kind.TRAVELLING if table.slip_ratio is not None else Kind.LOCAL,
-        arc_length=table.arc_length,
-        load_per_width=table.load_per_width,
-        slip=drive.slip_fraction * slip,
-        sliding_speed=drive.slip_fraction * speed if speed is not None else np.full(slip.size, np.nan),
-        flank_curvature=table.flank_curvature,
-        roller_radius=0.5 * drive.chain.roller_diameter,
-        modulus=case.modulus,
-    )
+    return grid_study(case.drive.mechanism(case).contact, lambda grid: task(tight, grid).run()[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,10 +220,12 @@ def _fatigue(
     """Return the lives until pitting; none where they are not asked for."""
     if case.fatigue is None:
         return {}
-    from wearsim.simulation.pitting import fatigue_parts, pointwise_stresses
+    from wearsim.simulation.pitting import fatigue_parts
 
-    stresses = pointwise_stresses(case, case.fatigue, peak_pressure)
-    lives, found = fatigue_parts(case, case.fatigue, stresses, life, life)
+    highest = case.fatigue.load_factor**0.5 * peak_pressure
+    most = max((block.tension for block in case.drive.duty), default=1.0)
+    stresses = [(highest * (block.tension / most) ** 0.5, block.share) for block in case.drive.duty]
+    lives, found = fatigue_parts(case, case.fatigue, stresses or [(highest, 1.0)], life, life)
     warnings += found
     return lives
 

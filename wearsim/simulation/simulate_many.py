@@ -9,12 +9,11 @@ from itertools import islice
 
 import numpy as np
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.contact.engagement import Contact
 from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
 from wearsim.simulation.grids import LEVELS, Search, Settled, settle
-from wearsim.simulation.pointwise import pointwise_mechanism
 from wearsim.simulation.task import Task, task
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.wear.accuracy import depth_missed
@@ -132,7 +131,7 @@ class _Job:
 
     def __init__(self, case: Case) -> None:
         self._case = case
-        mechanism, tolerance = pointwise_mechanism(case), case.run.life_tolerance
+        mechanism, tolerance = case.drive.mechanism(case), case.run.life_tolerance
         self._search: Search[_GridRun] = settle(mechanism, tolerance, LEVELS)
         self._begun = False
         self.settled: Settled[_GridRun] | None = None
@@ -215,7 +214,7 @@ _Batch = tuple[list[list[_Wanted]], "Future[list[Worn | None]]"]
 
 def _job(case: Case) -> _Job | None:
     """Return the job of a case; None where it runs alone, to its error if it has one."""
-    alone = isinstance(case.drive, WrapDrive) or case.fatigue is not None
+    alone = case.drive.rests or case.fatigue is not None
     if alone or case.run.method != "advance":
         return None
     try:

@@ -7,23 +7,19 @@ from functools import partial
 
 import numpy as np
 
-from wearsim.case.model import Block, Case, WrapDrive
-from wearsim.chain.drive_layout import Meetings
+from wearsim.case.model import Case
+from wearsim.chain.selection import rating_warnings
+from wearsim.contact.criteria import Criterion
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector, area_between
-from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
-from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
-from wearsim.mechanisms.wrap.joint import elongation_per_loop
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.chain_rating import rating, rating_warnings
-from wearsim.simulation.law_of_case import running_in, running_in_assumptions, wear_law
-from wearsim.simulation.limits import limit_states, over_pins, pin_criteria, tooth_criteria
-from wearsim.simulation.wrap_mechanism import wrap_mechanism
+from wearsim.simulation.task import limit_states, running_in, running_in_assumptions, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.bodies import Rows, Start, highest_load
-from wearsim.wear.criteria import Criterion
 from wearsim.wear.halving import advance_dwelling
 from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.law import Law
@@ -37,18 +33,23 @@ _MOST_UPDATES = 200_000
 """Updates of a cycle-by-cycle run, each of some milliseconds."""
 
 
-def simulate_wrap(
-    case: Case, drive: WrapDrive, progress: Callable[[float], None] = lambda part: None
-) -> WearResult:
+def wrap_of(case: Case) -> WrapDrive:
+    """Return the drive of a case on which rollers rest, which only a wrap's do."""
+    return wrap_drive(case, "the rollers must rest in gaps")
+
+
+def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
     """Wear the gaps of a wrapped sprocket and its chain until the first limit.
 
     The run goes on to the sprocket's own limit, with a new chain whenever one has grown
     to its limit; chain and sprocket life are both reported and the shorter is the life.
     """
-    contact = wrap_contact(case, drive)
+    drive = wrap_of(case)
+    contact = drive.contact(case)
     law, criteria, horizon = wrap_problem(case, contact)
     warp = law.running_in
-    warnings = [*case.warnings, *rating_warnings(case)]
+    ratings = drive.ratings(case)
+    warnings = [*case.warnings, *rating_warnings(ratings)]
     run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
     warnings += _gave_up(run, horizon)
     run = replace(run, cycles=warp.running_cycles(run.cycles))
@@ -86,7 +87,7 @@ def simulate_wrap(
         life_tolerance=case.run.life_tolerance,
         parts=parts,
         limits=_limits(contact, drive, criteria, run, life),
-        ratings=rating(case),
+        ratings=ratings,
         assumptions=(*contact.assumptions(), *running_in_assumptions(warp), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -101,13 +102,13 @@ def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion
     """Return what a wrap asks of the wear engine."""
     warp = running_in(case.wear, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
-    criteria = (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path))
+    criteria = wrap_of(case).gap_limits(case, contact.mechanism.path)
     return law, criteria, warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
 
 
-def wrap_grid_study(case: Case, drive: WrapDrive, life_tolerance: float) -> GridStudy:
+def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run the sprocket of a wrapped case on three grids."""
-    contact = wrap_contact(case, drive)
+    contact = wrap_of(case).contact(case)
     run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
     return grid_study(contact.thinned(), run_on)
 
@@ -117,55 +118,6 @@ def _on_grid(
 ) -> Trajectory:
     run, _ = advance_dwelling(grid, law, criteria, horizon, life_tolerance)
     return replace(run, cycles=law.running_in.running_cycles(run.cycles))
-
-
-def wrap_contact(case: Case, drive: WrapDrive) -> WrapContact:
-    """Return the contact events of a chain around a sprocket."""
-    mechanism = wrap_mechanism(case, drive)
-    pull, chain = mechanism.pull, mechanism.chain
-    rolls = pull.friction_roller_tooth * chain.roller_radius > pull.friction_roller_bush * chain.bush_radius
-    blocks = tuple(_wrap_block(drive, mechanism, block) for block in drive.blocks)
-    layout, joint = drive.layout, drive.joint
-    engaged = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
-    own = 2.0 * math.pi / drive.pitch_angle
-    mate = layout.teeth_2 if drive.driver else layout.teeth_1
-    per_loop = math.fsum(
-        block.share
-        * elongation_per_loop(
-            block.joint_factor * joint.coefficient,
-            (
-                (block.tension + block.centrifugal) / joint.bearing_area,
-                (drive.slack + block.centrifugal) / joint.bearing_area,
-            ),
-            drive.chain.pin_diameter,
-            drive.chain.pitch,
-            (own, mate),
-        )
-        for block in drive.blocks
-    )
-    return WrapContact(
-        blocks=blocks,
-        face_width=drive.face_width,
-        phases=drive.phases,
-        sliding=Sliding(fraction=drive.slip_fraction, path_fraction=drive.slip_fraction if rolls else 1.0),
-        modulus=case.modulus,
-        same_link_kind=Meetings(engaged, layout.links).same_link_kind,
-        elongation_per_cycle=per_loop * engaged / layout.links,
-        elongation_limit=joint.elongation_limit,
-        # Another sprocket wears the rollers too, by the same way over its own articulation.
-        roller_area_ratio=case.wear.roller_ratio * engaged / layout.links * (1.0 + own / mate),
-        slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
-    )
-
-
-def _wrap_block(drive: WrapDrive, mechanism: WrapMechanism, block: Block) -> WrapBlock:
-    teeth = 2.0 * math.pi / drive.pitch_angle
-    return WrapBlock(
-        share=block.share,
-        mechanism=replace(mechanism, pull=replace(mechanism.pull, tight=block.tension)),
-        pitch_time=60.0 / (block.speed_rpm * teeth),
-        wear_factor=block.wear_factor,
-    )
 
 
 def _run(

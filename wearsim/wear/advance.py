@@ -16,6 +16,7 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from wearsim.contact.criteria import Criterion
 from wearsim.contact.engagement import Contact
 from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
@@ -35,7 +36,6 @@ from wearsim.kernels.steps import (
     states_between,
     wear_in_steps,
 )
-from wearsim.wear.criteria import Criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 

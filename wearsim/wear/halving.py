@@ -6,9 +6,9 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
+from wearsim.contact.criteria import Criterion
 from wearsim.contact.resting_engagement import Dwelling
 from wearsim.wear.bodies import Start
-from wearsim.wear.criteria import Criterion
 from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import Trajectory, difference

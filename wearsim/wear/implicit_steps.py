@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from wearsim.contact.criteria import Criterion, first_met, jump_criterion
 from wearsim.contact.resting_engagement import ChainWear, Dwelling
 from wearsim.errors import JumpError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
 from wearsim.wear.bodies import Bodies, Start, State
-from wearsim.wear.criteria import Criterion, first_met, jump_criterion
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 

@@ -9,12 +9,12 @@ from types import FrameType
 
 import numpy as np
 
+from wearsim.contact.criteria import Criterion, first_met
 from wearsim.contact.engagement import Contact
 from wearsim.contact.resting_engagement import Dwelling
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector
 from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
-from wearsim.wear.criteria import Criterion, first_met
 from wearsim.wear.law import Law
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from wearsim.contact.criteria import Criterion
 from wearsim.contact.engagement import Contact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.kernels.hertz_wear import sawtooth
-from wearsim.wear.criteria import Criterion
 
 SNAPSHOTS = 180
 """Worn flanks kept of one run, about."""

@@ -25,8 +25,8 @@ from problems import (
 from report import report
 from wrap import wrap_levels
 
+from wearsim.contact.criteria import depth_criterion
 from wearsim.wear.advance import run_advance
-from wearsim.wear.criteria import depth_criterion
 
 FOLDER = Path(__file__).parents[3] / "reports" / "reference"
 NODES = (200, 500, 1000, 2000)

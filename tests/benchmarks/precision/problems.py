@@ -13,6 +13,7 @@ import numpy as np
 from scipy.integrate import LSODA, RK45
 
 from wearsim.case.load_case import load_case
+from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.kernels.cycles import run_cycles
 from wearsim.kernels.flank_geometry import flank_frame
@@ -20,8 +21,6 @@ from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften, wear_depth
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
-from wearsim.simulation.pointwise import pointwise_mechanism
-from wearsim.wear.criteria import depth_criterion
 from wearsim.wear.law import Law, archard, power
 from wearsim.wear.per_cycle import run_per_cycle
 
@@ -96,7 +95,7 @@ def b9(nodes):
 def strand(exponent, nodes):
     """Chain 16B-1 on 20 teeth with an evolute flank, pressure exponent m."""
     case = load_case(STRAND, [f"sprocket.nodes={nodes}"])
-    contact = pointwise_mechanism(case).contact
+    contact = case.drive.mechanism(case).contact
     return Problem(contact, power(5e-11 / 800.0 ** (exponent - 1.0), exponent), 0.2, 1)
 
 

@@ -5,8 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 from wearsim.case.load_case import load_case
-from wearsim.simulation.wrap_life import wrap_contact
-from wearsim.wear.criteria import depth_criterion
+from wearsim.contact.criteria import depth_criterion
 from wearsim.wear.implicit_steps import run_dwelling
 from wearsim.wear.law import archard
 
@@ -29,7 +28,7 @@ class Level:
 def wrap_levels():
     """Run the sprocket of a motorcycle on the thinned contact, as production does."""
     case = load_case(CASE)
-    contact, law = wrap_contact(case, case.drive).thinned(), archard(case.wear.coefficient)
+    contact, law = case.drive.contact(case).thinned(), archard(case.wear.coefficient)
     criteria = (depth_criterion(case.critical_depth),)
     found = []
     for level in range(LEVELS):

@@ -6,9 +6,9 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field
 
 from wearsim.input.schema.calculation import CalculationTables
-from wearsim.input.schema.gear import Teeth
 from wearsim.input.schema.table import Table
 from wearsim.input.units import Number, Positive, PositiveNumber
+from wearsim.mechanisms.gear_pair.keys import Teeth
 
 
 def _listed(value: object) -> object:

@@ -5,11 +5,12 @@ import math
 import numpy as np
 import shapely
 
-from wearsim.case.model import StrandDrive, WrapDrive
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.errors import GeometryError
 from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
+from wearsim.mechanisms.strand.drive import StrandDrive
+from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.report.html.sketch import (
     Label,
     Sketch,

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from wearsim.case.model import GearDrive
+from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.report.html.sketch import Label, Sketch, Stroke, around, circle, line, scaled, turn_arrow
 
 

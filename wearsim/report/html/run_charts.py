@@ -14,7 +14,7 @@ from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
-    from wearsim.simulation.tooth_loads import ToothLoads
+    from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
 
 _ROWS = 21
 """Rows of a table of values beside a chart."""

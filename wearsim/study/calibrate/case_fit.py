@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile import Vector
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
-from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.calibrate.calibration import Calibration, Options, Part, Value
 from wearsim.study.calibrate.cautions import doubts, of_runs
 from wearsim.study.calibrate.checks import faults_of
@@ -259,7 +259,7 @@ class Fitting:
                 f"filter of ISO 16610-21, cut-off {self.options.cutoff:g} mm; the model is smoothed alike"
             )
         parameters = self.parameters
-        if isinstance(self.case.drive, WrapDrive) and parameters.teeth:
+        if self.case.drive.wear_coefficients and parameters.teeth:
             found.append(
                 "the runs take the joints' wear over that of the teeth as it came out, without its error"
                 if parameters.chain
@@ -270,9 +270,8 @@ class Fitting:
 
 def _joints(case: Case) -> tuple[float, float, float]:
     """Coefficient of the joints, elongation a hour [%/h] and hours of a chain with it."""
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
+    if JOINT not in case.drive.wear_coefficients:
         return math.nan, math.nan, math.nan
-    contact = wrap_contact(case, drive)
+    contact = wrap_of(case).contact(case)
     hours = contact.cycles_per_chain / case.cycles_per_hour
-    return drive.joint.coefficient, 100.0 * contact.elongation_limit / hours, hours
+    return case.drive.wear_coefficients[JOINT], 100.0 * contact.elongation_limit / hours, hours

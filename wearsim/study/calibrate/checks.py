@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from wearsim.case.model import Case, PrescribedDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.study.calibrate.calibration import Options
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
@@ -35,12 +35,12 @@ def check_readings(case: Case, readings: Sequence[Reading], options: Options, fi
 
 
 def _not_known(case: Case, reading: Reading) -> Iterator[str]:
-    wrap, name = isinstance(case.drive, WrapDrive), reading.quantity
+    wrap, name = case.drive.rests, reading.quantity
     if name in (ELONGATION, OVER_PINS) and not wrap:
         yield f"{name} needs a chain that wraps the sprocket: set kind = 'wrap'"
     if name in (ELONGATION, OVER_PINS) and reading.gap_kind is not None:
         yield f"gap_kind must be empty for {name}"
-    if name == PROFILE and isinstance(case.drive, PrescribedDrive):
+    if name == PROFILE and case.inputs["mechanism"]["kind"] == "prescribed":
         yield "a table of loads has no flank to lay a profile on: give depths"
     if reading.value < -_NONE * reading.error:
         yield (

@@ -4,12 +4,13 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from wearsim.case.model import Case, WrapDrive
-from wearsim.errors import CaseError, ContactError, ConvergenceError, Fault, WearsimError
+from wearsim.case.model import Case
+from wearsim.errors import CaseError, ContactError, ConvergenceError, WearsimError
 from wearsim.input.schema import MaintenanceTable
+from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
-from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.constant_coefficient import check_constant
 from wearsim.study.maintain.reversed_sprocket import turned_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
@@ -115,10 +116,7 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     the elongation; a turned sprocket is a second run on the mirrored outline from the depth
     and the chain at the end of the first.
     """
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
-        message = "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'"
-        raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'")
     check_constant(case, "maintain")
     table = MaintenanceTable(**case.inputs.get("maintenance", {}))
     limit: float = case.inputs["stop"]["elongation_percent"]
@@ -186,8 +184,7 @@ def _all_policies(
 
 def _policies(case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]) -> list[Policy]:
     """Return one policy, and the same with the sprocket turned where that is wanted."""
-    drive = case.drive
-    assert isinstance(drive, WrapDrive)
+    drive = wrap_of(case)
     what = f"chain replaced at {100.0 * drive.joint.elongation_limit:.3g} %"
     steps.next(what)
     first = simulate(case)
@@ -231,8 +228,7 @@ def _with_lives(
 ) -> tuple[ToothCount, ...]:
     """Return the counts with the lives of those to be run; the case's own is a policy as a rule."""
     found = []
-    drive = case.drive
-    assert isinstance(drive, WrapDrive)
+    drive = wrap_of(case)
     numbers = drive.gaps, drive.layout.links
     for count in counts:
         meetings = count.meetings
@@ -258,6 +254,5 @@ def _run_count(count: ToothCount, case: Case, warnings: list[str]) -> ToothCount
 
 def chain_life(case: Case) -> Life:
     """Return the life of a chain, whose joints wear at a constant rate."""
-    assert isinstance(case.drive, WrapDrive)
-    cycles = wrap_contact(case, case.drive).cycles_per_chain
+    cycles = wrap_of(case).contact(case).cycles_per_chain
     return Life(cycles, cycles / case.cycles_per_hour)

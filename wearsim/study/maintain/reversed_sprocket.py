@@ -3,24 +3,21 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
+from wearsim.contact.criteria import Criterion, rising
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
 from wearsim.geometry.profile import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
-from wearsim.simulation.law_of_case import wear_law
-from wearsim.simulation.limits import pin_criteria, tooth_criteria
-from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.simulation.task import wear_law
+from wearsim.simulation.wrap_life import wrap_of
 from wearsim.wear.bodies import Start
-from wearsim.wear.criteria import Criterion, rising
 from wearsim.wear.halving import advance_dwelling
 
 
 def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
     """Return how long a worn sprocket lives when it is turned onto its other flank."""
-    drive = case.drive
-    assert isinstance(drive, WrapDrive)
-    contact = wrap_contact(case, drive)
+    contact = wrap_of(case).contact(case)
     points = contact.profile.x.size
     depth = first.flank_columns["depth_mm"][-contact.bodies * points :].reshape(-1, points)
     history = first.history_columns
@@ -57,7 +54,7 @@ def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
 def _criteria(case: Case, contact: WrapContact, half: NDArray[np.bool_]) -> tuple[Criterion, ...]:
     """The limits of the case, those on the depth for the half that works."""
     found = []
-    for criterion in (*tooth_criteria(case), *pin_criteria(case, contact.mechanism.path)):
+    for criterion in wrap_of(case).gap_limits(case, contact.mechanism.path):
         of_half = criterion.name in ("critical_depth_mm", "case_depth_mm")
         found.append(
             rising(criterion.name, criterion.limit, lambda x, y, depth: float(depth[half].max()))

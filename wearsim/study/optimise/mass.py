@@ -1,27 +1,23 @@
 """The mass of a sprocket as it is cut from a plate."""
 
-from wearsim.case.model import Case, StrandDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.blank import blank_area, gap_space, tooth_space
 
 _M3_PER_MM3 = 1e-9
 
 
 def blank_mass(case: Case) -> float:
     """Return the mass of a new sprocket: its outline times face width and density."""
-    drive = case.drive
-    if isinstance(drive, StrandDrive):
-        area = blank_area(tooth_space(drive.tooth), drive.tooth.teeth)
-    elif isinstance(drive, WrapDrive):
-        area = blank_area(gap_space(drive.outline, drive.gap), drive.gaps)
-    else:
+    area = case.drive.blank_area()
+    if area is None:
         text = (
             "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do "
             "not tell: leave mass_kg out of [optimise]"
         )
         raise CaseError([Fault(text, "mass_kg", case.name)])
-    return _M3_PER_MM3 * area * drive.face_width * density(case)
+    width: float = case.inputs["sprocket"]["face_width_mm"]
+    return _M3_PER_MM3 * area * width * density(case)
 
 
 def density(case: Case) -> float:

@@ -12,7 +12,7 @@ from wearsim.errors import StudyError, WearsimError
 from wearsim.input.schema.optimise import MeasureLimit
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
-from wearsim.simulation.new_flank import new_peak_pressure
+from wearsim.simulation import new_peak_pressure
 from wearsim.study.optimise.mass import blank_mass
 from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.similar_texts import kinds

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Case, WrapDrive
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
-from wearsim.simulation.wrap_life import wrap_contact
+from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.constant_coefficient import check_constant
 
 
@@ -151,10 +151,10 @@ def _fault(case: Case, reading: Reading, message: str) -> CaseError:
 
 def _chain(case: Case, reading: Reading) -> _Course:
     """Elongation of a chain: linear, so that no run is needed."""
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
+    if not case.drive.wear_coefficients:
         raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
-    contact = wrap_contact(case, drive)
+    drive = wrap_of(case)
+    contact = drive.contact(case)
     cycles = contact.cycles_per_chain
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _Course(

@@ -1,17 +1,20 @@
-"""From the tables as given to a complete case: defaults, checks across tables, geometry."""
+"""From the tables of a drive with a chain to a complete case: defaults, checks across tables, limits."""
 
+import copy
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pathlib import Path
+from typing import Any
 
-from wearsim.case.duty_blocks import resolve_duty
-from wearsim.case.flank_endurance import resolve_fatigue
-from wearsim.case.model import Case, ChainDrive, PrescribedDrive, StrandDrive, WrapDrive
-from wearsim.case.shared import TOLERANCE, modulus_of, run_input, take_defaults, wear_input
-from wearsim.case.strand_drive import resolve_prescribed, resolve_strand
-from wearsim.case.wrap_drive import resolve_wrap
+from pydantic import ValidationError
+
+from wearsim.case.drive import Drive
+from wearsim.case.duty_blocks import Duty, resolve_duty
+from wearsim.case.model import Case, WearInput
+from wearsim.case.shared import modulus_of, resolve_fatigue, run_input, take_defaults, wear_input
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.input.case_record import Resolution
+from wearsim.input.document import Document
 from wearsim.input.kind import mechanism_kind
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables, ChainTable
@@ -19,13 +22,38 @@ from wearsim.input.schema import CaseTables, ChainTable
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
-WRAP_TOLERANCE = 5e-2
-"""Relative tolerance of a life on a wrap by default, as it costs more."""
+_STAND_INS: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "load": {"tension_N": 1.0, "speed_rpm": 1.0},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
+}
+"""What takes the place of a faulty part while the others are looked at."""
+
+Builder = Callable[[Resolution, WearInput, Chain, Duty | None], Drive | None]
+"""Completes a drive from its tables; None where they do not make one, which the faults tell."""
 
 
-def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case:
-    """Complete a case."""
-    case = Resolution(tables, folder, faults)
+def read_chain_case(document: Document, build: Builder, tolerance: float) -> Case:
+    """Return the case of a drive with a chain, or raise all that is wrong with it."""
+    data, faults = document.data, document.faults
+    _check_load(data, faults)
+    try:
+        tables = CaseTables.model_validate(data)
+    except ValidationError as error:
+        faults.add_validation(error, CaseTables)
+        faults.distrust(_wrong_tables(data, error))
+        rest = _sound_part(data, error)
+        if rest is not None:
+            _complete(rest, document, build, tolerance)
+        faults.check()
+        raise
+    return _complete(tables, document, build, tolerance)
+
+
+def _complete(tables: CaseTables, document: Document, build: Builder, tolerance: float) -> Case:
+    faults = document.faults
+    case = Resolution(tables, document.folder, faults)
     take_defaults(case, tables)
     chain = _chain(case, tables.chain)
     materials = tables.material
@@ -33,23 +61,17 @@ def resolve(tables: CaseTables, name: str, folder: Path, faults: Faults) -> Case
     wear = wear_input(case, tables.wear)
     kind = mechanism_kind(case)
     duty = resolve_duty(case, kind, chain)
-    drive: ChainDrive | None
-    if kind == "prescribed":
-        drive = resolve_prescribed(case, wear, chain)
-    elif kind == "wrap":
-        drive = resolve_wrap(case, chain, duty)
-    else:
-        drive = resolve_strand(case, chain, duty)
+    drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     more_limits = _more_limits(case, drive)
-    run = run_input(case, tables.run, WRAP_TOLERANCE if kind == "wrap" else TOLERANCE)
+    run = run_input(case, tables.run, tolerance)
     fatigue = resolve_fatigue(case, tables.fatigue)
     faults.check()
     assert drive is not None and duty is not None
     return Case(
-        name=name,
+        name=document.name,
         title=tables.title or _title(case, kind),
         inputs=case.inputs,
         files=tuple(case.files),
@@ -123,12 +145,12 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
     return chain
 
 
-def _critical_depth(case: Resolution, drive: ChainDrive | None) -> float:
+def _critical_depth(case: Resolution, drive: Drive | None) -> float:
     given = case.tables.stop.critical_depth_mm
     if given is not None:
         _check_depth(case, drive, given)
         return given
-    if isinstance(drive, StrandDrive | WrapDrive):
+    if drive is not None and drive.has_tooth:
         depth = float(f"{0.1 * drive.pitch_line_thickness:.4g}")
         if depth > 0.0:
             case.take("stop.critical_depth_mm", depth, "10 % of the tooth thickness at the pitch line")
@@ -138,14 +160,14 @@ def _critical_depth(case: Resolution, drive: ChainDrive | None) -> float:
             "required: the tooth has no thickness at the pitch line to derive it from: give it, or "
             "check the points of the flank",
         )
-    if isinstance(drive, PrescribedDrive):
+    elif drive is not None:
         case.faults.add("stop.critical_depth_mm", "required: a table of loads has no tooth to derive it from")
     return math.nan
 
 
-def _check_depth(case: Resolution, drive: ChainDrive | None, depth: float) -> None:
+def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
     """Compare a given critical depth with the tooth that has to bear it."""
-    if not isinstance(drive, StrandDrive | WrapDrive):
+    if drive is None or not drive.has_tooth:
         return
     thinnest, thickness = drive.thinnest, drive.pitch_line_thickness
     if depth >= thinnest > 0.0:
@@ -160,32 +182,28 @@ def _check_depth(case: Resolution, drive: ChainDrive | None, depth: float) -> No
         )
 
 
-def _check_tip_land(case: Resolution, drive: ChainDrive | None, min_tip_land: float) -> None:
+def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) -> None:
     key = "stop.min_tip_land_mm"
-    if isinstance(drive, PrescribedDrive):
+    if drive is None:
+        return
+    if not drive.has_tooth:
         case.faults.add(key, "a table of loads has no tooth and no tip: remove this key")
-    elif drive is not None and drive.tip_land <= min_tip_land:
+    elif drive.tip_land <= min_tip_land:
         case.faults.add(
             key,
             f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm (got {min_tip_land:g})",
         )
 
 
-def _more_limits(case: Resolution, drive: ChainDrive | None) -> dict[str, float]:
+def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
     """Limits of the worn tooth beyond depth and tip land, by their keys."""
     stop = case.tables.stop
     keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm", "min_slack_tension_N")
     given = {key: value for key in keys if (value := getattr(stop, key)) is not None}
-    tension = given.get("min_slack_tension_N")
-    if tension is not None and isinstance(drive, WrapDrive) and tension > drive.slack:
-        case.faults.add(
-            "stop.min_slack_tension_N",
-            f"must not be above the slack tension that the drive has, {drive.slack:.4g} N (got {tension:g})",
-        )
     least = given.get("min_tooth_thickness_mm")
     if least is not None and drive is not None:
         key = "stop.min_tooth_thickness_mm"
-        if isinstance(drive, PrescribedDrive):
+        if not drive.has_tooth:
             case.faults.add(key, "a table of loads has no tooth: remove this key")
         elif drive.pitch_line_thickness <= least:
             case.faults.add(
@@ -194,3 +212,46 @@ def _more_limits(case: Resolution, drive: ChainDrive | None) -> dict[str, float]
                 f"{drive.pitch_line_thickness:.4g} mm (got {least:g})",
             )
     return given
+
+
+def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
+    """Name what is missing of the load unless tables of [[duty]] or a log give it."""
+    if data.get("duty"):
+        return
+    if "load" not in data:
+        faults.add("load", "this table is required and missing")
+    elif isinstance(data["load"], dict) and not data["load"].keys() & {"speed_rpm", "duty_file"}:
+        faults.add("load.speed_rpm", "this key is required and missing")
+
+
+def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
+    """Return the case without its wrong keys, to look for more faults; None if that is none."""
+    sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
+    whole = {"duty", "fatigue", "uncertainty", "optimise"} & wrong
+    for name in whole:
+        sound.pop(name, None)
+    for entry in error.errors():
+        if entry["loc"][0] in whole:
+            continue
+        *tables, last = entry["loc"]
+        conflicting = [name for name, _ in entry.get("ctx", {}).get("faults", ())]
+        place: Any = sound
+        for table in [*tables, last] if conflicting else tables:
+            place = place.get(table, {})
+        for name in conflicting or [last]:
+            place.pop(name, None)
+    sound |= {name: _STAND_INS[name] for name in wrong & set(_STAND_INS)}
+    try:
+        return CaseTables.model_validate(sound)
+    except ValidationError:
+        return None
+
+
+def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
+    """Return the tables with faults, and those whose checks rest on them."""
+    wrong = {str(entry["loc"][0]) for entry in error.errors()}
+    if "chain" in wrong:
+        wrong |= {"load"} | ({"sprocket"} & data.keys())
+    if wrong & {"load", "duty"}:
+        wrong |= {"load"} | ({"duty"} & data.keys())
+    return wrong | {"stop"} if "sprocket" in wrong else wrong

@@ -1,18 +1,22 @@
-"""A chain around a sprocket, completed: gap, layout of the drive, tensions, joints."""
+"""From the tables of a chain around a sprocket to its drive: gap, layout, tensions, joints."""
 
 import math
 
+from wearsim.case.chain_case import read_chain_case
+from wearsim.case.drive import Block, heaviest
 from wearsim.case.duty_blocks import Duty, LoadBlock
-from wearsim.case.model import Block, JointInput, WrapDrive, heaviest
-from wearsim.case.strand_drive import effective_pull, face_width, slip_fraction, within_strength
-from wearsim.case.wrapped_gap import gap_shape
+from wearsim.case.model import Case, WearInput
+from wearsim.case.sprocket_keys import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.input.case_record import Resolution
+from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable, JointTable
+from wearsim.mechanisms.wrap.drive import JOINT_COEFFICIENT, JointInput, WrapDrive
+from wearsim.mechanisms.wrap.gap_shape import gap_shape
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
@@ -23,7 +27,16 @@ WELL_LUBRICATED = "hardened, oiled"
 """Wear condition whose joints a drive has where its case names none."""
 
 
-def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive | None:
+TOLERANCE = 5e-2
+"""Relative tolerance of a life by default, as it costs more than on a strand."""
+
+
+def read(document: Document) -> Case:
+    """Return the case of a chain around a sprocket."""
+    return read_chain_case(document, resolve_wrap, TOLERANCE)
+
+
+def resolve_wrap(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None) -> WrapDrive | None:
     """Complete a chain around a sprocket."""
     tables, faults = case.tables, case.faults
     table = tables.sprocket
@@ -51,6 +64,12 @@ def resolve_wrap(case: Resolution, chain: Chain, duty: Duty | None) -> WrapDrive
     for key, value in zip(("tooth", "bush"), frictions, strict=True):
         if value is None:
             case.take(f"mechanism.friction_roller_{key}", 0.0, "default")
+    least = tables.stop.min_slack_tension_N
+    if least is not None and least > slack:
+        faults.add(
+            "stop.min_slack_tension_N",
+            f"must not be above the slack tension that the drive has, {slack:.4g} N (got {least:g})",
+        )
     return WrapDrive(
         outline=shape.outline,
         gap=shape.gap,
@@ -280,7 +299,7 @@ def _joint_rate(case: Resolution, given: float | None) -> float:
     if given is None:
         of = f"wear condition {name!r}" if name else f"as in {state.condition!r}, none is named"
         case.take(
-            "joint.specific_wear_rate_mm2_per_N",
+            JOINT_COEFFICIENT,
             state.joint_typical,
             f"{of}: {state.joint_low:g} to {state.joint_high:g}; {state.joint_source}",
         )

@@ -1,14 +1,16 @@
 """The drive of a case against the ratings of the handbooks."""
 
+import math
 from dataclasses import replace
 
-from wearsim.case.model import Block, Case, WrapDrive
+from wearsim.case.drive import Block
+from wearsim.case.model import Case
+from wearsim.chain.drive_layout import Meetings, polygon_effect
 from wearsim.chain.selection import RULES, Finding, RatedDrive, assess, elongation_limit
+from wearsim.mechanisms.wrap.drive import WrapDrive
 
 _LIGHT = "085-1"
 """Designation of no. 41, the light chain of 12.7 mm pitch."""
-
-_SAFETY = "safety against breaking"
 
 
 def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
@@ -52,11 +54,8 @@ def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
     )
 
 
-def rating(case: Case) -> tuple[Finding, ...]:
+def rating(case: Case, drive: WrapDrive) -> tuple[Finding, ...]:
     """Return what the handbooks say about the drive of a case."""
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
-        return ()
     worst: dict[str, Finding] = {}
     for findings in _by_load(case, drive):
         for finding in findings:
@@ -79,36 +78,10 @@ def _by_load(case: Case, drive: WrapDrive) -> list[list[Finding]]:
     return found
 
 
-def rules_without_limit(case: Case) -> tuple[str, ...]:
+def rules_without_limit(case: Case, drive: WrapDrive) -> tuple[str, ...]:
     """Return the rules that say nothing about the drive of a case: a number or a row is missing."""
-    drive = case.drive
-    if not isinstance(drive, WrapDrive):
-        return ()
     found = [{finding.name for finding in findings} for findings in _by_load(case, drive)]
     return tuple(name for name in RULES if not all(name in names for names in found))
-
-
-def rating_warnings(case: Case) -> list[str]:
-    """Return a warning for every rating that the drive of a case is outside of."""
-    return [warning(finding) for finding in rating(case) if not finding.ok and finding.name != _SAFETY]
-
-
-def warning(finding: Finding) -> str:
-    """Return a finding outside its limit in words.
-
-    Examples
-    --------
-    >>> warning(Finding("plate fatigue", 30.0, 29.33, "kW", "ANSI B29.1, H1"))
-    'outside a rating: plate fatigue 30 kW, allowed at most 29.33 kW (ANSI B29.1, H1)'
-    """
-    side = "least" if finding.at_least else "most"
-    unit = f" {finding.unit}" if finding.unit else ""
-    source = f"{finding.source}; indicative here" if finding.note else finding.source
-    of = f" of {finding.load}" if finding.load else ""
-    return (
-        f"outside a rating: {finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
-        f"{finding.limit:.4g}{unit} ({source})"
-    )
 
 
 def _elongation(drive: WrapDrive) -> Finding:
@@ -119,3 +92,38 @@ def _elongation(drive: WrapDrive) -> Finding:
     return Finding(
         "elongation at the end", value, limit, "%", "3 %, 200 % over the teeth of the larger sprocket"
     )
+
+
+def drive_notes(case: Case, drive: WrapDrive) -> list[str]:
+    """Return what a designer asks of a chain drive that no rule limits."""
+    layout, rated = drive.layout, rated_drive(case, drive, drive.heaviest)
+    silent = rules_without_limit(case, drive)
+    small = min(layout.teeth_1, layout.teeth_2)
+    speed = rated.teeth * rated.pitch * rated.speed / 6e4
+    return [
+        f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
+        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
+        f"{math.degrees(layout.wrap_1):.1f} degrees on the driver and "
+        f"{math.degrees(layout.wrap_2):.1f} on the driven sprocket",
+        f"{rated.power:.4g} kW at {speed:.4g} m/s: pull {rated.pull:.5g} N; small sprocket "
+        f"{rated.teeth:g} teeth at {rated.speed:.5g} rpm, ratio "
+        f"{max(layout.teeth_1, layout.teeth_2) / small:.4g}",
+        f"polygon effect: the speed of the chain varies by {100.0 * polygon_effect(small):.2f} % "
+        f"over a tooth of the small sprocket",
+        _meetings(case, drive),
+        *([f"no limit known, so not judged: {', '.join(silent)}"] if silent else []),
+    ]
+
+
+def _meetings(case: Case, drive: WrapDrive) -> str:
+    loaded = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
+    meetings = Meetings(loaded, drive.layout.links)
+    if meetings.hunts:
+        return "every tooth meets every roller: teeth and rollers wear evenly"
+    text = (
+        f"{loaded} teeth and {drive.layout.links} links have the common divisor {meetings.classes}: "
+        f"a tooth meets {meetings.rollers_per_tooth} of the rollers"
+    )
+    if not (meetings.same_link_kind and drive.joint.alternating):
+        return text
+    return f"{text}, only inner or only outer links for life: teeth wear unevenly"

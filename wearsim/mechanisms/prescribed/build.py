@@ -1,0 +1,49 @@
+"""From a table of load and sliding to the drive of its flank."""
+
+from wearsim.case.chain_case import read_chain_case
+from wearsim.case.duty_blocks import Duty
+from wearsim.case.model import Case, WearInput
+from wearsim.case.shared import TOLERANCE
+from wearsim.case.sprocket_keys import slip_fraction
+from wearsim.catalogue.catalogues import Chain
+from wearsim.input.case_record import Resolution
+from wearsim.input.csv_tables import read_prescribed
+from wearsim.input.document import Document
+from wearsim.mechanisms.prescribed.drive import PrescribedDrive
+
+
+def read(document: Document) -> Case:
+    """Return the case of a flank whose load and sliding come from a table."""
+    return read_chain_case(document, resolve_prescribed, TOLERANCE)
+
+
+def resolve_prescribed(
+    case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None
+) -> PrescribedDrive | None:
+    """Complete a flank whose load and sliding come from a table."""
+    tables, key = case.tables, "mechanism.table_file"
+    unused = [f"load.{name}" for name in sorted(tables.load.model_fields_set - {"speed_rpm"})]
+    if tables.sprocket is not None:
+        used = {"engaged_every"}
+        unused += [f"sprocket.{name}" for name in sorted(tables.sprocket.model_fields_set - used)]
+    if unused:
+        case.warnings.append(f"not used with a table of loads: {', '.join(unused)}")
+    if tables.mechanism.table_file is None:
+        case.faults.add(key, "kind = 'prescribed' needs the file of load and sliding")
+        return None
+    table = read_prescribed(case.path(key, tables.mechanism.table_file), key, case.faults)
+    if table is None:
+        return None
+    if wear.speed_exponent != 0.0 and table.sliding_speed is None:
+        case.faults.add(
+            key, "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0"
+        )
+        return None
+    if wear.pressure_exponent < 1.0 and table.slip_ratio is not None:
+        case.faults.add(
+            "wear.pressure_exponent",
+            "must be at least 1 with a given slip ratio: below 1 a pit deepens itself and the problem "
+            f"is ill-posed (got {wear.pressure_exponent:g})",
+        )
+        return None
+    return PrescribedDrive(table, slip_fraction(case), chain)

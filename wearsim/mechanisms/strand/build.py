@@ -1,0 +1,63 @@
+"""From the tables of a sprocket on a straight strand to its drive."""
+
+import math
+
+from wearsim.case.chain_case import read_chain_case
+from wearsim.case.drive import Block, heaviest
+from wearsim.case.duty_blocks import Duty, LoadBlock
+from wearsim.case.model import Case, WearInput
+from wearsim.case.shared import FLANK_NODES, TOLERANCE
+from wearsim.case.sprocket_keys import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.working_flank import evolute_tooth, points_tooth
+from wearsim.catalogue.catalogues import Chain
+from wearsim.input.case_record import Resolution
+from wearsim.input.document import Document
+from wearsim.mechanisms.strand.drive import StrandDrive
+
+
+def read(document: Document) -> Case:
+    """Return the case of a sprocket on a straight strand."""
+    return read_chain_case(document, resolve_strand, TOLERANCE)
+
+
+def resolve_strand(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None) -> StrandDrive | None:
+    """Complete a sprocket on a straight strand."""
+    tables, faults = case.tables, case.faults
+    if tables.sprocket is None:
+        faults.add("sprocket", "this table is required and missing")
+        return None
+    table = tables.sprocket
+    centrode = chain.pitch * table.teeth / (2.0 * math.pi * table.engaged_every)
+    blocks = _blocks(case, duty, centrode, chain) if duty is not None else None
+    width = face_width(case, table, chain)
+    nodes = table.nodes or FLANK_NODES
+    if table.nodes is None:
+        case.take("sprocket.nodes", nodes, "default")
+    tooth_and_range = (
+        evolute_tooth(case, table, chain, centrode, nodes)
+        if table.profile == "evolute"
+        else points_tooth(case, table, chain, centrode, nodes)
+    )
+    if tooth_and_range is None or blocks is None:
+        return None
+    tooth, contact_end, contact_start = tooth_and_range
+    fraction = slip_fraction(case)
+    evolute = table.profile == "evolute"
+    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain, evolute)
+
+
+def _blocks(case: Resolution, duty: Duty, centrode: float, chain: Chain) -> tuple[Block, ...] | None:
+    """Return the blocks of a duty with their pulls."""
+
+    def _block(load: LoadBlock) -> Block:
+        speed = 2.0 * math.pi * centrode * load.speed_rpm / 60.0
+        pull = load.part * effective_pull(load, speed, centrode)
+        return Block(load.share, load.speed_rpm, pull, 0.0, load.wear_factor, load.joint_factor)
+
+    blocks, rated = (tuple(map(_block, loads)) for loads in (duty.blocks, duty.rated))
+    pull, least = heaviest(blocks).tension, min(block.tension for block in blocks)
+    shown = f"{pull:.6g} N" if len(blocks) == 1 else f"{least:.4g} to {pull:.6g} N"
+    case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
+    most = heaviest(rated)
+    key = duty.rated[rated.index(most)].key
+    return blocks if within_strength(case, most.tension, chain, key) else None

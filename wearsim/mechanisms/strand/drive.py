@@ -1,0 +1,128 @@
+"""A sprocket on a straight strand: the tooth, its load, and what the rest of wearsim asks of it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.case.drive import Block, Drive, heaviest
+from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import Chain
+from wearsim.contact.engagement import Mechanism
+from wearsim.geometry.blank import blank_area, tooth_space
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.tooth import Tooth
+
+
+@dataclass(frozen=True, eq=False)
+class StrandDrive(Drive):
+    """A sprocket on a straight strand."""
+
+    tooth: Tooth  # around the working flank, with its strand
+    contact_end: float  # range of contact x_min, x_max [mm]
+    contact_start: float
+    face_width: float  # b [mm]
+    blocks: tuple[Block, ...]  # the duty
+    slip_fraction: float  # sliding as a fraction of that of a roller that does not turn
+    chain: Chain
+    evolute: bool  # whether the flank is an evolute profile, so that its evolute is known exactly
+
+    has_tooth = True
+
+    @property
+    def duty(self) -> tuple[Block, ...]:
+        """Blocks of load."""
+        return self.blocks
+
+    @property
+    def heaviest(self) -> Block:
+        """The block of the largest pull."""
+        return heaviest(self.blocks)
+
+    @property
+    def pull(self) -> float:
+        """F_t of the heaviest block [N]."""
+        return self.heaviest.tension
+
+    @property
+    def profile(self) -> Profile:
+        """The working flank."""
+        return self.tooth.flank
+
+    @property
+    def pitch_line_thickness(self) -> float:
+        """Chordal thickness of the tooth where the centrode meets it [mm]."""
+        return self.tooth.pitch_line_thickness
+
+    def worn_thickness(self, x: Vector, y: Vector) -> float:
+        """Return the thickness on the centrode that a worn flank leaves."""
+        return self.tooth.worn_thickness(x, y)
+
+    @property
+    def thinnest(self) -> float:
+        """Smallest chordal thickness along the flank [mm]."""
+        return self.tooth.neck
+
+    @property
+    def tip_land(self) -> float:
+        """Length of the tip [mm]."""
+        return self.tooth.tip_land
+
+    def worn_tip_land(self, x: Vector, y: Vector) -> float:
+        """Return the tip land that a worn flank leaves."""
+        return self.tooth.worn_tip_land(x, y)
+
+    def blank_area(self) -> float:
+        """Return the area of the whole wheel [mm2]."""
+        return blank_area(tooth_space(self.tooth), self.tooth.teeth)
+
+    def profile_columns(self) -> dict[str, Vector]:
+        """Return the flank with the centres of its curvature."""
+        flank, strand = self.profile, self.tooth.strand
+        if self.evolute:
+            x = np.linspace(self.contact_end, self.contact_start, flank.x.size)
+            curvature = -1.0 / strand.flank_radius(x)
+            angle = strand.pressure_angle(x)
+            evolute = strand.evolute_points(x)
+        else:
+            curvature = flank.curvature
+            angle = _pressure_angle(flank, strand.height, strand.roller_radius)
+            evolute = np.column_stack(
+                [flank.x - flank.normal_x / curvature, flank.y - flank.normal_y / curvature]
+            )
+        return {
+            "node": np.arange(1, flank.x.size + 1),
+            "x_mm": flank.x,
+            "y_mm": flank.y,
+            "arc_length_mm": flank.arc_length,
+            "curvature_per_mm": curvature,
+            "flank_radius_mm": 1.0 / np.abs(curvature),
+            "pressure_angle_deg": np.degrees(angle),
+            "evolute_x_mm": evolute[:, 0],
+            "evolute_y_mm": evolute[:, 1],
+        }
+
+    def mechanism(self, case: Case) -> Mechanism:
+        """Return the rollers of the heaviest block on the flank."""
+        # Kernels compile where they are imported for the first time: each drive imports its own.
+        from wearsim.mechanisms.strand.contact import StrandMechanism
+
+        return StrandMechanism(
+            strand=self.tooth.strand,
+            profile=self.profile,
+            contact_end=self.contact_end,
+            contact_start=self.contact_start,
+            pitch=self.chain.pitch,
+            pull_per_width=self.pull / self.face_width,
+            angular_speed=2.0 * np.pi * self.heaviest.speed_rpm / 60.0,
+            slip_fraction=self.slip_fraction,
+            modulus=case.modulus,
+        )
+
+
+def _pressure_angle(flank: Profile, height: float, radius: float) -> Vector:
+    """Angle of the normal when the roller on the strand touches; nan where it does not reach."""
+    centre_x, centre_y = flank.x + radius * flank.normal_x, flank.y + radius * flank.normal_y
+    with np.errstate(invalid="ignore"):
+        distance = np.sqrt(centre_x**2 + centre_y**2 - height**2)
+    turn = np.arctan2(height, -distance) - np.arctan2(centre_y, centre_x)
+    return np.asarray(np.arctan2(flank.normal_y, flank.normal_x) + turn)

@@ -1,0 +1,274 @@
+"""A chain around a sprocket: gap, layout and loads, and what the rest of wearsim asks of them."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wearsim.case.drive import Block, Drive, heaviest
+from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.drive_layout import DriveLayout, Meetings
+from wearsim.chain.selection import Finding
+from wearsim.contact.criteria import Criterion, rising
+from wearsim.errors import CaseError, Fault
+from wearsim.geometry.blank import blank_area, gap_space
+from wearsim.geometry.gap import Gap
+from wearsim.geometry.measuring import measurement_over_pins
+from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.roller_path import RollerPath, roller_path
+from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
+
+if TYPE_CHECKING:
+    from wearsim.mechanisms.wrap.contact import WrapContact
+    from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+
+JOINT_COEFFICIENT = "joint.specific_wear_rate_mm2_per_N"
+
+
+@dataclass(frozen=True)
+class JointInput:
+    """Wear of the chain's joints."""
+
+    coefficient: float  # specific wear rate of pin and bush together [mm2/N]
+    bearing_area: float  # projected area of pin in bush [mm2]
+    alternating: bool  # whether wear lengthens every other link only, as it does
+    elongation_limit: float  # relative elongation at which the chain's life ends
+
+
+@dataclass(frozen=True, eq=False)
+class WrapDrive(Drive):
+    """A chain around a sprocket."""
+
+    outline: Profile  # the gap from its right tip through the seat to its left tip
+    gap: Gap | None  # the exact arcs of a standard form
+    gaps: int  # of the worn sprocket
+    pitch_angle: float  # between successive rollers on it [rad]
+    layout: DriveLayout  # both sprockets and the chain
+    driver: bool  # whether the worn sprocket drives the chain; it is number 1 of the layout then
+    wrap_angle: float  # of the worn sprocket [rad]
+    face_width: float  # b [mm]
+    blocks: tuple[Block, ...]  # the duty
+    rated: tuple[Block, ...]  # loads that strength, ratings and the grip of the chain are judged by
+    slack: float  # tension of the slack strand without the centrifugal part [N]
+    link_stiffness: float  # of one link [N/mm]
+    bush_radius: float  # outer radius of the bush [mm]
+    phases: int  # of one pitch
+    slip_fraction: float  # sliding as a fraction of that of a roller that does not turn
+    friction_roller_tooth: float  # coefficients of friction
+    friction_roller_bush: float
+    joint: JointInput
+    service_factor: float  # f1 on the power in the ratings
+    exploitation_factor: float  # K_e on the joint pressure in the ratings
+    chain: Chain
+
+    rests = True
+    has_tooth = True
+    from_root = False
+
+    @property
+    def duty(self) -> tuple[Block, ...]:
+        """Blocks of load."""
+        return self.blocks
+
+    @property
+    def wear_coefficients(self) -> Mapping[str, float]:
+        """That of the joints."""
+        return {JOINT_COEFFICIENT: self.joint.coefficient}
+
+    @property
+    def heaviest(self) -> Block:
+        """The rated load of the largest tension."""
+        return heaviest(self.rated)
+
+    @property
+    def profile(self) -> Profile:
+        """The outline that wears."""
+        return self.outline
+
+    @property
+    def pitch_line_thickness(self) -> float:
+        """Chordal thickness of the tooth on the pitch circle [mm]."""
+        return self.worn_thickness(self.outline.x, self.outline.y)
+
+    def worn_thickness(self, x: Vector, y: Vector) -> float:
+        """Return the thickness on the pitch circle that a worn outline leaves."""
+        radius = 0.5 * self.layout.pitch / math.sin(0.5 * self.pitch_angle)
+        return tooth_thickness(x, y, self.gaps, radius)
+
+    @property
+    def thinnest(self) -> float:
+        """Thickness of the tooth on the pitch circle [mm]: it grows from there to the root."""
+        return self.pitch_line_thickness
+
+    @property
+    def tip_land(self) -> float:
+        """Length of the tip [mm]."""
+        return tip_land(self.outline.x, self.outline.y, self.gaps)
+
+    def worn_tip_land(self, x: Vector, y: Vector) -> float:
+        """Return the tip land that a worn outline leaves."""
+        return tip_land(x, y, self.gaps)
+
+    def blank_area(self) -> float:
+        """Return the area of the whole wheel [mm2]."""
+        return blank_area(gap_space(self.outline, self.gap), self.gaps)
+
+    def profile_columns(self) -> dict[str, Vector]:
+        """Points of the whole gap from its right tip to its left one; no radius where it is straight."""
+        outline = self.outline
+        theta = np.arctan2(np.abs(outline.normal_x), outline.normal_y)
+        bent = np.abs(outline.curvature) > 1e-9
+        curvature = np.where(bent, outline.curvature, np.nan)
+        return {
+            "node": np.arange(1, outline.x.size + 1),
+            "x_mm": outline.x,
+            "y_mm": outline.y,
+            "arc_length_mm": outline.arc_length,
+            "curvature_per_mm": np.where(bent, curvature, 0.0),
+            "flank_radius_mm": 1.0 / np.abs(curvature),
+            "pressure_angle_deg": 90.0 - np.degrees(theta + 0.5 * self.pitch_angle),
+            "evolute_x_mm": outline.x - outline.normal_x / curvature,
+            "evolute_y_mm": outline.y - outline.normal_y / curvature,
+        }
+
+    @cached_property
+    def rollers(self) -> "WrapMechanism":
+        """The rollers of the chain on the gaps that they wrap, without what wears them."""
+        # Kernels compile where they are imported for the first time: each drive imports its own.
+        from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+
+        radius = 0.5 * self.chain.roller_diameter
+        return WrapMechanism(
+            outline=self.outline,
+            path=roller_path(self.outline, radius, (self.outline.x.size + 1) // 2),
+            pitch_angle=self.pitch_angle,
+            wrap_angle=self.wrap_angle,
+            chain=WrapChain(
+                pitch=self.chain.pitch,
+                roller_radius=radius,
+                bush_radius=self.bush_radius,
+                link_stiffness=self.link_stiffness,
+                alternating=self.joint.alternating,
+            ),
+            pull=Pull(
+                tight=self.heaviest.tension,
+                slack=self.slack,
+                driver=self.driver,
+                friction_roller_tooth=self.friction_roller_tooth,
+                friction_roller_bush=self.friction_roller_bush,
+            ),
+        )
+
+    def contact(self, case: Case) -> "WrapContact":
+        """Return the contact events of the chain around the sprocket."""
+        from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
+        from wearsim.mechanisms.wrap.joint import elongation_per_loop
+
+        pull, chain = self.rollers.pull, self.rollers.chain
+        rolls = (
+            pull.friction_roller_tooth * chain.roller_radius > pull.friction_roller_bush * chain.bush_radius
+        )
+        own, layout, joint = 2.0 * math.pi / self.pitch_angle, self.layout, self.joint
+        blocks = tuple(
+            WrapBlock(
+                share=block.share,
+                mechanism=replace(self.rollers, pull=replace(pull, tight=block.tension)),
+                pitch_time=60.0 / (block.speed_rpm * own),
+                wear_factor=block.wear_factor,
+            )
+            for block in self.blocks
+        )
+        engaged = self.gaps // math.gcd(self.gaps, case.engaged_every)
+        mate = layout.teeth_2 if self.driver else layout.teeth_1
+        per_loop = math.fsum(
+            block.share
+            * elongation_per_loop(
+                block.joint_factor * joint.coefficient,
+                (
+                    (block.tension + block.centrifugal) / joint.bearing_area,
+                    (self.slack + block.centrifugal) / joint.bearing_area,
+                ),
+                self.chain.pin_diameter,
+                self.chain.pitch,
+                (own, mate),
+            )
+            for block in self.blocks
+        )
+        return WrapContact(
+            blocks=blocks,
+            face_width=self.face_width,
+            phases=self.phases,
+            sliding=Sliding(fraction=self.slip_fraction, path_fraction=self.slip_fraction if rolls else 1.0),
+            modulus=case.modulus,
+            same_link_kind=Meetings(engaged, layout.links).same_link_kind,
+            elongation_per_cycle=per_loop * engaged / layout.links,
+            elongation_limit=joint.elongation_limit,
+            # Another sprocket wears the rollers too, by the same way over its own articulation.
+            roller_area_ratio=case.wear.roller_ratio * engaged / layout.links * (1.0 + own / mate),
+            slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
+        )
+
+    def gap_limits(self, case: Case, path: RollerPath) -> tuple[Criterion, ...]:
+        """Return the limits of a worn gap whose roller takes a path, the critical depth first."""
+        found, limit = self.tooth_limits(case), case.more_limits.get("over_pins_change_mm")
+        if limit is None:
+            return found
+        new = over_pins(path, self.outline.x.copy(), self.outline.y.copy(), self.gaps)
+        return (
+            *found,
+            rising("over_pins_change_mm", limit, lambda x, y, depth: new - over_pins(path, x, y, self.gaps)),
+        )
+
+    def check(self, case: Case) -> None:
+        """Raise where the chain jumps on new teeth, at no or at its limit of elongation."""
+        limits = (0.0, self.joint.elongation_limit)
+        if not all(self.rollers.holds(elongation) for elongation in limits):
+            raise CaseError([Fault(self._jumping(limits), "drive.slack_tension_N", case.name)])
+        least = case.more_limits.get("min_slack_tension_N")
+        if least is not None and not self.rollers.with_slack(least).holds(0.0):
+            needed = 1.005 * self.rollers.smallest_slack_tension(0.0)  # rounded up
+            message = f"must be above what a new drive needs not to jump, {needed:.3g} N (got {least:g})"
+            raise CaseError([Fault(message, "stop.min_slack_tension_N", case.name)])
+
+    def _jumping(self, limits: tuple[float, float]) -> str:
+        """Say which slack tension holds the chain, new and stretched."""
+        least = max(self.rollers.smallest_slack_tension(elongation) for elongation in limits)
+        remedy = (
+            f"give a slack tension of at least {1.005 * least:.3g} N"
+            if least < math.inf
+            else "no slack tension holds it: use more teeth or a lower elongation_percent"
+        )
+        return (
+            f"the rollers must hold the chain, new and stretched by {100 * limits[1]:.3g} %, but with a "
+            f"slack tension of {self.slack:.4g} N the chain jumps: {remedy}"
+        )
+
+    def ratings(self, case: Case) -> tuple[Finding, ...]:
+        """Return what the handbooks say about the drive."""
+        from wearsim.mechanisms.wrap.rating import rating
+
+        return rating(case, self)
+
+    def notes(self, case: Case) -> list[str]:
+        """Return what a designer asks of a chain drive that no rule limits."""
+        from wearsim.mechanisms.wrap.rating import drive_notes
+
+        return drive_notes(case, self)
+
+
+def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
+    """Return the measurement over pins of the roller's diameter in two gaps worn alike."""
+    centres = path.worn(x, y).locus
+    lowest = float((centres[0] ** 2 + centres[1] ** 2).min()) ** 0.5
+    return measurement_over_pins(lowest, 2.0 * path.roller_radius, gaps)
+
+
+def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str = "") -> WrapDrive:
+    """Return the drive of a case whose chain wraps the sprocket; a fault with this message on others."""
+    if not isinstance(case.drive, WrapDrive):
+        raise CaseError([Fault(message, key, where or case.name)])
+    return case.drive
