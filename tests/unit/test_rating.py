@@ -5,7 +5,7 @@ import pytest
 import wearsim
 from wearsim.chain.selection import Finding, RatedDrive, assess, rating_warnings, warning
 from wearsim.errors import CaseError
-from wearsim.mechanisms.wrap.rating import rated_drive, rules_without_limit
+from wearsim.mechanisms.wrap.chain_rating import rated_drive, rules_without_limit
 
 WRAP = {
     "format_version": 1,

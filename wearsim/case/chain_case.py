@@ -8,9 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from wearsim.case.drive import Drive
 from wearsim.case.duty_blocks import Duty, resolve_duty
-from wearsim.case.model import Case, WearInput
+from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.shared import modulus_of, resolve_fatigue, run_input, take_defaults, wear_input
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.input.case_record import Resolution

@@ -13,7 +13,7 @@ WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
 
 
 @dataclass(frozen=True)
-class Registered:
+class MechanismEntry:
     """Where a mechanism stands; its modules are imported only for a case of it."""
 
     tables: str  # `module:class` of the tables of its input
@@ -28,17 +28,17 @@ class Registered:
 _CHAIN = "wearsim.input.schema:CaseTables"
 
 MECHANISMS = {
-    "strand": Registered(_CHAIN, "wearsim.mechanisms.strand.build:read"),
-    "prescribed": Registered(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
-    "wrap": Registered(_CHAIN, "wearsim.mechanisms.wrap.build:read"),
-    "gear_pair": Registered(
+    "strand": MechanismEntry(_CHAIN, "wearsim.mechanisms.strand.build:read"),
+    "prescribed": MechanismEntry(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
+    "wrap": MechanismEntry(_CHAIN, "wearsim.mechanisms.wrap.build:read"),
+    "gear_pair": MechanismEntry(
         "wearsim.mechanisms.gear_pair.keys:GearTables", "wearsim.mechanisms.gear_pair.build:read"
     ),
 }
 """The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""
 
 
-def mechanism_of(data: Mapping[str, Any]) -> Registered:
+def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     """Return the mechanism that tables are about, whether or not they are right."""
     if "gear" in data:
         return MECHANISMS["gear_pair"]

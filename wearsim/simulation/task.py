@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.case.drive import heaviest
-from wearsim.case.model import Case, WearInput
+from wearsim.case.model import Case, WearInput, heaviest
 from wearsim.contact.criteria import Criterion
 from wearsim.contact.engagement import Contact, Kind
 from wearsim.contact.hertz import half_width, peak_pressure

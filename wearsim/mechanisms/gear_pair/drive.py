@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.drive import Drive
-from wearsim.case.model import Case, FatigueInput
+from wearsim.case.model import Case, Drive, FatigueInput
 from wearsim.contact.criteria import Criterion, rising
 from wearsim.contact.engagement import Contact, Mechanism
 from wearsim.contact.hertz import peak_pressure

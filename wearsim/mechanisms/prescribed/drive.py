@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.drive import Drive
-from wearsim.case.model import Case
+from wearsim.case.model import Case, Drive
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Kind, Mechanism
 from wearsim.input.csv_tables import PrescribedTable

@@ -3,9 +3,8 @@
 import math
 
 from wearsim.case.chain_case import read_chain_case
-from wearsim.case.drive import Block, heaviest
 from wearsim.case.duty_blocks import Duty, LoadBlock
-from wearsim.case.model import Case, WearInput
+from wearsim.case.model import Block, Case, WearInput, heaviest
 from wearsim.case.shared import FLANK_NODES, TOLERANCE
 from wearsim.case.sprocket_keys import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.case.working_flank import evolute_tooth, points_tooth

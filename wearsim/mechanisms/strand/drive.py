@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.drive import Block, Drive, heaviest
-from wearsim.case.model import Case
+from wearsim.case.model import Block, Case, Drive, heaviest
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.case.drive import Block, Drive, heaviest
-from wearsim.case.model import Case
+from wearsim.case.model import Block, Case, Drive, heaviest
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.drive_layout import DriveLayout, Meetings
 from wearsim.chain.selection import Finding
@@ -249,13 +248,13 @@ class WrapDrive(Drive):
 
     def ratings(self, case: Case) -> tuple[Finding, ...]:
         """Return what the handbooks say about the drive."""
-        from wearsim.mechanisms.wrap.rating import rating
+        from wearsim.mechanisms.wrap.chain_rating import rating
 
         return rating(case, self)
 
     def notes(self, case: Case) -> list[str]:
         """Return what a designer asks of a chain drive that no rule limits."""
-        from wearsim.mechanisms.wrap.rating import drive_notes
+        from wearsim.mechanisms.wrap.chain_rating import drive_notes
 
         return drive_notes(case, self)
 

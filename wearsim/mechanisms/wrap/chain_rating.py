@@ -2,18 +2,20 @@
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from wearsim.case.drive import Block
-from wearsim.case.model import Case
+from wearsim.case.model import Block, Case
 from wearsim.chain.drive_layout import Meetings, polygon_effect
 from wearsim.chain.selection import RULES, Finding, RatedDrive, assess, elongation_limit
-from wearsim.mechanisms.wrap.drive import WrapDrive
+
+if TYPE_CHECKING:
+    from wearsim.mechanisms.wrap.drive import WrapDrive
 
 _LIGHT = "085-1"
 """Designation of no. 41, the light chain of 12.7 mm pitch."""
 
 
-def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
+def rated_drive(case: Case, drive: "WrapDrive", load: Block) -> RatedDrive:
     """Return what the ratings need to know of a case.
 
     The ratings are those of the smaller sprocket, so its teeth and speed follow from the chain's
@@ -54,7 +56,7 @@ def rated_drive(case: Case, drive: WrapDrive, load: Block) -> RatedDrive:
     )
 
 
-def rating(case: Case, drive: WrapDrive) -> tuple[Finding, ...]:
+def rating(case: Case, drive: "WrapDrive") -> tuple[Finding, ...]:
     """Return what the handbooks say about the drive of a case."""
     worst: dict[str, Finding] = {}
     for findings in _by_load(case, drive):
@@ -65,7 +67,7 @@ def rating(case: Case, drive: WrapDrive) -> tuple[Finding, ...]:
     return (*worst.values(), _elongation(drive))
 
 
-def _by_load(case: Case, drive: WrapDrive) -> list[list[Finding]]:
+def _by_load(case: Case, drive: "WrapDrive") -> list[list[Finding]]:
     """Findings of every rated load that pulls, each named where there are several."""
     found = []
     for load in drive.rated:
@@ -78,13 +80,13 @@ def _by_load(case: Case, drive: WrapDrive) -> list[list[Finding]]:
     return found
 
 
-def rules_without_limit(case: Case, drive: WrapDrive) -> tuple[str, ...]:
+def rules_without_limit(case: Case, drive: "WrapDrive") -> tuple[str, ...]:
     """Return the rules that say nothing about the drive of a case: a number or a row is missing."""
     found = [{finding.name for finding in findings} for findings in _by_load(case, drive)]
     return tuple(name for name in RULES if not all(name in names for names in found))
 
 
-def _elongation(drive: WrapDrive) -> Finding:
+def _elongation(drive: "WrapDrive") -> Finding:
     layout = drive.layout
     limit = elongation_limit(max(layout.teeth_1, layout.teeth_2))
     # Both to the four digits of the limit that a case takes by default.
@@ -94,7 +96,7 @@ def _elongation(drive: WrapDrive) -> Finding:
     )
 
 
-def drive_notes(case: Case, drive: WrapDrive) -> list[str]:
+def drive_notes(case: Case, drive: "WrapDrive") -> list[str]:
     """Return what a designer asks of a chain drive that no rule limits."""
     layout, rated = drive.layout, rated_drive(case, drive, drive.heaviest)
     silent = rules_without_limit(case, drive)
@@ -115,7 +117,7 @@ def drive_notes(case: Case, drive: WrapDrive) -> list[str]:
     ]
 
 
-def _meetings(case: Case, drive: WrapDrive) -> str:
+def _meetings(case: Case, drive: "WrapDrive") -> str:
     loaded = drive.gaps // math.gcd(drive.gaps, case.engaged_every)
     meetings = Meetings(loaded, drive.layout.links)
     if meetings.hunts:
