@@ -13,7 +13,7 @@ import pytest
 
 import wearsim
 from wearsim.mechanisms.wrap.contact import WrapContact
-from wearsim.mechanisms.wrap.joint import elongation_per_loop
+from wearsim.mechanisms.wrap.drive import elongation_per_loop
 
 PITCH, PIN, AREA, MASS = 12.7, 3.98, 44.5, 0.60
 CHAIN = {

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from wearsim.errors import GeometryError
+from wearsim.geometry.gap import Gap
 from wearsim.geometry.profile import Vector
 
 
@@ -69,3 +71,98 @@ def tip_land(x: Vector, y: Vector, teeth: int) -> float:
     radius = max(math.hypot(x[0], y[0]), math.hypot(x[-1], y[-1]))
     gap = math.atan2(x[0], y[0]) - math.atan2(x[-1], y[-1])
     return radius * (2.0 * math.pi / teeth - gap)
+
+
+def seated_radius(gap: Gap, pin_diameter: float) -> float:
+    """Return the distance of a pin that rests on the bottom of an unworn gap.
+
+    Parameters
+    ----------
+    gap : Gap
+        Gap of the sprocket.
+    pin_diameter : float
+        Diameter dR of the measuring pin [mm], no larger than the seat's.
+
+    Returns
+    -------
+    float
+        Distance rc of the pin's centre from the sprocket's [mm].
+
+    Raises
+    ------
+    GeometryError
+        The pin does not reach the bottom.
+
+    Examples
+    --------
+    >>> from wearsim.geometry.forms.iso606 import iso606_gap
+    >>> gap = iso606_gap(10.0, 6.0, 6, seat_centre="root_diameter")
+    >>> round(seated_radius(gap, 6.0), 12)
+    10.0
+    """
+    seat_radius = gap.seat_centre - gap.bottom_radius
+    if not 0.0 < pin_diameter <= 2.0 * seat_radius:
+        raise GeometryError(
+            f"measuring pin: its diameter must be above 0 and no larger than the seat's "
+            f"{2.0 * seat_radius:g} mm, is {pin_diameter:g} mm: use a pin of the roller's diameter"
+        )
+    return gap.bottom_radius + 0.5 * pin_diameter
+
+
+def measurement_over_pins(centre_radius: float, pin_diameter: float, teeth: int) -> float:
+    """Return the measurement over pins M_R of a sprocket.
+
+    Parameters
+    ----------
+    centre_radius : float
+        Distance rc of the seated pins' centres from the sprocket's [mm]; d/2 for a new
+        sprocket whose root diameter is d - d1.
+    pin_diameter : float
+        Diameter dR of the measuring pins [mm].
+    teeth : int
+        Number z.
+
+    Returns
+    -------
+    float
+        2 rc + dR for even z, 2 rc cos(90/z) + dR for odd z [mm].
+
+    Examples
+    --------
+    Three pins of diameter 1 on a circle of radius 1: sqrt(3) + 1:
+
+    >>> round(measurement_over_pins(1.0, 1.0, 3), 4)
+    2.7321
+    """
+    return _across(centre_radius, teeth) + pin_diameter
+
+
+def root_caliper(centre_radius: float, seat_diameter: float, teeth: int) -> float:
+    """Return the caliper measurement between the bottoms of opposite gaps.
+
+    Parameters
+    ----------
+    centre_radius : float
+        Distance of the seats' centres from the sprocket's [mm], d/2 for a new sprocket.
+    seat_diameter : float
+        Diameter of the circles at the bottom [mm]: d1 for ISO 606 and ANSI, 2 r for
+        GOST 591 (then Di or, for odd z, Lx).
+    teeth : int
+        Number z.
+
+    Returns
+    -------
+    float
+        d - d1 for even z, d cos(90/z) - d1 for odd z [mm].
+
+    Examples
+    --------
+    >>> root_caliper(10.0, 6.0, 6)
+    14.0
+    """
+    return _across(centre_radius, teeth) - seat_diameter
+
+
+def _across(radius: float, teeth: int) -> float:
+    """Distance of two points of a circle, in gaps as nearly opposite as z allows."""
+    return 2.0 * radius * (math.cos(0.5 * math.pi / teeth) if teeth % 2 else 1.0)

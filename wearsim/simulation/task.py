@@ -13,8 +13,7 @@ from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.geometry.profile import Vector
 from wearsim.result import LimitState
 from wearsim.wear.advance import run_advance
-from wearsim.wear.duty_average import DutyPart, equivalent_factor
-from wearsim.wear.law import Law, archard, drozdov, power
+from wearsim.wear.law import DutyPart, Law, archard, drozdov, equivalent_factor, power
 from wearsim.wear.running_in import CONSTANT, RunningIn
 from wearsim.wear.trajectory import Trajectory
 

@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.convex_concave_flank import Flank, Part
-from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Vector
+from wearsim.geometry.worn_tooth import measurement_over_pins
 
 _TOUCHING = 1e-9
 """Depth [mm] up to which a roller only touches."""

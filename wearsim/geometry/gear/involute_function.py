@@ -2,7 +2,7 @@
 
 import math
 
-from wearsim.geometry.measuring import measurement_over_pins
+from wearsim.geometry.worn_tooth import measurement_over_pins
 
 
 def involute_function(angle: float) -> float:

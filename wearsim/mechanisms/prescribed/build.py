@@ -3,8 +3,7 @@
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import Duty
 from wearsim.case.model import Case, WearInput
-from wearsim.case.shared import TOLERANCE
-from wearsim.case.sprocket_keys import slip_fraction
+from wearsim.case.shared import TOLERANCE, slip_fraction
 from wearsim.catalogue.catalogues import Chain
 from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_prescribed

@@ -5,8 +5,14 @@ import math
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import Duty, LoadBlock
 from wearsim.case.model import Block, Case, WearInput, heaviest
-from wearsim.case.shared import FLANK_NODES, TOLERANCE
-from wearsim.case.sprocket_keys import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.shared import (
+    FLANK_NODES,
+    TOLERANCE,
+    effective_pull,
+    face_width,
+    slip_fraction,
+    within_strength,
+)
 from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
 from wearsim.input.case_record import Resolution

@@ -5,7 +5,7 @@ import math
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import Duty, LoadBlock
 from wearsim.case.model import Block, Case, WearInput, heaviest
-from wearsim.case.sprocket_keys import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.shared import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links

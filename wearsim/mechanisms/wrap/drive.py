@@ -16,14 +16,14 @@ from wearsim.contact.criteria import Criterion, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.measuring import measurement_over_pins
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, roller_path
-from wearsim.geometry.worn_tooth import tip_land, tooth_thickness
+from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.contact import WrapContact
     from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+
 
 JOINT_COEFFICIENT = "joint.specific_wear_rate_mm2_per_N"
 
@@ -165,7 +165,6 @@ class WrapDrive(Drive):
     def contact(self, case: Case) -> "WrapContact":
         """Return the contact events of the chain around the sprocket."""
         from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
-        from wearsim.mechanisms.wrap.joint import elongation_per_loop
 
         pull, chain = self.rollers.pull, self.rollers.chain
         rolls = (
@@ -271,3 +270,48 @@ def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str
     if not isinstance(case.drive, WrapDrive):
         raise CaseError([Fault(message, key, where or case.name)])
     return case.drive
+
+
+def elongation_per_loop(
+    specific_wear_rate: float,
+    pressures: tuple[float, float],
+    pin_diameter: float,
+    pitch: float,
+    teeth: tuple[float, float],
+) -> float:
+    """Return how much a chain grows in one loop around two sprockets.
+
+    A joint turns by 2 pi/z where it comes onto a sprocket and where it leaves it, once
+    under the tight tension and once under the slack one. Its pin slides pi d2/z each time,
+    so Archard's law gives d(eps)/d(loop) = k (p_tight + p_slack) pi d2 (1/z1 + 1/z2)/p,
+    equation (4.1) of the reference with its slack part.
+
+    Equation physics.md (E1).
+
+    Parameters
+    ----------
+    specific_wear_rate : float
+        k of pin and bush together [mm2/N].
+    pressures : tuple of float
+        Tension of the tight and of the slack strand over the bearing area [MPa].
+    pin_diameter : float
+        d2 [mm].
+    pitch : float
+        p [mm].
+    teeth : tuple of float
+        z1 and z2, rollers per turn.
+
+    Returns
+    -------
+    float
+        Relative elongation per loop.
+
+    Examples
+    --------
+    1e-9 mm2/N at 20 MPa over pi 5 (1/20 + 1/20) mm on a pitch of 10 mm:
+
+    >>> round(elongation_per_loop(1e-9, (20.0, 0.0), 5.0, 10.0, (20, 20)) / (1e-9 * math.pi), 12)
+    1.0
+    """
+    path = math.pi * pin_diameter * (1.0 / teeth[0] + 1.0 / teeth[1])
+    return specific_wear_rate * sum(pressures) * path / pitch
