@@ -25,7 +25,7 @@ def check_free(path: Path, force: bool) -> None:
 
 
 _MARKER = ".wearsim"
-"""File in every folder of wearsim: a head that tells who wrote it, then the names of the files, one a line."""
+"""File in every folder of wearsim: a head with who wrote it, then the names of the files, one a line."""
 
 
 def mark(folder: Path, names: Iterable[str]) -> None:

@@ -154,7 +154,7 @@ def _check_parquet(out: Path | None, parquet: bool) -> None:
         return
     if out is None:
         raise click.UsageError("--parquet needs --out, the folder for its files")
-    from wearsim.result.parquet import pyarrow
+    from wearsim.result.folder import pyarrow
 
     pyarrow()
 

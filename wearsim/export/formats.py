@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.export.wheel_drawing import drawing_box, wheel_drawing
-from wearsim.export.wheel_shapes import State, WheelShape, wheel_shapes
+from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.export.wheel_states import State, WheelShape
 from wearsim.report.lines import grouped
 from wearsim.result import WearResult
 

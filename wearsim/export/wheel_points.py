@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from wearsim.export.wheel_drawing import CHORD_TOLERANCE
-from wearsim.export.wheel_shapes import State, WheelShape
+from wearsim.export.wheel_states import State, WheelShape
 from wearsim.geometry.outline import along_ways
 from wearsim.geometry.wheel import Chain
 
