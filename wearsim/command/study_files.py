@@ -8,8 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from wearsim.files import mark, write_file
-from wearsim.report.figure_text import literal
-from wearsim.report.figures import picture_bytes
+from wearsim.report.figures import literal, picture_bytes
 
 _KINDS = ("png", "svg")
 

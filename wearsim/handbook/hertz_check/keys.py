@@ -5,9 +5,8 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
-from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.gear import Teeth
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 
 

@@ -5,10 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.gear import listed, stress_conflicts
 from wearsim.input.schema.material import MaterialTable
-from wearsim.input.schema.stress_along_line import listed, stress_conflicts
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import pandas as pd
 
 from wearsim.geometry.profile import Vector
-from wearsim.study.similar_texts import kinds
+from wearsim.report.lines import kinds
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import Fit, Flags, Percentile, fits, percentile
