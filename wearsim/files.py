@@ -6,10 +6,11 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
+from wearsim._version import __version__
 from wearsim.errors import OutputError
 
 
@@ -23,41 +24,23 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_FIGURES = (
-    *("flanks", "along_flank", "depth_over_hours", "maintenance"),
-    *("wave_drive", "strength", "face_load", "stiffness_spectrum", "convex_concave"),
-    *("hertz_check", "fit", "residuals"),
-    *("line_of_action", "indices", "field_great_radii", "field_small_radii", "field_directions"),
-)
-_TABLES = (
-    *("history", "flank", "summary", "policies", "tooth_counts"),
-    *("methods", "elasticities", "gears", "allowable_over_hours", "states", "distribution"),
-    *("lines", "statics", "flanks", "rack", "rollers", "indices", "line_of_action"),
-    *("fit", "fitted_values"),
-    *("pinion_profile", "wheel_profile", "stress_fields", "direction_fields"),
-    *("combinations", "changes", "comparison", "axis_stresses", "meshes", "fem_axis", "fem_pressure"),
-)
-_WRITTEN = {
-    *(
-        "result.json",
-        "case.lock.toml",
-        "environment.json",
-        "inputs",
-        "summary.md",
-        "maintenance.md",
-        "calibrated.toml",
-        "history.parquet",
-        "flank.parquet",
-        "plotly.min.js",
-    ),
-    *(f"{name}.csv" for name in _TABLES),
-    *(f"{gear}.{kind}" for gear in ("pinion", "wheel") for kind in ("dxf", "stl")),
-    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
-}
-"""What wearsim itself puts into a folder."""
+_MARKER = ".wearsim"
+"""File in every folder of wearsim: a head with who wrote it, then the names of the files, one a line."""
 
-_PAGE = b'<meta name="generator" content="wearsim '
-"""What is near the top of every page that wearsim writes."""
+
+def mark(folder: Path, names: Iterable[str]) -> None:
+    """Note in the marker of a folder which files wearsim writes there."""
+    head = f"written by wearsim {__version__}, with --force replaced or removed:"
+    lines = (head, *sorted({*written(folder), *names} - {_MARKER}), "")
+    write_file(folder / _MARKER, os.fsencode("\n".join(lines)), force=True)
+
+
+def written(folder: Path) -> set[str]:
+    """Return the names that the marker of a folder holds and its own; none where there is no marker."""
+    marker = folder / _MARKER
+    if not marker.is_file():
+        return set()
+    return {_MARKER, *os.fsdecode(marker.read_bytes()).splitlines()[1:]}
 
 
 def check_folder(folder: Path, force: bool) -> None:
@@ -67,7 +50,7 @@ def check_folder(folder: Path, force: bool) -> None:
         return
     if not folder.is_dir():
         raise OutputError(f"{folder}: must be a folder to be replaced, but is a file: choose another place")
-    foreign = sorted(entry.name for entry in folder.iterdir() if not _own(entry))
+    foreign = sorted(_foreign(folder))
     if foreign:
         raise OutputError(
             f"{folder}: must hold nothing but a result to be replaced, but holds {foreign[0]}: choose "
@@ -77,12 +60,47 @@ def check_folder(folder: Path, force: bool) -> None:
         raise OutputError(f"{folder}: must not be the folder you are in: choose another place")
 
 
-def _own(entry: Path) -> bool:
-    """Whether wearsim wrote what is in a folder; the name of a page is that of its case."""
-    if entry.suffix != ".html" or not entry.is_file():
-        return entry.name in _WRITTEN
-    with entry.open("rb") as file:
-        return _PAGE in file.read(500)
+def _foreign(folder: Path) -> set[str]:
+    """Names in a folder that wearsim did not write."""
+    own = written(folder)
+    if own:
+        return _names(folder) - own
+    entries = list(folder.iterdir())
+    former = any(_begins(entry, _FORMER[entry.name]) for entry in entries if entry.name in _FORMER)
+    return {entry.name for entry in entries if not (former and _was_written(entry))}
+
+
+def _names(folder: Path) -> set[str]:
+    """Names of the files in a folder and below."""
+    paths = (path for path in folder.rglob("*") if path.is_symlink() or not path.is_dir())
+    return {path.relative_to(folder).as_posix() for path in paths}
+
+
+_PAGE = b'<meta name="generator" content="wearsim '
+_FORMER = {
+    "result.json": b'"schema_version"',
+    "index.html": _PAGE,
+    "depth_over_hours.svg": b"",
+    "maintenance.svg": b"",
+    "calibrated.toml": b"",
+}
+"""Files of wearsim before there were markers, and what each has near its top."""
+
+
+def _was_written(entry: Path) -> bool:
+    """Whether an entry can be of wearsim before there were markers, by its ending."""
+    if entry.suffix == ".html":
+        return _begins(entry, _PAGE)
+    endings = ".json .csv .md .toml .png .svg .parquet .js .dxf .stl"
+    return entry.name == "inputs" or entry.suffix in endings.split()
+
+
+def _begins(path: Path, content: bytes) -> bool:
+    """Whether something stands near the top of a file."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as file:
+        return content in file.read(500)
 
 
 @contextlib.contextmanager
@@ -104,6 +122,7 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
             new, old = Path(beside) / "new", Path(beside) / "old"
             new.mkdir()
             yield new
+            mark(new, _names(new))
             try:
                 if folder.exists():
                     os.rename(folder, old)

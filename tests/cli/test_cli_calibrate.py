@@ -153,6 +153,7 @@ def test_folder_holds_tables_pictures_and_the_calibrated_case(cli, case, table, 
     assert done.code == 0
     assert f"written to {out}" in done.err
     assert {entry.name for entry in out.iterdir()} == {
+        ".wearsim",
         "fit.csv",
         "fitted_values.csv",
         "summary.md",

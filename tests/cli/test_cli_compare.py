@@ -7,7 +7,7 @@ import pytest
 
 @pytest.fixture(scope="module")
 def expected_files():
-    tables = {"summary.csv", "summary.md"}
+    tables = {".wearsim", "summary.csv", "summary.md"}
     pictures = {"flanks", "along_flank", "depth_over_hours"}
     return tables | {f"{name}.{kind}" for name in pictures for kind in ("png", "svg")}
 

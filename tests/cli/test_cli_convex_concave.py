@@ -20,6 +20,7 @@ from wearsim.quantities import quantities
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "cases" / "sizing" / "convex-concave-17-34.toml"
 FILES = [
+    ".wearsim",
     "convex_concave.png",
     "convex_concave.svg",
     "flanks.csv",

@@ -38,6 +38,7 @@ def test_json_and_files_agree(cli, tmp_path):
     found = json.loads(done.out)
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {
+        ".wearsim",
         "result.json",
         "states.csv",
         "distribution.csv",

@@ -59,7 +59,7 @@ def test_json_and_files_agree(cli, tmp_path):
     found = json.loads(done.out)
     assert list(found)[:3] == ["schema_version", "case", "title"]
     assert found == json.loads((out / "result.json").read_text())
-    assert {path.name for path in out.iterdir()} == {"result.json", *TABLES, *PICTURES}
+    assert {path.name for path in out.iterdir()} == {".wearsim", "result.json", *TABLES, *PICTURES}
     assert found["difference_references"] == ["larger"]
     assert found["comparison"][2]["lost_stress_MPa"] == [228]
     assert len(found["combinations"]) == 8
@@ -76,8 +76,16 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
     done = cli("hertz-check", CASE, "--fem", "--json", "--out", out)
     assert done.code == 0
     assert solved == [4, 8, 16]
-    names = {path.name for path in out.iterdir()}
-    assert names == {"result.json", "meshes.csv", "fem_axis.csv", "fem_pressure.csv", *TABLES, *PICTURES}
+    names = {path.name for path in out.glob("[!.]*")}
+    assert names == {
+        ".wearsim",
+        "result.json",
+        "meshes.csv",
+        "fem_axis.csv",
+        "fem_pressure.csv",
+        *TABLES,
+        *PICTURES,
+    }
     meshes = json.loads(done.out)["meshes"]
     assert [mesh["unknowns"] for mesh in meshes] == [400, 800, 1600]
     assert meshes[0]["peak_pressure_error_percent"] == pytest.approx(98.17, abs=0.01)

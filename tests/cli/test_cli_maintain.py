@@ -66,6 +66,7 @@ def test_text_json_and_files_agree(cli, wrapped, tmp_path):
         assert policy["cost_per_1000_h"] == pytest.approx(1000 * price / policy["sprocket_life_hours"])
     assert len(found["tooth_counts"]) == 9
     assert {path.name for path in out.iterdir()} == {
+        ".wearsim",
         "policies.csv",
         "tooth_counts.csv",
         "maintenance.md",

@@ -165,6 +165,7 @@ def test_front(cli, case, tmp_path, without_pictures):
     assert all(a[1] > b[1] for a, b in pairwise(rows))
     names = {f"{name}.{kind}" for name in ("convergence", "front", "parallel") for kind in ("png", "svg")}
     assert {entry.name for entry in out.iterdir()} == {
+        ".wearsim",
         *names,
         "candidates.csv",
         "front.csv",

@@ -5,7 +5,7 @@ import pytest
 from wearsim.errors import ConvergenceError
 from wearsim.result import WearResult
 
-FILES = ["case.lock.toml", "environment.json", "flank.csv", "history.csv", "result.json"]
+FILES = [".wearsim", "case.lock.toml", "environment.json", "flank.csv", "history.csv", "result.json"]
 
 
 def names(folder):
@@ -58,8 +58,8 @@ def test_faulty_case_stops_all_before_the_first_runs(cli, drive, tmp_path, monke
 
 def test_force_replaces(cli, drive, tmp_path):
     out = tmp_path / "out"
-    out.mkdir()
-    (out / "summary.csv").write_text("old")
+    assert cli("compare", drive(), drive("b"), "--out", out).code == 0
+    assert "summary.csv" in names(out)
     assert cli("life", drive(), "--out", out, "--force").code == 0
     assert names(out) == FILES
 

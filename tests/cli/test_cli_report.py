@@ -85,7 +85,7 @@ def test_page_of_a_case(cli, drive, tmp_path):
     out = tmp_path / "reports" / "page"
     done = cli("report", drive(), "--out", out)
     assert (done.code, done.out) == (0, f"{out / 'index.html'}\n")
-    assert {path.name for path in out.iterdir()} == {"index.html", "plotly.min.js"}
+    assert {path.name for path in out.iterdir()} == {".wearsim", "index.html", "plotly.min.js"}
     page = text_of(out / "index.html")
     shown = re.search(r"Life +([\d .]+ h)", cli("life", drive()).out)[1]
     assert f'<p class="life">{shown}</p>' in page
@@ -122,7 +122,7 @@ def test_runs_and_cases_side_by_side(cli, drive, tmp_path):
     done = cli("report", run, other, drive(), "--out", out)
     pages = ["index.html", "drive.html", "other.html", "drive-2.html"]
     assert (done.code, done.out.split()) == (0, [str(out / page) for page in pages])
-    assert {path.name for path in out.iterdir()} == {*pages, "plotly.min.js"}
+    assert {path.name for path in out.iterdir()} == {".wearsim", *pages, "plotly.min.js"}
     page = text_of(out / "index.html")
     assert all(f'<a href="{name}">' in page for name in pages[1:])
     assert '<td role="cell" data-label="ratio to first">0.5</td>' in page
@@ -143,7 +143,7 @@ def test_brief_pages_are_short(cli, drive, tmp_path):
 def test_a_single_file_holds_the_script(cli, drive, tmp_path):
     out = tmp_path / "out"
     assert cli("report", drive(), "--out", out, "--single-file").code == 0
-    (page,) = out.iterdir()
+    (page,) = out.glob("[!.]*")
     text = page.read_text(encoding="utf-8")
     assert 1_000_000 < len(text) < 6_000_000
     assert 'src="plotly' not in text
@@ -205,7 +205,7 @@ def test_what_is_there_stays(cli, drive, tmp_path):
     assert (done.code, done.out) == (2, "")
     assert "--force" in done.err
     assert cli("report", drive(), "--out", out, "--force").code == 0
-    assert {path.name for path in out.iterdir()} == {"index.html", "plotly.min.js"}
+    assert {path.name for path in out.iterdir()} == {".wearsim", "index.html", "plotly.min.js"}
     (out / "notes.html").write_text("<p>mine</p>")
     done = cli("report", drive(), "--out", out, "--force")
     assert done.code == 2
@@ -257,7 +257,7 @@ def test_a_case_that_fails_is_left_out(cli, drive, tmp_path, monkeypatch):
     done = cli("report", drive(), drive("worse"), "--out", out)
     assert done.code == 5
     assert "the life would be wrong" in done.err
-    assert {path.name for path in out.iterdir()} == {"index.html", "plotly.min.js"}
+    assert {path.name for path in out.iterdir()} == {".wearsim", "index.html", "plotly.min.js"}
 
 
 def test_page_of_a_table_of_loads(cli, tmp_path):

@@ -120,6 +120,7 @@ def test_folder(cli, case, tmp_path):
     first = cli("sensitivity", case(), "--samples", 8, "--trajectories", 4, "--out", out)
     assert first.code == 0
     assert {entry.name for entry in out.iterdir()} == {
+        ".wearsim",
         "cases.csv",
         "sensitivity.csv",
         "summary.md",

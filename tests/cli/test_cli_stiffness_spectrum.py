@@ -64,6 +64,7 @@ def test_files(cli, tmp_path):
     out = tmp_path / "out"
     assert cli("stiffness-spectrum", CASE, *COARSE, *DOUBLE, "--out", out).code == 0
     assert {path.name for path in out.iterdir()} == {
+        ".wearsim",
         *("result.json", "lines.csv", "statics.csv"),
         *("stiffness_spectrum.png", "stiffness_spectrum.svg"),
     }

@@ -57,6 +57,7 @@ def test_files(cli, tmp_path):
     place = tmp_path / "out"
     assert cli("strength", A, "--out", place).code == 0
     assert {path.name for path in place.iterdir()} == {
+        ".wearsim",
         "result.json",
         "gears.csv",
         "allowable_over_hours.csv",

@@ -98,6 +98,7 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
     assert first.code == 0
     names = {f"{name}.{kind}" for name in ("curves", "heat_map", "parallel") for kind in ("png", "svg")}
     assert {path.name for path in out.iterdir()} == {
+        ".wearsim",
         *names,
         "cases.csv",
         "summary.md",
@@ -116,8 +117,12 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
     assert cli("sweep", other, "--out", out).code == 2
     assert cli("sweep", other, "--out", out, "--force").code == 0
     single = sweep('[grid]\n"sprocket.teeth" = [20, 25]\n')
+    assert "heat_map.png" in (out / ".wearsim").read_text(encoding="utf-8").splitlines()
+    (out / "mine.png").write_text("mine")
     assert cli("sweep", single, "--out", out, "--force").code == 0
     assert not (out / "heat_map.png").exists()
+    assert "heat_map.png" not in (out / ".wearsim").read_text(encoding="utf-8")
+    assert (out / "mine.png").exists()
 
 
 @pytest.mark.parametrize(

@@ -84,6 +84,7 @@ def test_files(cli, tmp_path):
     figures = ("line_of_action", "indices", "field_great_radii", "field_small_radii")
     tables = ("indices", "line_of_action", "pinion_profile", "wheel_profile", "stress_fields")
     assert made == {
+        ".wearsim",
         "result.json",
         *(f"{name}.csv" for name in (*tables, "direction_fields")),
         *(f"{name}.{kind}" for name in (*figures, "field_directions") for kind in ("png", "svg")),

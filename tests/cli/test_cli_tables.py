@@ -81,7 +81,7 @@ def test_every_table(cli, table, words):
 
 
 def test_listed_chains_are_those_of_the_catalogue(cli):
-    assert json.loads(cli("list", "chains", "--json").out) == rows("chains")
+    assert json.loads(cli("list", "chains", "--json").out) == list(rows("chains"))
 
 
 def test_listed_cases_exist(cli):

@@ -145,6 +145,7 @@ def test_folder(cli, case, tmp_path):
     assert first.code == 0
     pictures = {f"{name}.{kind}" for name in ("lives", "convergence") for kind in ("png", "svg")}
     assert {entry.name for entry in out.iterdir()} == {
+        ".wearsim",
         *pictures,
         "cases.csv",
         "convergence.csv",

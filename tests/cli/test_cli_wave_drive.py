@@ -43,6 +43,7 @@ def test_json_and_files_agree(cli, tmp_path):
     assert list(found)[:3] == ["schema_version", "case", "title"]
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {
+        ".wearsim",
         "result.json",
         "methods.csv",
         "elasticities.csv",

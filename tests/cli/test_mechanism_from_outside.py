@@ -24,7 +24,7 @@ from wearsim.input.calculation_file import checked
 from wearsim.input.case_record import Record
 from wearsim.input.kind import MECHANISMS, MechanismEntry
 from wearsim.input.schema import RunTable, Table, WearTable
-from wearsim.input.schema.calculation import CalculationTables
+from wearsim.input.schema.table import CalculationTables
 from wearsim.input.units import Positive
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT

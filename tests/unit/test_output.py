@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from wearsim import __version__
 from wearsim.errors import OutputError
 from wearsim.files import check_free, new_folder, write_file
 
@@ -15,9 +16,12 @@ def tree(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
-def fill(run, error=None):
+FILLED = ["run", "run/.wearsim", "run/history.csv"]
+
+
+def fill(run, error=None, text="new"):
     with new_folder(run, force=True) as place:
-        (place / "history.csv").write_text("new")
+        (place / "history.csv").write_text(text)
         if error:
             raise error
 
@@ -26,7 +30,7 @@ def test_new_folder_takes_its_name_when_complete(tmp_path):
     with new_folder(tmp_path / "a" / "run", force=False) as place:
         (place / "history.csv").write_text("new")
         assert not (tmp_path / "a" / "run").exists()
-    assert tree(tmp_path) == ["a", "a/run", "a/run/history.csv"]
+    assert tree(tmp_path) == ["a", "a/run", "a/run/.wearsim", "a/run/history.csv"]
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
@@ -34,20 +38,18 @@ def test_new_folder_takes_its_name_when_complete(tmp_path):
 def test_failure_leaves_the_old_or_nothing(tmp_path, error, old):
     run = tmp_path / "run"
     if old:
-        run.mkdir()
-        (run / "history.csv").write_text("old")
+        fill(run, text="old")
     expected = OutputError if isinstance(error, OSError) else KeyboardInterrupt
     with pytest.raises(expected):
         fill(run, error)
-    assert tree(tmp_path) == (["run", "run/history.csv"] if old else [])
+    assert tree(tmp_path) == (FILLED if old else [])
     assert not old or (run / "history.csv").read_text() == "old"
 
 
 @pytest.mark.parametrize("error", [OSError(5, "Input/output error"), KeyboardInterrupt()])
 def test_failure_of_the_last_rename_brings_the_old_back(tmp_path, monkeypatch, error):
     run = tmp_path / "run"
-    run.mkdir()
-    (run / "history.csv").write_text("old")
+    fill(run, text="old")
     rename = os.rename
 
     def failing(source, target):
@@ -58,7 +60,7 @@ def test_failure_of_the_last_rename_brings_the_old_back(tmp_path, monkeypatch, e
     monkeypatch.setattr(os, "rename", failing)
     with pytest.raises((OutputError, KeyboardInterrupt)):
         fill(run)
-    assert tree(tmp_path) == ["run", "run/history.csv"]
+    assert tree(tmp_path) == FILLED
     assert (run / "history.csv").read_text() == "old"
 
 
@@ -72,10 +74,11 @@ def test_folder_in_the_way(tmp_path):
 
 def test_force_replaces_a_folder(tmp_path):
     run = tmp_path / "run"
-    run.mkdir()
-    (run / "flank.csv").write_text("old")
+    with new_folder(run, force=False) as place:
+        (place / "inputs").mkdir()
+        (place / "inputs" / "flank.csv").write_text("old")
     fill(run)
-    assert tree(tmp_path) == ["run", "run/history.csv"]
+    assert tree(tmp_path) == FILLED
 
 
 def test_force_does_not_replace_a_file(tmp_path):
@@ -205,5 +208,63 @@ def test_result_that_a_killed_process_moved_aside_comes_back(tmp_path, writer):
     process.communicate()
     with pytest.raises(OutputError, match="must not exist yet"), new_folder(run, force=False):
         pass
-    assert tree(tmp_path) == ["run", "run/history.csv"]
+    assert tree(tmp_path) == FILLED
     assert (run / "history.csv").read_text() == "new"
+
+
+def test_marker_names_what_was_written(tmp_path):
+    run = tmp_path / "run"
+    with new_folder(run, force=False) as place:
+        (place / "inputs").mkdir()
+        (place / "inputs" / "a.csv").write_text("a")
+        (place / "history.csv").write_text("new")
+    head, *names = (run / ".wearsim").read_text().splitlines()
+    assert head.startswith(f"written by wearsim {__version__}")
+    assert names == ["history.csv", "inputs/a.csv"]
+
+
+@pytest.mark.parametrize("name", ["notes.csv", "inputs/notes.csv", "result.json"])
+def test_what_the_marker_does_not_name_is_kept(tmp_path, name):
+    run = tmp_path / "run"
+    fill(run, text="old")
+    (run / "inputs").mkdir()
+    (run / name).write_text("mine")
+    with pytest.raises(OutputError, match=f"must hold nothing but a result to be replaced, but holds {name}"):
+        fill(run)
+    assert (run / name).read_text() == "mine"
+    assert (run / "history.csv").read_text() == "old"
+
+
+FORMER = {
+    "result.json": '{\n "schema_version": 1}',
+    "index.html": '<meta charset="utf-8">\n<meta name="generator" content="wearsim 0.1.0">',
+    "calibrated.toml": "",
+}
+
+
+@pytest.mark.parametrize("name", FORMER)
+def test_folder_of_before_there_were_markers_is_replaced(tmp_path, name):
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / name).write_text(FORMER[name])
+    (run / "flank.csv").write_text("old")
+    (run / "inputs").mkdir()
+    (run / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match=r"but holds notes\.txt"):
+        fill(run)
+    (run / "notes.txt").unlink()
+    (run / "other.html").write_text("mine")
+    with pytest.raises(OutputError, match=r"but holds other\.html"):
+        fill(run)
+    (run / "other.html").unlink()
+    fill(run)
+    assert tree(tmp_path) == FILLED
+
+
+@pytest.mark.parametrize("name", ["result.json", "index.html", "flank.csv"])
+def test_folder_of_another_program_is_not_replaced(tmp_path, name):
+    run = tmp_path / "run"
+    run.mkdir()
+    (run / name).write_text("{}")
+    with pytest.raises(OutputError, match=f"but holds {name}"):
+        fill(run)

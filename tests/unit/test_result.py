@@ -127,6 +127,7 @@ def test_files_and_columns(results):
     _, folder = results("points")
     names = sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
     assert names == [
+        ".wearsim",
         "case.lock.toml",
         "environment.json",
         "flank.csv",

@@ -10,8 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.catalogue.catalogues import chains
-from wearsim.catalogue.factors import rows
+from wearsim.catalogue.catalogues import chains, rows
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,

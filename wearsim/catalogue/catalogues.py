@@ -1,4 +1,4 @@
-"""Chains, materials, wear conditions and regimes of loading, read from the data files beside this one."""
+"""Chains, materials, wear conditions, regimes, factors of handbooks, from the data files beside this one."""
 
 import csv
 import difflib
@@ -6,6 +6,8 @@ import re
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+
+from wearsim.errors import CaseError, Fault
 
 
 @cache
@@ -100,11 +102,12 @@ class WearCondition:
     joint_source: str  # where the numbers of the joints come from
 
 
-def rows(table: str) -> list[dict[str, str]]:
+@cache
+def rows(table: str) -> tuple[dict[str, str], ...]:
     """Return a table as it stands in its file."""
     path = Path(__file__).with_name(f"{table}.csv")
     with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        return tuple(csv.DictReader(file))
 
 
 @cache
@@ -248,6 +251,25 @@ def wear_conditions() -> dict[str, WearCondition]:
         )
         for row in rows("wear_conditions")
     }
+
+
+def factor(table: str, **keys: str) -> float:
+    """Return the factor of the row whose columns hold given words.
+
+    Examples
+    --------
+    >>> factor("application_factors", driver="smooth", driven="heavy shocks")
+    1.8
+    """
+    left = rows(table)
+    for column, word in keys.items():
+        known = dict.fromkeys(row[column] for row in left)
+        if word not in known:
+            allowed = f"{', '.join(known)}, is {word!r}{nearest(word, list(known))}"
+            place = table.replace("_", " ")
+            raise CaseError([Fault(f"{place}: {column} must be one of {allowed}")])
+        left = tuple(row for row in left if row[column] == word)
+    return float(left[0]["factor"])
 
 
 def nearest(name: str, names: "list[str] | dict[str, object]") -> str:

@@ -6,7 +6,7 @@ The tables are empirical and written in the handbooks' units: speed in rpm.
 import math
 from itertools import pairwise
 
-from wearsim.catalogue.factors import factor, rows
+from wearsim.catalogue.catalogues import factor, rows
 from wearsim.chain.power_rating import strand_factor
 from wearsim.errors import CaseError, Fault
 

@@ -3,7 +3,7 @@
 The formulas are empirical and written in the handbooks' units: power in kW, speed in rpm.
 """
 
-from wearsim.catalogue.factors import factor
+from wearsim.catalogue.catalogues import factor
 
 HORSEPOWER = 0.745699872
 """1 hp = 550 ft lbf/s [kW]."""

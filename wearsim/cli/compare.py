@@ -8,7 +8,7 @@ import click
 from wearsim.command.cases_and_runs import results_of
 from wearsim.command.complete import RunPath
 from wearsim.command.options import SOME_FAILED, overrides, standard, warn
-from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
+from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")

@@ -12,7 +12,7 @@ from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.export.wheel_shapes import State
+    from wearsim.export.wheel_states import State
     from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv", "step")

@@ -22,7 +22,7 @@ from wearsim.command.options import (
     working,
     worn,
 )
-from wearsim.command.workbook import check_workbook, workbook_option, write_workbook
+from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def _check_parquet(out: Path | None, parquet: bool) -> None:
         return
     if out is None:
         raise click.UsageError("--parquet needs --out, the folder for its files")
-    from wearsim.result.parquet import pyarrow
+    from wearsim.result.folder import pyarrow
 
     pyarrow()
 
@@ -179,7 +179,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         content = life_json(result)
         if grid is not None:
-            from wearsim.report.grid_convergence import grid_json
+            from wearsim.report.answer import grid_json
 
             content["grid"] = grid_json(grid)
         print_json(content, path, result.warnings)
@@ -188,7 +188,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         click.echo(answer(result, str(path)))
         if grid is not None:
-            from wearsim.report.grid_convergence import grid_text
+            from wearsim.report.answer import grid_text
 
             click.echo(grid_text(grid))
 

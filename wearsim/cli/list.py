@@ -35,7 +35,7 @@ def _rows(table: str) -> list[dict[str, str]]:
         return [_case(path) for path in shipped_cases()]
     from wearsim.catalogue.catalogues import rows
 
-    return rows(table.replace("-", "_"))
+    return list(rows(table.replace("-", "_")))
 
 
 def shipped_cases() -> list[Path]:

@@ -6,7 +6,7 @@ import click
 
 from wearsim.command.complete import CasePath
 from wearsim.command.options import load_cases, overrides, standard
-from wearsim.errors import OutputError
+from wearsim.command.single_file import check_place
 
 
 @click.command(short_help="The working flank as a CSV file of points.")
@@ -23,12 +23,7 @@ from wearsim.errors import OutputError
 @standard
 def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
-    from wearsim.files import check_free, write_file
-
-    if str(out) != "-":
-        check_free(out, force)
-        if out.resolve() == case.resolve():
-            raise OutputError(f"{out}: must not be the case itself: choose another place")
+    check_place(out, case, force)
     (loaded,) = load_cases([case], settings, as_json=False)
     from wearsim.report.flank_table import profile_table
 
@@ -36,4 +31,6 @@ def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> No
     if str(out) == "-":
         click.echo(text, nl=False)
     else:
+        from wearsim.files import write_file
+
         write_file(out, text, force)

@@ -38,7 +38,7 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
     opened = _Opened(case, settings)
     opened()
-    from wearsim.page.listening_socket import loopback_socket
+    from wearsim.page.guard import loopback_socket
 
     listener = loopback_socket(port)
     from wearsim.page.server import serve  # takes a second

@@ -1,10 +1,19 @@
-"""What commands that write one file share: its place, its ending, stdout for ``-``."""
+"""What commands that write one file share: its place, its ending, stdout for ``-``; and ``--xlsx``."""
 
 import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
 
 from wearsim.command.options import warn
 from wearsim.errors import OutputError
+
+if TYPE_CHECKING:
+    from wearsim.result import WearResult
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def check_place(place: Path, source: Path, force: bool) -> None:
@@ -36,3 +45,34 @@ def write_content(place: Path, content: bytes, force: bool) -> None:
 
     write_file(place, content, force)
     warn(f"written to {place}")
+
+
+def workbook_option(function: Function) -> Function:
+    """Add ``--xlsx``."""
+    return click.option(
+        "--xlsx",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="New workbook with answers, tables, charts and inputs (pip install 'wearsim[report]').",
+    )(function)
+
+
+def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
+    """Find what is in the way of a workbook before the first case runs."""
+    if xlsx is None:
+        return
+    from wearsim.report import workbook
+
+    if out is not None and out.resolve() == xlsx.resolve():
+        raise OutputError(f"{xlsx}: must not be the folder of --out: choose another place")
+    workbook.check_workbook(xlsx, force)
+
+
+def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool) -> None:
+    """Write results into a workbook, with titles that tell them apart, and say where it is."""
+    from wearsim.report.comparison import distinct
+    from wearsim.report.workbook import save_workbook
+
+    names = [str(path) for path in results]
+    save_workbook(distinct(list(results.values()), names), file, force)
+    warn(f"written to {file}")

@@ -7,22 +7,25 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from wearsim.files import write_file
-from wearsim.report.figure_text import literal
-from wearsim.report.figures import picture_bytes
+from wearsim.files import mark, write_file
+from wearsim.report.figures import literal, picture_bytes
+
+_KINDS = ("png", "svg")
 
 
 def save_texts(folder: Path, files: Mapping[str, str]) -> None:
     """Write the tables of a study, each in place of that of an earlier run."""
+    mark(folder, files)
     for name, content in files.items():
         write_file(folder / name, content, force=True)
 
 
 def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
     """Write the pictures of a study as PNG and SVG."""
+    mark(folder, (f"{name}.{kind}" for name in figures for kind in _KINDS))
     for name, figure in figures.items():
         figure.suptitle(literal(title), fontsize=10)
-        for kind in ("png", "svg"):
+        for kind in _KINDS:
             write_file(folder / f"{name}.{kind}", picture_bytes(figure, kind), force=True)
 
 

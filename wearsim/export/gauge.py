@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from shapely.geometry.polygon import orient
 
-from wearsim.export.wheel_shapes import WheelShape
+from wearsim.export.wheel_states import WheelShape
 from wearsim.geometry.outline import along_ways, turned
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.stretch import Stretch, angle_between, arc_about_axis, line

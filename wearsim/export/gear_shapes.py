@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from wearsim.export.wheel_shapes import WheelShape
+from wearsim.export.wheel_states import WheelShape
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_function
 from wearsim.geometry.outline import turned

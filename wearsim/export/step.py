@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.export.wheel_shapes import State, WheelShape
+from wearsim.export.wheel_states import State, WheelShape
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.stretch import Stretch
 from wearsim.geometry.wheel import Chain

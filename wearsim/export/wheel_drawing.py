@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from wearsim.export.dxf_writer import add_polyline, new_drawing
-from wearsim.export.wheel_shapes import State, WheelShape
+from wearsim.export.wheel_states import State, WheelShape
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -1,58 +1,22 @@
 """The wheels of a case, new and worn, as outlines for CAD."""
 
 import math
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
+from wearsim.export.gear_shapes import gear_shapes
+from wearsim.export.wheel_states import WheelShape
 from wearsim.geometry.blank import gap_space, tooth_space
 from wearsim.geometry.profile import Vector
-from wearsim.geometry.wheel import Chain, Space, ring, worn_gap, worn_space
+from wearsim.geometry.wheel import Space, worn_gap, worn_space
 from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.mechanisms.prescribed.drive import PrescribedDrive
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.report.flank_view import flanks
 from wearsim.result import WearResult
-
-State = Literal["new", "worn"]
-
-
-@dataclass(frozen=True, eq=False)
-class WheelShape:
-    """A wheel, new and worn."""
-
-    name: str  # `sprocket`, `pinion` or `wheel`
-    # new, worn: spaces between the teeth, counterclockwise; no worn ones without a run
-    new: tuple[Space, ...]
-    worn: tuple[Space, ...]
-    # radius of the circle that rolls, or through the centres of the rollers [mm]
-    pitch_radius: float
-    width: float  # of the face [mm]
-    notes: tuple[str, ...]  # what the outline takes for granted
-    turn: float = 0.0  # angle by which the first space is turned from +y counterclockwise [rad]
-    centre: tuple[float, float] = (0.0, 0.0)  # where the axis lies [mm]
-    most_worn: int = 0  # index of a space that is worn most
-
-    def chains(self, state: State) -> tuple[Chain, ...]:
-        """Return the outline in one state, where it lies in the drawing."""
-        spaces = self.new if state == "new" else self.worn
-        return tuple(chain.moved(self.centre) for chain in ring(spaces, self.turn))
-
-    @property
-    def tip_radius(self) -> float:
-        """Radius of the tips of the new teeth [mm]."""
-        space = self.new[0]
-        return math.hypot(*(space.left or space.right)[-1].vertices[-1])
-
-    @property
-    def root_radius(self) -> float:
-        """Least radius of the new outline [mm], of the flanks where there is no root."""
-        stretches = self.new[0].right + self.new[0].left
-        return min(float(np.hypot(*part.vertices.T).min()) for part in stretches)
 
 
 def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...]:
@@ -65,8 +29,6 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
         )
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     if isinstance(drive, GearDrive):
-        from wearsim.export.gear_shapes import gear_shapes
-
         return gear_shapes(drive, result)
     if isinstance(drive, StrandDrive):
         return (_strand_shape(case, drive, result),)

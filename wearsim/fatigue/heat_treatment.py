@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import cache
 
-from wearsim.catalogue.factors import rows
+from wearsim.catalogue.catalogues import rows
 
 HB_PER_HRC = 10.0
 """Of the source: 1 HRC is about 10 HB."""

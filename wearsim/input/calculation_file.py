@@ -6,8 +6,7 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from wearsim.input.document import Document, Source, read_document
-from wearsim.input.schema.calculation import CalculationTables
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)
 

@@ -69,3 +69,15 @@ def flank_frame(
         curvature[j] = 2.0 * (ax * by - ay * bx) * curvature[j]
     _end_frame(x, y, normal_x, normal_y, curvature, spacing_squared, 0, 1)
     _end_frame(x, y, normal_x, normal_y, curvature, spacing_squared, n - 1, -1)
+
+
+@kernel(void(VECTOR, VECTOR, VECTOR))
+def add_second_difference(arc: Vector, depth: Vector, curvature: Vector) -> None:
+    """Add that of the depth over the arc at every inner point; both end points keep their curvature.
+
+    Equation physics.md (A1), its last term.
+    """
+    for j in range(1, depth.size - 1):
+        before, after = arc[j] - arc[j - 1], arc[j + 1] - arc[j]
+        rise, fall = (depth[j + 1] - depth[j]) / after, (depth[j] - depth[j - 1]) / before
+        curvature[j] += 2.0 * (rise - fall) / (before + after)

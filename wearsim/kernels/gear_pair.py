@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.flank_geometry import add_second_difference
 from wearsim.kernels.gear_rows import (
     ARC,
     CURVATURE,
@@ -27,7 +28,6 @@ from wearsim.kernels.gear_rows import (
     STIFFNESS,
     TORQUE,
 )
-from wearsim.kernels.second_difference import add_second_difference
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.second_difference import add_second_difference
+from wearsim.kernels.flank_geometry import add_second_difference
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:

@@ -1,7 +1,11 @@
 """Nobody but the page itself talks to the server: other sites in the same browser are refused."""
 
+import os
+import socket
 from collections.abc import Awaitable, Callable, Mapping, MutableMapping
 from typing import Any
+
+from wearsim.errors import OutputError
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
@@ -11,6 +15,30 @@ Application = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 _NAMES = ("127.0.0.1", "localhost", "[::1]")
 _OWN_SITES = ("same-origin", "none")
+
+
+def loopback_socket(port: int) -> socket.socket:
+    """Return a socket that browsers of this machine can connect to.
+
+    Examples
+    --------
+    >>> with loopback_socket(0) as listener:
+    ...     listener.getsockname()[0]
+    '127.0.0.1'
+    """
+    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        if os.name == "posix":  # elsewhere it would share a port that is in use
+            found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        found.bind((_NAMES[0], port))
+        found.listen()
+    except OSError as error:
+        found.close()
+        reason = error.strerror or str(error)
+        raise OutputError(
+            f"--port {port}: must be free, but: {reason}: choose another, or leave it out"
+        ) from None
+    return found
 
 
 class Guard:

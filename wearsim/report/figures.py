@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Circle
 
-from wearsim.report.figure_text import literal
 from wearsim.report.flank_view import at_life, life_time, outline, snapshot
 from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
 from wearsim.result import Life, WearResult
@@ -158,3 +157,14 @@ def depth_figure(results: list[WearResult]) -> Figure:
     panels[0].set_title(title, fontsize=9, loc="left")
     panels[0].legend(frameon=False, fontsize=8)
     return figure
+
+
+def literal(text: str) -> str:
+    r"""Return a text that a figure shows as it is.
+
+    Examples
+    --------
+    >>> print(literal("3 $ an hour"))
+    3 \$ an hour
+    """
+    return text.replace("$", r"\$")

@@ -1,24 +1,20 @@
 """The folder of a result: written all of it or nothing, read back number by number."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from wearsim.chain.selection import Finding
 from wearsim.errors import OutputError
+from wearsim.extras import library
 from wearsim.files import new_folder
 from wearsim.geometry.profile import Vector
+from wearsim.quantities import quantities
 from wearsim.result.life import Life, LimitState, LowerBound
-from wearsim.result.parquet import write_parquet
-
-if TYPE_CHECKING:
-    from wearsim.result.wear_result import WearResult
 
 SCHEMA_VERSION = 1
 
@@ -80,31 +76,53 @@ FILE_KEYS = (
 """Tables and keys of the inputs that name a file."""
 
 
-def write_result(result: WearResult, folder: Path, force: bool, parquet: bool) -> None:
-    """Write a result into a folder."""
+def write_result(
+    result: Mapping[str, Any], summary: Mapping[str, Any], folder: Path, force: bool, parquet: bool
+) -> None:
+    """Write the fields of a result into a folder, with what is shown of them."""
+    import pandas as pd
+
     with new_folder(folder, force) as place:
-        lives = {name: asdict(getattr(result, name)) for name in ("life", "life_low", "life_high")}
-        parts = {name: asdict(life) for name, life in result.parts.items()}
-        stored = {**result.summary(), "lives": lives, "parts": parts}
-        _write_json(place / "result.json", stored)
-        _write_json(place / "environment.json", dict(result.environment))
-        (place / "case.lock.toml").write_text(_lock(result), encoding="utf-8")
-        for name, text in result.input_files.items():
+        lives = {name: asdict(result[name]) for name in ("life", "life_low", "life_high")}
+        parts = {name: asdict(life) for name, life in result["parts"].items()}
+        _write_json(place / "result.json", {**summary, "lives": lives, "parts": parts})
+        _write_json(place / "environment.json", result["environment"])
+        (place / "case.lock.toml").write_text(_lock(result["case"], result["inputs"]), encoding="utf-8")
+        for name, text in result["input_files"].items():
             (place / _INPUTS).mkdir(exist_ok=True)
             (place / _INPUTS / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        result.history.to_csv(place / "history.csv", index=False)
-        result.flank.to_csv(place / "flank.csv", index=False)
-        if parquet:
-            write_parquet(place / "history.parquet", result.history_columns)
-            write_parquet(place / "flank.parquet", result.flank_columns)
+        for name in ("history", "flank"):
+            columns = result[f"{name}_columns"]
+            pd.DataFrame(columns).to_csv(place / f"{name}.csv", index=False)
+            if parquet:
+                _write_parquet(place / f"{name}.parquet", columns)
 
 
-def _lock(result: WearResult) -> str:
+def pyarrow() -> Any:
+    """Return the library that writes Parquet."""
+    return library("pyarrow", "parquet", "--parquet")
+
+
+def _write_parquet(path: Path, columns: Mapping[str, Vector]) -> None:
+    """Write a table; the unit of each column stands in the metadata of its field."""
+    arrow = pyarrow()
+    from pyarrow import parquet
+
+    arrays = [arrow.array(values) for values in columns.values()]
+    fields = [
+        arrow.field(name, array.type, metadata={"unit": quantities()[name].unit})
+        for name, array in zip(columns, arrays, strict=True)
+    ]
+    table = arrow.Table.from_arrays(arrays, schema=arrow.schema(fields))
+    parquet.write_table(table, path, compression="zstd")
+
+
+def _lock(case: str, inputs: Mapping[str, Any]) -> str:
     import tomlkit
 
     document = tomlkit.document()
-    document.add(tomlkit.comment(f"{result.case} with every default taken by wearsim"))
-    for key, value in with_files(result.inputs, _INPUTS).items():
+    document.add(tomlkit.comment(f"{case} with every default taken by wearsim"))
+    for key, value in with_files(inputs, _INPUTS).items():
         if value != {}:
             document.add(key, value)
     return tomlkit.dumps(document)

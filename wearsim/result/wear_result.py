@@ -238,7 +238,7 @@ class WearResult:
         CaseError
             pyarrow is not installed, which Parquet needs.
         """
-        write_result(self, Path(folder), force, parquet)
+        write_result(vars(self), self.summary(), Path(folder), force, parquet)
 
     @classmethod
     def load(cls, folder: str | Path) -> WearResult:

@@ -11,23 +11,12 @@ from typing import Any
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import write_file
+from wearsim.files import mark, write_file, written
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import COLUMNS, Rows, Shard
 
 MANIFEST = "study.json"
 _SHARDS = "shards"
-_FIGURES = ("curves", "heat_map", "parallel", "lives", "convergence", "tornado", "front")
-_WRITTEN = (
-    "cases.csv",
-    "summary.md",
-    "convergence.csv",
-    "sensitivity.csv",
-    "candidates.csv",
-    "front.csv",
-    *(f"{name}.{kind}" for name in _FIGURES for kind in ("png", "svg")),
-)
-"""Tables and pictures of studies."""
 
 DESIGNS, DESIGN_MARK = "designs", " of wearsim optimise "
 """Folder of the best designs, and what stands in the first line of each."""
@@ -108,6 +97,7 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
     if old is not None:
         _clear(folder)
     write_file(folder / MANIFEST, text, force=True)
+    mark(folder, ())
     return Store(folder)
 
 
@@ -154,8 +144,9 @@ def _manifest(design: Design, told: Mapping[str, Any]) -> str:
 def _clear(folder: Path) -> None:
     """Remove what another study wrote about all of its cases, before this one has run."""
     try:
-        for name in _WRITTEN:
-            (folder / name).unlink(missing_ok=True)
+        own = written(folder)
+        for path in [path for path in folder.iterdir() if path.name in own]:
+            path.unlink()
         for path in own_designs(folder / DESIGNS):
             path.unlink()
     except OSError as error:

@@ -5,8 +5,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
-from wearsim.input.schema.calculation import CalculationTables
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 from wearsim.mechanisms.gear_pair.keys import Teeth
 

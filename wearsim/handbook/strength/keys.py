@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.fatigue import (
     NITRIDED_LIMIT,
     AtLeastOne,
@@ -16,7 +15,7 @@ from wearsim.input.schema.fatigue import (
     one_hardness,
 )
 from wearsim.input.schema.load import Regime
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 
 OVERLOAD_CYCLES = 5e4

@@ -8,8 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from wearsim.catalogue.catalogues import regimes
-from wearsim.catalogue.factors import rows
+from wearsim.catalogue.catalogues import regimes, rows
 from wearsim.errors import GeometryError
 from wearsim.handbook.strength.keys import OVERLOAD_CYCLES
 

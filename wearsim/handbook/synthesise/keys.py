@@ -5,11 +5,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.material import MaterialTable
-from wearsim.input.schema.stress_along_line import listed, stress_conflicts
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
+from wearsim.mechanisms.gear_pair.keys import listed, stress_conflicts
 
 
 class GearPairTable(Table):

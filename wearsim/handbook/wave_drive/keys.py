@@ -4,8 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.calculation import CalculationTables
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber
 
 Formula = Literal["corrected", "printed"]

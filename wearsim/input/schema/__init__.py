@@ -2,7 +2,6 @@
 
 from pydantic import Field
 
-from wearsim.input.schema.calculation import FormatVersion
 from wearsim.input.schema.chain import ChainTable
 from wearsim.input.schema.drive import DriveTable, JointTable, MechanismTable
 from wearsim.input.schema.fatigue import SprocketFatigueTable
@@ -12,7 +11,7 @@ from wearsim.input.schema.material import MaterialsTable, MaterialTable
 from wearsim.input.schema.optimise import OptimiseTable
 from wearsim.input.schema.run import RunTable, StopTable
 from wearsim.input.schema.sprocket import SprocketTable
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import FormatVersion, Table
 from wearsim.input.schema.uncertainty import Uncertainty
 from wearsim.input.schema.wear import WearTable
 

@@ -1,8 +1,8 @@
 """What every table of the input file has in common."""
 
-from typing import Any, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 from wearsim.catalogue.catalogues import nearest
@@ -50,3 +50,20 @@ class Table(BaseModel):
         if found:
             raise PydanticCustomError("conflicts", "keys do not fit together", {"faults": found})
         return self
+
+
+def whole(value: object) -> object:
+    """Return a version, or raise where it is no whole number."""
+    if type(value) is not int:
+        raise ValueError("must be 1")
+    return value
+
+
+FormatVersion = Annotated[Literal[1], BeforeValidator(whole)]
+
+
+class CalculationTables(Table):
+    """The tables of an input file that is about no drive."""
+
+    format_version: FormatVersion
+    title: str = ""

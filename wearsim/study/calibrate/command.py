@@ -78,8 +78,8 @@ def calibrate(
     if out is not None:
         from wearsim.files import check_folder
 
-        check_folder(out, force)
         _check_apart(out, (case, measurements))
+        check_folder(out, force)
     from wearsim.study.calibrate.calibration import Options
     from wearsim.study.calibrate.model import calibrate as calibrated
     from wearsim.study.calibrate.sheet import calibration_json, calibration_text, save_calibration

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from wearsim.command.study_files import save_texts
 from wearsim.errors import OutputError
 from wearsim.files import write_file
 from wearsim.input.document import retitled
@@ -30,7 +29,8 @@ def save_designs(folder: Path, heads: Mapping[str, str], cases: Design) -> None:
         name: _case_text(head, retitled(cases.tables_of(at), cases.tables), placed)
         for at, (name, head) in enumerate(heads.items())
     }
-    save_texts(folder, texts)
+    for name, content in texts.items():
+        write_file(folder / name, content, force=True)
 
 
 def _check_free(folder: Path, names: set[str]) -> None:

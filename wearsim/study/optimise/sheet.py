@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.report.lines import grouped
+from wearsim.report.lines import grouped, kinds
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.figure import optimise_figures
@@ -20,7 +20,6 @@ from wearsim.study.optimise.trials import (
     limit_names,
     margins,
 )
-from wearsim.study.similar_texts import kinds
 
 _SAME = 1e-6
 """Relative scatter of a measure that is none."""

@@ -10,12 +10,12 @@ import pandas as pd
 from wearsim.case.model import Case
 from wearsim.errors import StudyError, WearsimError
 from wearsim.input.schema.optimise import MeasureLimit
+from wearsim.report.lines import kinds
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
 from wearsim.simulation import new_peak_pressure
 from wearsim.study.optimise.mass import blank_mass
 from wearsim.study.optimise.model import OptimiseStudy
-from wearsim.study.similar_texts import kinds
 
 MAXIMISED = ("life_hours",)
 """Measures of which more is better; of the others less is."""

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from wearsim.quantities import quantities
-from wearsim.report.figure_text import literal
+from wearsim.report.figures import literal
 from wearsim.report.lines import grouped
 from wearsim.study.sweep.model import Sweep
 

@@ -4,9 +4,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, PositiveInt, field_validator
 
-from wearsim.input.schema.calculation import CalculationTables
 from wearsim.input.schema.dotted import Finite, all_differ, dotted, list_or
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import CalculationTables, Table
 
 Value = bool | Finite | str | list[bool | Finite | str]
 Values = Annotated[list[Value], Field(min_length=1)]

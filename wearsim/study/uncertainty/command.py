@@ -13,7 +13,7 @@ from wearsim.command.study_run import exit_code, run
 
 if TYPE_CHECKING:
     from wearsim.study.uncertainty.model import Method
-    from wearsim.study.uncertainty.sheet import Answer
+    from wearsim.study.uncertainty.sampled_lives import Answer
 
 
 _ROUNDING = 1e-9
@@ -81,13 +81,8 @@ def uncertainty(
     table = run(study.design, place, told, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0
-    from wearsim.study.uncertainty.sheet import (
-        Answer,
-        save_uncertainty,
-        uncertainty_json,
-        uncertainty_text,
-        warnings_of,
-    )
+    from wearsim.study.uncertainty.sampled_lives import Answer, warnings_of
+    from wearsim.study.uncertainty.sheet import save_uncertainty, uncertainty_json, uncertainty_text
 
     code, answer = exit_code(table), Answer(study, table)
     if cross_check:

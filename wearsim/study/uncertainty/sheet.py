@@ -1,74 +1,17 @@
 """What is shown of the uncertainty of a life: text, JSON, tables and pictures."""
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.geometry.profile import Vector
 from wearsim.report.lines import grouped
-from wearsim.study.similar_texts import kinds
-from wearsim.study.uncertainty.cross_check import CrossCheck
-from wearsim.study.uncertainty.cross_check_sheet import cross_check_json, cross_check_lines
+from wearsim.study.uncertainty.cross_check import Bounded, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
-from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Flags, Percentile, fits, percentile
-
-SHARES = (0.1, 0.5, 0.9)
-_MOST_KINDS = 8
-_FEWEST = 16
-"""Samples from which the convergence of the percentiles is followed."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """The lives of the samples and what they tell."""
-
-    study: UncertaintyStudy  # what was asked
-    table: pd.DataFrame  # a row for each sample, of `run_study`
-    # the fits as another library repeats them, where that was asked
-    crossed: CrossCheck | None = None
-
-    @cached_property
-    def sound(self) -> pd.DataFrame:
-        """Rows of the samples that did not fail."""
-        return self.table[self.table["error"] == ""]
-
-    @property
-    def reached(self) -> Flags:
-        """Whether each of them is a life, not a bound."""
-        return self.sound["life_hours"].notna().to_numpy()
-
-    @property
-    def hours(self) -> Vector:
-        """Lives, or how long they are at least [h]."""
-        return self.sound["hours_run"].to_numpy(float)
-
-    @cached_property
-    def percentiles(self) -> tuple[Percentile, ...]:
-        """P10, P50 and P90."""
-        return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
-
-    @cached_property
-    def fits(self) -> list[Fit]:
-        """Distributions fitted to the lives, the better one first."""
-        return fits(self.hours, self.reached)
-
-    @cached_property
-    def convergence(self) -> pd.DataFrame:
-        """Percentiles of the first samples, doubled from row to row up to all; nan for a bound."""
-        count = len(self.sound)
-        counts = [count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST]
-        rows = []
-        for some in reversed(counts or [count]):
-            found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
-            names = [f"p{100 * share:.0f}_hours" for share in SHARES]
-            known = (one.hours if one.known else math.nan for one in found)
-            rows.append({"samples": some} | dict(zip(names, known, strict=True)))
-        return pd.DataFrame(rows)
+from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Percentile
+from wearsim.study.uncertainty.sampled_lives import Answer, warnings_of
 
 
 def uncertainty_text(answer: Answer) -> str:
@@ -85,7 +28,7 @@ def uncertainty_text(answer: Answer) -> str:
             f"{fit.log_likelihood:.1f}"
         )
     if answer.crossed is not None:
-        lines += cross_check_lines(answer.crossed)
+        lines += _cross_check_lines(answer.crossed)
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
@@ -102,36 +45,6 @@ _OF_INTERVALS = (
     f"intervals hold the percentile with {100 * CONFIDENCE:.0f} % confidence for independent samples, "
     "whatever the distribution; they do not tell of errors of the model"
 )
-
-
-def warnings_of(answer: Answer) -> list[str]:
-    """Return what is doubtful about the percentiles."""
-    found = []
-    failed, count = len(answer.table) - len(answer.sound), len(answer.table)
-    if failed:
-        found.append(
-            f"{failed} of {count} samples failed and are left out: the percentiles hold only for designs "
-            "that can run"
-        )
-    if not all(one.known for one in answer.percentiles):
-        found.append("percentiles beyond run.horizon_hours are only bounds: raise it")
-    if answer.study.method == "sobol" and count & (count - 1):
-        below = 1 << (count.bit_length() - 1)
-        found.append(
-            f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
-        )
-    if answer.crossed is not None:
-        found += answer.crossed.doubts
-    return found + _of_samples(answer.sound["warnings"])
-
-
-def _of_samples(warnings: "pd.Series[str]") -> list[str]:
-    """Warnings of the samples, those that differ in their numbers only as one."""
-    most = kinds(text for joined in warnings for text in filter(None, joined.split("\n")))
-    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]]
-    if len(most) > _MOST_KINDS:
-        found.append(f"and {len(most) - _MOST_KINDS} other kinds of warnings, see cases.csv")
-    return found
 
 
 def uncertainty_json(answer: Answer) -> dict[str, Any]:
@@ -162,7 +75,7 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
         for f in answer.fits
     ]
     if answer.crossed is not None:
-        content["cross_check"] = cross_check_json(answer.crossed)
+        content["cross_check"] = _cross_check_json(answer.crossed)
     content["convergence"] = [
         {name: plain(value) for name, value in row.items()} for row in answer.convergence.to_dict("records")
     ]
@@ -211,3 +124,34 @@ def _columns(table: pd.DataFrame) -> list[str]:
         + "".join(f"{'not known' if math.isnan(value) else grouped(value):>12}" for value in row[1:])
         for row in table.itertuples(index=False)
     ]
+
+
+def _cross_check_lines(crossed: CrossCheck) -> list[str]:
+    """Return the repeated fits with the bounds of their parameters, as text."""
+    if not crossed.fits:
+        return [f"cross-check  by {crossed.library}: no fit"]
+    head = f"cross-check  by {crossed.library}, parameters with their 95 % bounds"
+    return [head, *(f"  {fit.name:<10} {_bounded_parameters(fit)}" for fit in crossed.fits)]
+
+
+def _bounded_parameters(fit: CrossFit) -> str:
+    shape = f"{fit.shape.value:.3f} ({fit.shape.low:.3f} to {fit.shape.high:.3f})"
+    scale = f"{grouped(fit.scale.value)} h ({grouped(fit.scale.low)} to {grouped(fit.scale.high)})"
+    if fit.name == "lognormal":
+        return f"median {scale}, sigma_ln {shape}"
+    return f"shape {shape}, scale {scale}"
+
+
+def _cross_check_json(crossed: CrossCheck) -> dict[str, Any]:
+    """Return the repeated fits as plain values."""
+    return {
+        "library": crossed.library,
+        "fits": [
+            {"name": fit.name} | _bounded("shape", fit.shape) | _bounded("scale_hours", fit.scale)
+            for fit in crossed.fits
+        ],
+    }
+
+
+def _bounded(name: str, found: Bounded) -> dict[str, float | None]:
+    return {name: plain(found.value), f"{name}_low": plain(found.low), f"{name}_high": plain(found.high)}

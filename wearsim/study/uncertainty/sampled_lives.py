@@ -1,0 +1,96 @@
+"""What the lives of the samples tell: percentiles, fits, how settled they are, and what is doubtful."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import pandas as pd
+
+from wearsim.geometry.profile import Vector
+from wearsim.report.lines import kinds
+from wearsim.study.uncertainty.cross_check import CrossCheck
+from wearsim.study.uncertainty.model import UncertaintyStudy
+from wearsim.study.uncertainty.percentiles import Fit, Flags, Percentile, fits, percentile
+
+SHARES = (0.1, 0.5, 0.9)
+_MOST_KINDS = 8
+_FEWEST = 16
+"""Samples from which the convergence of the percentiles is followed."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The lives of the samples and what they tell."""
+
+    study: UncertaintyStudy  # what was asked
+    table: pd.DataFrame  # a row for each sample, of `run_study`
+    # the fits as another library repeats them, where that was asked
+    crossed: CrossCheck | None = None
+
+    @cached_property
+    def sound(self) -> pd.DataFrame:
+        """Rows of the samples that did not fail."""
+        return self.table[self.table["error"] == ""]
+
+    @property
+    def reached(self) -> Flags:
+        """Whether each of them is a life, not a bound."""
+        return self.sound["life_hours"].notna().to_numpy()
+
+    @property
+    def hours(self) -> Vector:
+        """Lives, or how long they are at least [h]."""
+        return self.sound["hours_run"].to_numpy(float)
+
+    @cached_property
+    def percentiles(self) -> tuple[Percentile, ...]:
+        """P10, P50 and P90."""
+        return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
+
+    @cached_property
+    def fits(self) -> list[Fit]:
+        """Distributions fitted to the lives, the better one first."""
+        return fits(self.hours, self.reached)
+
+    @cached_property
+    def convergence(self) -> pd.DataFrame:
+        """Percentiles of the first samples, doubled from row to row up to all; nan for a bound."""
+        count = len(self.sound)
+        counts = [count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST]
+        rows = []
+        for some in reversed(counts or [count]):
+            found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
+            names = [f"p{100 * share:.0f}_hours" for share in SHARES]
+            known = (one.hours if one.known else math.nan for one in found)
+            rows.append({"samples": some} | dict(zip(names, known, strict=True)))
+        return pd.DataFrame(rows)
+
+
+def warnings_of(answer: Answer) -> list[str]:
+    """Return what is doubtful about the percentiles."""
+    found = []
+    failed, count = len(answer.table) - len(answer.sound), len(answer.table)
+    if failed:
+        found.append(
+            f"{failed} of {count} samples failed and are left out: the percentiles hold only for designs "
+            "that can run"
+        )
+    if not all(one.known for one in answer.percentiles):
+        found.append("percentiles beyond run.horizon_hours are only bounds: raise it")
+    if answer.study.method == "sobol" and count & (count - 1):
+        below = 1 << (count.bit_length() - 1)
+        found.append(
+            f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
+        )
+    if answer.crossed is not None:
+        found += answer.crossed.doubts
+    return found + _of_samples(answer.sound["warnings"])
+
+
+def _of_samples(warnings: "pd.Series[str]") -> list[str]:
+    """Warnings of the samples, those that differ in their numbers only as one."""
+    most = kinds(text for joined in warnings for text in filter(None, joined.split("\n")))
+    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]]
+    if len(most) > _MOST_KINDS:
+        found.append(f"and {len(most) - _MOST_KINDS} other kinds of warnings, see cases.csv")
+    return found
