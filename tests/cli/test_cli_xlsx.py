@@ -11,9 +11,9 @@ import openpyxl
 import pandas as pd
 import pytest
 
+from wearsim.input.kind import MECHANISMS
 from wearsim.quantities import quantities
 from wearsim.result import WearResult
-from wearsim.result.folder import FLANK_COLUMNS
 
 WRAP = """
 format_version = 1
@@ -216,7 +216,7 @@ def test_comparison_of_runs_and_cases(cli, case, drive, tmp_path):
     texts = [cell.value or "" for cell in sheets["Comparison"]["B"]]
     assert any("limits differ" in str(text) for text in texts)
     wrap, _ = table(sheets["wrap"], FLANK_TITLE)
-    assert list(wrap) == list(FLANK_COLUMNS["wrap"])
+    assert list(wrap) == list(MECHANISMS["wrap"].flank)
 
 
 def test_inputs_tell_where_they_come_from(cli, drive, tmp_path):

@@ -19,6 +19,7 @@ from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.export.formats import wheel_points
 from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.input.csv_tables import read_prescribed
+from wearsim.input.kind import MECHANISMS
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
 from wearsim.input.schema.uncertainty import Distribution
@@ -27,7 +28,6 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
 from wearsim.report.loads_table import loads_json
-from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.runner.scatter import Scatter
 from wearsim.runner.shard import COLUMNS
 from wearsim.study.calibrate.model import calibrate
@@ -183,7 +183,7 @@ def written(tmp_path_factory):
         *wheel_points(wheel_shapes(case, None), ("new",)),
         *comparison_table([result]),
         *wrapped(),
-        *FLANK_COLUMNS["gear_pair"],
+        *MECHANISMS["gear_pair"].flank,
         *(
             "time_s",
             "turned",

@@ -12,12 +12,38 @@ WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
 """Tooth forms for a chain that wraps the sprocket."""
 
 
+HISTORY = (
+    "cycles",
+    "time_hours",
+    "max_depth_mm",
+    "peak_pressure_MPa",
+    "max_sliding_speed_mm_per_s",
+    "removed_area_mm2",
+    "worn_contact_ratio",
+)
+FLANK = (
+    "cycles",
+    "node",
+    "arc_length_mm",
+    "x_mm",
+    "y_mm",
+    "depth_mm",
+    "pressure_MPa",
+    "sliding_speed_mm_per_s",
+    "load_per_width_N_per_mm",
+    "relative_curvature_per_mm",
+)
+"""Columns of both tables where a mechanism names no others."""
+
+
 @dataclass(frozen=True)
 class MechanismEntry:
     """Where a mechanism stands; its modules are imported only for a case of it."""
 
     tables: str  # `module:class` of the tables of its input
     read: str  # `module:function` from a document to a complete case
+    history: tuple[str, ...] = HISTORY  # columns of history.csv
+    flank: tuple[str, ...] = FLANK  # columns of flank.csv
 
     def load(self, name: str) -> Any:
         """Return the object behind one of these fields."""
@@ -30,9 +56,24 @@ _CHAIN = "wearsim.input.schema:CaseTables"
 MECHANISMS = {
     "strand": MechanismEntry(_CHAIN, "wearsim.mechanisms.strand.build:read"),
     "prescribed": MechanismEntry(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
-    "wrap": MechanismEntry(_CHAIN, "wearsim.mechanisms.wrap.build:read"),
+    "wrap": MechanismEntry(
+        _CHAIN,
+        "wearsim.mechanisms.wrap.build:read",
+        (
+            *HISTORY[:3],
+            "elongation_percent",
+            "roller_wear_mm",
+            "chain",
+            *HISTORY[3:6],
+            "tip_land_mm",
+            "over_pins_mm",
+        ),
+        ("cycles", "gap_kind", *FLANK[1:6]),
+    ),
     "gear_pair": MechanismEntry(
-        "wearsim.mechanisms.gear_pair.keys:GearTables", "wearsim.mechanisms.gear_pair.build:read"
+        "wearsim.mechanisms.gear_pair.keys:GearTables",
+        "wearsim.mechanisms.gear_pair.build:read",
+        flank=(*FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
     ),
 }
 """The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""

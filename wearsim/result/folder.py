@@ -13,58 +13,11 @@ from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import new_folder
 from wearsim.geometry.profile import Vector
+from wearsim.input.kind import mechanism_of
 from wearsim.quantities import quantities
 from wearsim.result.life import Life, LimitState, LowerBound
 
 SCHEMA_VERSION = 1
-
-_HISTORY = (
-    "cycles",
-    "time_hours",
-    "max_depth_mm",
-    "peak_pressure_MPa",
-    "max_sliding_speed_mm_per_s",
-    "removed_area_mm2",
-    "worn_contact_ratio",
-)
-_FLANK = (
-    "cycles",
-    "node",
-    "arc_length_mm",
-    "x_mm",
-    "y_mm",
-    "depth_mm",
-    "pressure_MPa",
-    "sliding_speed_mm_per_s",
-    "load_per_width_N_per_mm",
-    "relative_curvature_per_mm",
-)
-
-HISTORY_COLUMNS = {
-    "strand": _HISTORY,
-    "prescribed": _HISTORY,
-    "gear_pair": _HISTORY,
-    "wrap": (
-        "cycles",
-        "time_hours",
-        "max_depth_mm",
-        "elongation_percent",
-        "roller_wear_mm",
-        "chain",
-        "peak_pressure_MPa",
-        "max_sliding_speed_mm_per_s",
-        "removed_area_mm2",
-        "tip_land_mm",
-        "over_pins_mm",
-    ),
-}
-FLANK_COLUMNS = {
-    "strand": _FLANK,
-    "prescribed": _FLANK,
-    "gear_pair": (*_FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
-    "wrap": ("cycles", "gap_kind", "node", "arc_length_mm", "x_mm", "y_mm", "depth_mm"),
-}
-"""Columns of both tables for every kind of mechanism."""
 
 _INPUTS = "inputs"
 FILE_KEYS = (
@@ -154,7 +107,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         )
     lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
     inputs = with_files(lock, "")
-    kind = inputs["mechanism"]["kind"]
+    mechanism = mechanism_of(inputs)
     same = (
         "case",
         "title",
@@ -174,7 +127,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         **{name: _life(life) for name, life in stored["lives"].items()},
         "parts": {name: _life(life) for name, life in stored["parts"].items()},
         "limits": tuple(LimitState(**state) for state in stored["limits"]),
-        "ratings": tuple(map(_rating, stored["ratings"])) if kind == "wrap" else (),
+        "ratings": tuple(map(_rating, stored.get("ratings", ()))),
         "max_depth": stored["max_depth_mm"],
         "max_depth_arc_length": stored["max_depth_arc_length_mm"],
         "removed_area": stored["removed_area_mm2"],
@@ -188,8 +141,8 @@ def _stored(folder: Path) -> dict[str, Any]:
             name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
             for name in _named(inputs)
         },
-        "history_columns": _read_columns(folder / "history.csv", HISTORY_COLUMNS[kind]),
-        "flank_columns": _read_columns(folder / "flank.csv", FLANK_COLUMNS[kind]),
+        "history_columns": _read_columns(folder / "history.csv", mechanism.history),
+        "flank_columns": _read_columns(folder / "flank.csv", mechanism.flank),
         "environment": json.loads((folder / "environment.json").read_text(encoding="utf-8")),
     }
 

@@ -11,7 +11,7 @@ import numpy as np
 from wearsim.case.model import Block, Case, Drive, heaviest
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.drive_layout import DriveLayout, Meetings
-from wearsim.chain.selection import Finding
+from wearsim.chain.selection import Finding, RatedDrive
 from wearsim.contact.criteria import Criterion, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
@@ -19,11 +19,22 @@ from wearsim.geometry.gap import Gap
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, roller_path
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
+from wearsim.mechanisms.wrap.chain_rating import (
+    drive_notes,
+    elongation_finding,
+    findings_by_load,
+    meetings_note,
+    rules_without_limit,
+    worst_findings,
+)
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.contact import WrapContact
     from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
 
+
+LIGHT_CHAIN = "085-1"
+"""Designation of no. 41, the light chain of 12.7 mm pitch."""
 
 JOINT_COEFFICIENT = "joint.specific_wear_rate_mm2_per_N"
 
@@ -245,17 +256,65 @@ class WrapDrive(Drive):
             f"slack tension of {self.slack:.4g} N the chain jumps: {remedy}"
         )
 
+    def rated_drive(self, case: Case, load: Block) -> RatedDrive:
+        """Return what the ratings need to know under a load: of the smaller sprocket.
+
+        Its teeth and speed follow from the chain's speed where the case is about the larger one.
+
+        Examples
+        --------
+        >>> import wearsim
+        >>> case = wearsim.load_case({
+        ...     "format_version": 1,
+        ...     "chain": {"designation": "ANSI 80"},
+        ...     "sprocket": {"teeth": 60, "profile": "ansi_b29", "role": "driven"},
+        ...     "drive": {"mate_teeth": 20, "links": 122},
+        ...     "load": {"power_kW": 30, "speed_rpm": 250},
+        ...     "wear": {"condition": "hardened, oiled"},
+        ... })
+        >>> found = case.drive.rated_drive(case, case.drive.heaviest)
+        >>> found.teeth, found.speed, round(found.power, 9)
+        (20.0, 750.0, 30.0)
+        """
+        layout, chain = self.layout, self.chain
+        mate = layout.teeth_2 if self.driver else layout.teeth_1
+        own = self.gaps / case.engaged_every
+        # 27 gaps of which every second carries a roller are 13.5 teeth, and no more than 13.
+        teeth = own if int(own) <= mate else float(mate)
+        pitches = own * load.speed_rpm
+        return RatedDrive(
+            pitch=chain.pitch,
+            teeth=teeth,
+            speed=pitches / teeth,
+            power=1e-6 * (load.tension - self.slack) * chain.pitch * pitches / 60.0,
+            strands=chain.strands,
+            bearing_area=chain.bearing_area,
+            tensile=chain.tensile,
+            own_tension=self.slack + load.centrifugal,
+            series=chain.series,
+            light=chain.designation == LIGHT_CHAIN,
+        )
+
+    def _findings(self, case: Case) -> list[list[Finding]]:
+        """What the handbooks say about every rated load that pulls, each named where there are several."""
+        loads = []
+        for load in self.rated:
+            if load.tension > self.slack:
+                of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(self.rated) > 1 else ""
+                loads.append((of, self.rated_drive(case, load)))
+        return findings_by_load(loads, self.service_factor, self.exploitation_factor)
+
     def ratings(self, case: Case) -> tuple[Finding, ...]:
         """Return what the handbooks say about the drive."""
-        from wearsim.mechanisms.wrap.chain_rating import rating
-
-        return rating(case, self)
+        limit = elongation_finding(self.layout, self.joint.elongation_limit)
+        return (*worst_findings(self._findings(case)), limit)
 
     def notes(self, case: Case) -> list[str]:
         """Return what a designer asks of a chain drive that no rule limits."""
-        from wearsim.mechanisms.wrap.chain_rating import drive_notes
-
-        return drive_notes(case, self)
+        loaded = self.gaps // math.gcd(self.gaps, case.engaged_every)
+        meetings = meetings_note(loaded, self.layout.links, self.joint.alternating)
+        silent = rules_without_limit(self._findings(case))
+        return drive_notes(self.layout, self.rated_drive(case, self.heaviest), silent, meetings)
 
 
 def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
