@@ -148,7 +148,7 @@ def test_wheel_is_rated_by_the_small_sprocket(checked):
     ("key", "changed"),
     [
         ("service_factor", {"plate fatigue", "roller impact", "corrected power"}),
-        ("exploitation_factor", {"joint pressure"}),
+        ("joint_application_factor", {"joint pressure"}),
     ],
 )
 def test_factor_raises_what_it_is_for(checked, key, changed):
@@ -163,7 +163,8 @@ def test_factor_raises_what_it_is_for(checked, key, changed):
 
 
 @pytest.mark.parametrize(
-    ("key", "value"), [("service_factor", "0.9"), ("service_factor", "11"), ("exploitation_factor", "0.4")]
+    ("key", "value"),
+    [("service_factor", "0.9"), ("service_factor", "11"), ("joint_application_factor", "0.4")],
 )
 def test_factor_out_of_range(cli, key, value):
     done = cli("check", CASES / "a40-19t-rating.toml", "--set", f"drive.{key}={value}")

@@ -165,9 +165,9 @@ CHANGED = {
     "convex_concave__module_mm": "4.6 mm",
     "convex_concave__pinion_teeth": 12,
     "convex_concave__wheel_teeth": 13,
-    "convex_concave__pole_angle_deg": 21.0,
-    "convex_concave__head_arc_radius_mm": 10.5,
-    "convex_concave__foot_arc_radius_mm": 9.5,
+    "convex_concave__pitch_point_angle_deg": 21.0,
+    "convex_concave__addendum_arc_radius_mm": 10.5,
+    "convex_concave__dedendum_arc_radius_mm": 9.5,
     "convex_concave__addendum_ratio": 0.75,
     "convex_concave__backlash_mm": 0.05,
     "gears__face_width_mm": 46,
@@ -208,7 +208,7 @@ def test_defaults(tmp_path):
     ("setting", "code", "message"),
     [
         ("convex_concave.module_mm=0", 2, "must be greater than 0"),
-        ("convex_concave.pole_angle_deg=45", 2, "must be less than 45"),
+        ("convex_concave.pitch_point_angle_deg=45", 2, "must be less than 45"),
         ("convex_concave.pinion_teeth=4", 2, "must be greater than or equal to 5"),
         ("convex_concave.backlash_mm=-1", 2, "must be greater than or equal to 0"),
         ("convex_concave.arc=1", 2, "unknown key"),
@@ -217,7 +217,7 @@ def test_defaults(tmp_path):
         ("gears.root_clearance_ratio=-0.1", 2, "must be greater than or equal to 0"),
         ("gears.roller_diameters_mm=[2]", 3, "roller_diameters_mm: must be from 2.9711 to"),
         ("gears.root_clearance_ratio=0.25", 3, "root_clearance_ratio: must be at most 0.061 for"),
-        ("convex_concave.head_arc_radius_mm=2", 3, "raise the radius of the arc"),
+        ("convex_concave.addendum_arc_radius_mm=2", 3, "raise the radius of the arc"),
         ("convex_concave.addendum_ratio=1.4", 3, "tooth: its thickness at the tip must be above 0"),
     ],
 )
@@ -233,7 +233,7 @@ def test_bad_input(cli, setting, code, message):
     [
         (["convex_concave.addendum_ratio=0.8"], "the contact ratio is 0.9"),
         (
-            ["convex_concave.foot_arc_radius_mm=20", "convex_concave.addendum_ratio=0.5"],
+            ["convex_concave.dedendum_arc_radius_mm=20", "convex_concave.addendum_ratio=0.5"],
             "(2) rho_1b < 0 does not hold up to the end of contact: the foot is convex beyond 20 deg",
         ),
         (["gears.root_clearance_ratio=0"], "mm into the root of the pinion: raise"),
@@ -253,8 +253,8 @@ def test_involute_out_of_contact_is_no_number():
     """Involute teeth of this height are undercut early: their path is the shorter one."""
     content = sheet(
         convex_concave__pinion_teeth=7,
-        convex_concave__pole_angle_deg=14.0,
-        convex_concave__head_arc_radius_mm=7.0,
+        convex_concave__pitch_point_angle_deg=14.0,
+        convex_concave__addendum_arc_radius_mm=7.0,
     ).content
     (end,) = [c for c in content["contacts"] if (c["zone"], c["place"]) == ("b", "end")]
     assert end["path_coordinate_mm"] < -3.5 * 4.5 * math.sin(math.radians(14.0))
@@ -265,4 +265,4 @@ def test_schema(cli):
     done = cli("schema", "--of", "convex-concave")
     schema = json.loads(done.out)
     table = schema["$defs"]["ConvexConcaveTable"]["properties"]
-    assert table["pole_angle_deg"]["description"] == "pressure angle in the pole"
+    assert table["pitch_point_angle_deg"]["description"] == "pressure angle at the pitch point"

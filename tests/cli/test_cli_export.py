@@ -58,7 +58,7 @@ wheel_wear_ratio = 2
 critical_depth_mm = 0.05
 wheel_critical_depth_mm = 0.05
 """
-PAIRS = {"involute": "", "convex_concave": "head_arc_radius_mm = 10"}
+PAIRS = {"involute": "", "convex_concave": "addendum_arc_radius_mm = 10"}
 
 
 @pytest.fixture

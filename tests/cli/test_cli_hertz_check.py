@@ -76,7 +76,7 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
     done = cli("hertz-check", CASE, "--fem", "--json", "--out", out)
     assert done.code == 0
     assert solved == [4, 8, 16]
-    names = {path.name for path in out.glob("[!.]*")}
+    names = {path.name for path in out.iterdir()}
     assert names == {
         ".wearsim",
         "result.json",

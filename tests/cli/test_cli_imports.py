@@ -49,7 +49,7 @@ def test_life_loads_pint_for_a_string_with_a_unit(drive):
 @pytest.mark.parametrize(
     ("command", "case", "needed"),
     [
-        ("strength", "strength-a-improved", {"numpy"}),
+        ("strength", "strength-a-tempered", {"numpy"}),
         ("wave-drive", "wave-drive-100", {"numpy", "scipy"}),
         ("stiffness-spectrum", "stiffness-spectrum-20-30", {"numpy", "scipy"}),
     ],

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"
-A, B = CASES / "strength-a-improved.toml", CASES / "strength-b-carburised.toml"
+A, B = CASES / "strength-a-tempered.toml", CASES / "strength-b-carburised.toml"
 
 
 @pytest.mark.parametrize(("case", "allowed"), [(A, "609.1"), (B, "1140.4")])
@@ -23,7 +23,7 @@ def test_answer(cli, case, allowed):
 def test_json_agrees_with_the_text(cli):
     found = json.loads(cli("strength", A, "--json").out)
     assert found["schema_version"] == 1
-    assert found["case"] == "strength-a-improved"
+    assert found["case"] == "strength-a-tempered"
     assert found["contact_life_of"] == found["contact_governs"] == "pinion"
     hours = re.search(r"contact fatigue: ([\d ]+) h, the pinion", cli("strength", A).out)[1]
     assert float(hours.replace(" ", "")) == pytest.approx(found["contact_life_hours"], rel=1e-3)
@@ -46,7 +46,7 @@ def test_a_life_without_end_says_so(cli):
 
 def test_unknown_yield_strength(cli):
     """What is not known is null, and said."""
-    case = B, "--set", "pinion.treatment=improved"
+    case = B, "--set", "pinion.treatment=quenched_and_tempered"
     done = cli("strength", *case, "--json")
     assert json.loads(done.out)["gears"][0]["greatest_contact_MPa"] is None
     assert "pinion.yield_strength_MPa" in done.err
@@ -101,11 +101,11 @@ def test_the_line_of_keys_that_do_not_fit(cli, tmp_path):
     path.write_text(text.replace("life_hours = 3000", 'life_hours = 3000\nregime = "I"'), "utf-8")
     done = cli("strength", path)
     assert done.code == 2
-    assert f"{path}:11: drive.regime: [[cyclogram]] gives the loads already" in done.err
-    assert "cyclogram: the shares of time must come to 1, come to 1.05" in done.err
+    assert f"{path}:11: drive.regime: [[load_spectrum]] gives the loads already" in done.err
+    assert "load_spectrum: the shares of time must come to 1, come to 1.05" in done.err
 
 
-def test_a_cyclogram_of_overloads_only(cli):
+def test_a_load_spectrum_of_overloads_only(cli):
     done = cli("strength", B, "--set", "drive.life_hours=0.1", "--json")
     assert done.code == 3
     assert json.loads(done.out)["error"]["kind"] == "GeometryError"

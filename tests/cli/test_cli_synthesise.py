@@ -64,10 +64,10 @@ def test_json(cli):
     assert "phase 2: the pressure angle comes to 40.4 deg" in done.err
     found = json.loads(done.out)
     assert (found["schema_version"], found["case"]) == (1, "synthesise-two-segments")
-    assert found["least_pole_stress_MPa"] == pytest.approx(364.1190949303)
+    assert found["least_pitch_point_stress_MPa"] == pytest.approx(364.1190949303)
     great, small = found["mesh_phases"]
     assert (great["family"], small["family"]) == (1, -1)
-    assert small["end_pole_distance_mm"] == pytest.approx(5.585639, abs=1e-6)
+    assert small["end_pitch_point_distance_mm"] == pytest.approx(5.585639, abs=1e-6)
     assert small["end_pressure_angle_deg"] == pytest.approx(90, abs=0.01)
     last = [row for row in found["indices"] if row["mesh_phase"] == 2][-1]
     assert last["pinion_flank_radius_mm"] == pytest.approx(2.7763095, abs=1e-6)
@@ -96,12 +96,12 @@ def test_files(cli, tmp_path):
     assert len(fields) == 2 * 21**2
     real = fields["infeasibility"] == ""
     assert set(fields["infeasibility"]) == {"", "complex", "no torque", "no rolling"}
-    for column in ("contact_stress_MPa", "pole_distance_mm", "pinion_flank_radius_mm"):
+    for column in ("contact_stress_MPa", "pitch_point_distance_mm", "pinion_flank_radius_mm"):
         assert (fields[column][~real] == "").all()
     assert (fields["contact_stress_MPa"][real].astype(float) - 454.1608627).abs().max() < 1e-6
     profile = pd.read_csv(out / "pinion_profile.csv")
     radius = np.hypot(profile["x_mm"], profile["y_mm"])
-    assert np.interp(0, profile["pole_distance_mm"], radius) == pytest.approx(54)
+    assert np.interp(0, profile["pitch_point_distance_mm"], radius) == pytest.approx(54)
     assert cli("synthesise", POLE, "--out", out, *settings).code == 2
     assert cli("synthesise", POLE, "--out", out, *settings, "--force").code == 0
 
@@ -115,65 +115,76 @@ FAULTS = [
     ),
     (
         SEGMENTS,
-        "phase=[{family = -1, start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 5}]",
+        "phase=[{family = -1, start_x_mm = 10, start_y_mm = 3, last_pitch_point_distance_mm = 5}]",
         3,
         "phase 1: line of action: the family -1 from l = 10.44 mm must end before l = 5.58564 mm",
     ),
     (
         SEGMENTS,
-        "phase=[{start_x_mm = 10, start_y_mm = 3, last_pole_distance_mm = 0.01}]",
+        "phase=[{start_x_mm = 10, start_y_mm = 3, last_pitch_point_distance_mm = 0.01}]",
         3,
         "must end before l = 0.0364695 mm, where its pressure angle comes to 0 deg",
     ),
     (
         POLE,
-        "phase=[{family = -1, first_pole_distance_mm = -1, last_pole_distance_mm = 1}]",
+        "phase=[{family = -1, first_pitch_point_distance_mm = -1, last_pitch_point_distance_mm = 1}]",
         2,
         "phase.1.family: must be 1 without start_x_mm",
     ),
-    (POLE, "phase=[{last_pole_distance_mm = 1}]", 2, "phase.1.first_pole_distance_mm: give this"),
     (
         POLE,
-        "phase=[{first_pole_distance_mm = 2, last_pole_distance_mm = 1}]",
+        "phase=[{last_pitch_point_distance_mm = 1}]",
         2,
-        "phase.1.last_pole_distance_mm: must be above the first, 2 (got 1)",
+        "phase.1.first_pitch_point_distance_mm: give this",
     ),
-    (POLE, "phase=[{start_x_mm = 9, last_pole_distance_mm = 1}]", 2, "phase.1.start_y_mm: a point"),
     (
         POLE,
-        "phase=[{start_x_mm = 9, start_y_mm = -2, last_pole_distance_mm = 1}]",
+        "phase=[{first_pitch_point_distance_mm = 2, last_pitch_point_distance_mm = 1}]",
+        2,
+        "phase.1.last_pitch_point_distance_mm: must be above the first, 2 (got 1)",
+    ),
+    (POLE, "phase=[{start_x_mm = 9, last_pitch_point_distance_mm = 1}]", 2, "phase.1.start_y_mm: a point"),
+    (
+        POLE,
+        "phase=[{start_x_mm = 9, start_y_mm = -2, last_pitch_point_distance_mm = 1}]",
         2,
         "phase.1.start_y_mm: must have the sign of start_x_mm, 9 (got -2)",
     ),
     (
         POLE,
-        "phase=[{start_x_mm = 9, start_y_mm = 2, last_pole_distance_mm = -1}]",
+        "phase=[{start_x_mm = 9, start_y_mm = 2, last_pitch_point_distance_mm = -1}]",
         2,
-        "phase.1.last_pole_distance_mm: must be on the side of the start, 9.21954",
+        "phase.1.last_pitch_point_distance_mm: must be on the side of the start, 9.21954",
     ),
     (
         POLE,
-        "phase=[{first_pole_distance_mm = 1, start_x_mm = 9, start_y_mm = 2, last_pole_distance_mm = 1}]",
+        "phase=[{first_pitch_point_distance_mm = 1, start_x_mm = 9, start_y_mm = 2, "
+        "last_pitch_point_distance_mm = 1}]",
         2,
-        "phase.1.first_pole_distance_mm: start_x_mm gives the start",
+        "phase.1.first_pitch_point_distance_mm: start_x_mm gives the start",
     ),
     (POLE, "phase=[]", 2, "phase: "),
     (POLE, "stress.contact_stress_MPa=[500, -1]", 2, "stress.contact_stress_MPa: must be above 0"),
     (POLE, "stress.contact_stress_MPa=[]", 2, "stress.contact_stress_MPa: must be above 0"),
-    (POLE, "stress.contact_stress_MPa=[500, 400]", 2, "stress.pole_distance_mm: several stresses"),
-    (POLE, "stress.pole_distance_mm=[0, 1]", 2, "must have one entry for each stress, 1 (got 2)"),
-    (POLE, "stress={contact_stress_MPa = [5, 6], pole_distance_mm = [1, 0]}", 2, "must ascend (got 1, 0)"),
+    (POLE, "stress.contact_stress_MPa=[500, 400]", 2, "stress.pitch_point_distance_mm: several stresses"),
+    (POLE, "stress.pitch_point_distance_mm=[0, 1]", 2, "must have one entry for each stress, 1 (got 2)"),
     (
         POLE,
-        "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, 9]}",
+        "stress={contact_stress_MPa = [5, 6], pitch_point_distance_mm = [1, 0]}",
         2,
-        "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to 9)",
+        "must ascend (got 1, 0)",
     ),
     (
         POLE,
-        "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [-10, -1]}",
+        "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [-10, 9]}",
         2,
-        "stress.pole_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to -1)",
+        "stress.pitch_point_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to 9)",
+    ),
+    (
+        POLE,
+        "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [-10, -1]}",
+        2,
+        "stress.pitch_point_distance_mm: must reach from -10 to 10 as phase 1 does (got -10 to -1)",
     ),
     (POLE, "load.face_width_mm=-1", 2, "load.face_width_mm: "),
     (POLE, "load={pinion_speed_rpm = 1}", 2, "load.pinion_torque_N_m: give pinion_torque_N_m and"),
@@ -204,8 +215,8 @@ def test_failed_case_as_json(cli):
 
 @pytest.mark.usefixtures("undrawn")
 def test_line_through_the_pole_needs_the_stress_there(cli):
-    phase = "phase=[{first_pole_distance_mm = 3, last_pole_distance_mm = 9}]"
-    law = "stress={contact_stress_MPa = [500, 600], pole_distance_mm = [LEAST, 10]}"
+    phase = "phase=[{first_pitch_point_distance_mm = 3, last_pitch_point_distance_mm = 9}]"
+    law = "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [LEAST, 10]}"
     done = cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "3"))
     assert done.code == 2 and "must reach from 0 to 9 as phase 1 does (got 3 to 10)" in done.err
     assert cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "0")).code == 0
@@ -218,7 +229,7 @@ def test_schema(cli):
 
 @pytest.mark.usefixtures("undrawn")
 def test_involute_that_interferes_is_left_out(cli):
-    setting = "phase=[{first_pole_distance_mm = -19, last_pole_distance_mm = 0}]"
+    setting = "phase=[{first_pitch_point_distance_mm = -19, last_pitch_point_distance_mm = 0}]"
     done = cli("synthesise", POLE, "--json", "--set", setting)
     assert "phase 1: the involute interferes on a part of these distances" in done.err
     rows = json.loads(done.out)["indices"]
@@ -235,10 +246,10 @@ BASE = {
         "wheel": {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3},
     },
     "load": {"pinion_torque_N_m": 240, "face_width_mm": 76, "pinion_speed_rpm": 1000},
-    "stress": {"contact_stress_MPa": [480, 470, 500], "pole_distance_mm": [-12, 0, 20]},
+    "stress": {"contact_stress_MPa": [480, 470, 500], "pitch_point_distance_mm": [-12, 0, 20]},
     "phase": [
-        {"start_x_mm": 10, "start_y_mm": 3, "last_pole_distance_mm": 12, "nodes": 11},
-        {"first_pole_distance_mm": -10, "last_pole_distance_mm": 5, "nodes": 11},
+        {"start_x_mm": 10, "start_y_mm": 3, "last_pitch_point_distance_mm": 12, "nodes": 11},
+        {"first_pitch_point_distance_mm": -10, "last_pitch_point_distance_mm": 5, "nodes": 11},
     ],
     "involute": {"pressure_angle_deg": 20},
     "field": {
@@ -266,12 +277,15 @@ CHANGES = {
     "load.load_per_width_N_per_mm": {"load_per_width_N_per_mm": 60, "pinion_speed_rpm": 1000},
     "load.pinion_speed_rpm": 900,
     "stress.contact_stress_MPa": [481, 470, 500],
-    "stress.pole_distance_mm": [-11, 0, 20],
+    "stress.pitch_point_distance_mm": [-11, 0, 20],
     "phase.family": -1,
     "phase.start_x_mm": 9.5,
     "phase.start_y_mm": 3.1,
-    "phase.first_pole_distance_mm": {"first_pole_distance_mm": -9, "last_pole_distance_mm": 12},
-    "phase.last_pole_distance_mm": 13,
+    "phase.first_pitch_point_distance_mm": {
+        "first_pitch_point_distance_mm": -9,
+        "last_pitch_point_distance_mm": 12,
+    },
+    "phase.last_pitch_point_distance_mm": 13,
     "phase.nodes": 12,
     "involute.pressure_angle_deg": 21,
     "field.x_from_mm": 1,
@@ -351,9 +365,9 @@ def test_strings_with_units():
     document = copy.deepcopy(BASE)
     document["stress"] = {
         "contact_stress_MPa": ["0.48 GPa", 470, 500],
-        "pole_distance_mm": ["-1.2 cm", 0, 20],
+        "pitch_point_distance_mm": ["-1.2 cm", 0, 20],
     }
-    document["phase"][1]["first_pole_distance_mm"] = "-1 cm"
+    document["phase"][1]["first_pitch_point_distance_mm"] = "-1 cm"
     document["field"]["directions_deg"] = f"{math.radians(15)} rad"
     with_units = results_without_pictures(document)
     base = results_without_pictures(BASE)

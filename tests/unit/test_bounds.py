@@ -1,9 +1,10 @@
 """A life that is not known is told with what it exceeds, wherever it is told."""
 
+from wearsim.chain.drive_layout import Meetings
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.model import MaintenancePlan, Policy
 from wearsim.study.maintain.sheet import count_rows, maintenance_text, policy_rows
-from wearsim.study.maintain.tooth_count import Meetings, ToothCount
+from wearsim.study.maintain.tooth_count import ToothCount
 from wearsim.study.remaining.model import Reading, RemainingLife
 from wearsim.study.remaining.sheet import remaining_json, remaining_text
 

@@ -141,7 +141,7 @@ def test_no_fault_follows_from_another(faults):
 
 FATIGUE_FAULTS = {
     "treatment = 'nitrided'\nhardness_HRC = 60": {"fatigue.sprocket.contact_limit_MPa": "needs this key"},
-    "treatment = 'improved'\nhardness_HB = 300\nhardness_HRC = 30": {
+    "treatment = 'quenched_and_tempered'\nhardness_HB = 300\nhardness_HRC = 30": {
         "fatigue.sprocket.hardness_HB": "exactly one of hardness_HB and hardness_HRC (got both)"
     },
     "treatment = 'nitrided'": {

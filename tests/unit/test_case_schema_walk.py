@@ -14,7 +14,7 @@ from wearsim.report.flank_table import profile_table
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",
     "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",
-    "drive.exploitation_factor": "only the rating that check prints (test_cli_check_rating.py)",
+    "drive.joint_application_factor": "only the rating that check prints (test_cli_check_rating.py)",
     "maintenance.chain_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.sprocket_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.downtime_hours": "only wearsim maintain (tests/unit/test_maintain.py)",
@@ -217,7 +217,7 @@ BASES |= {
 }
 
 FATIGUE = {"load_factor": 1.1, "sprocket": {"treatment": "surface_hardened", "hardness_HRC": 45.0}}
-SOFT = {**FATIGUE, "sprocket": {"treatment": "improved", "hardness_HB": 300.0}}
+SOFT = {**FATIGUE, "sprocket": {"treatment": "quenched_and_tempered", "hardness_HB": 300.0}}
 BASES |= {
     "fatigue": edited(STRAND, fatigue=FATIGUE),
     "soft fatigue": edited(STRAND, fatigue=SOFT),

@@ -85,7 +85,7 @@ CONVEX = {
     "wheel_teeth": 34,
     "module_mm": 4.5,
     "face_width_mm": 45,
-    "head_arc_radius_mm": 10.0,
+    "addendum_arc_radius_mm": 10.0,
     "nodes": 61,
 }
 STRESS = {
@@ -95,9 +95,9 @@ STRESS = {
     "module_mm": 3.0,
     "face_width_mm": 76,
     "contact_stress_MPa": [460.0, 450.0, 460.0],
-    "stress_pole_distance_mm": [-9.0, 0.0, 9.0],
-    "first_pole_distance_mm": -7.0,
-    "last_pole_distance_mm": 7.0,
+    "stress_pitch_point_distance_mm": [-9.0, 0.0, 9.0],
+    "first_pitch_point_distance_mm": -7.0,
+    "last_pitch_point_distance_mm": 7.0,
     "nodes": 61,
 }
 BASES = {
@@ -120,13 +120,13 @@ BASES = {
 
 CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "gear.profile": [
-        ("archard", "convex_concave", "gear.head_arc_radius_mm"),
+        ("archard", "convex_concave", "gear.addendum_arc_radius_mm"),
         ("stress", "involute", "gear.contact_stress_MPa"),
         ("convex", "prescribed_stress", "gear.contact_stress_MPa"),
     ],
-    "gear.pole_angle_deg": [("convex", 21.0), ("archard", 21.0, "gear.pole_angle_deg")],
-    "gear.head_arc_radius_mm": [("convex", 11.0), ("convex", 2.0, "gear")],
-    "gear.foot_arc_radius_mm": [("convex", 9.0), ("stress", 9.0, "gear.foot_arc_radius_mm")],
+    "gear.pitch_point_angle_deg": [("convex", 21.0), ("archard", 21.0, "gear.pitch_point_angle_deg")],
+    "gear.addendum_arc_radius_mm": [("convex", 11.0), ("convex", 2.0, "gear")],
+    "gear.dedendum_arc_radius_mm": [("convex", 9.0), ("stress", 9.0, "gear.dedendum_arc_radius_mm")],
     "gear.addendum_ratio": [
         ("convex", 0.95),
         ("convex", 0.5, "gear"),
@@ -134,21 +134,24 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     ],
     "gear.contact_stress_MPa": [
         ("stress", [465.0, 455.0, 465.0]),
-        ("stress", 455.0, "gear.stress_pole_distance_mm"),
+        ("stress", 455.0, "gear.stress_pitch_point_distance_mm"),
         ("stress", [300.0, 300.0, 300.0], "gear"),
     ],
-    "gear.stress_pole_distance_mm": [
+    "gear.stress_pitch_point_distance_mm": [
         ("stress", [-8.0, 0.0, 10.0]),
-        ("stress", [-5.0, 0.0, 9.0], "gear.stress_pole_distance_mm"),
-        ("stress", [0.0, -8.0, 9.0], "gear.stress_pole_distance_mm"),
+        ("stress", [-5.0, 0.0, 9.0], "gear.stress_pitch_point_distance_mm"),
+        ("stress", [0.0, -8.0, 9.0], "gear.stress_pitch_point_distance_mm"),
     ],
     "gear.design_torque_N_m": [("stress", 235.0), ("archard", 200.0, "gear.design_torque_N_m")],
-    "gear.first_pole_distance_mm": [
+    "gear.first_pitch_point_distance_mm": [
         ("stress", -7.5),
-        ("stress", 1.0, "gear.first_pole_distance_mm"),
+        ("stress", 1.0, "gear.first_pitch_point_distance_mm"),
         ("stress", -1.0, "gear"),
     ],
-    "gear.last_pole_distance_mm": [("stress", 7.5), ("stress", -7.5, "gear.last_pole_distance_mm")],
+    "gear.last_pitch_point_distance_mm": [
+        ("stress", 7.5),
+        ("stress", -7.5, "gear.last_pitch_point_distance_mm"),
+    ],
     "gear.pinion_teeth": [
         ("convex", 18),
         ("stress", 35),

@@ -102,7 +102,7 @@ def test_warnings_are_of_what_is_outside():
     """Two strands carry 1.7 * 29.33 = 49.9 kW; K_e = 3 asks 4724 * 3 * 2/(358.8 * 1.7) = 46 MPa."""
     power = case(drive={"service_factor": 1.7})
     assert [found.ok for found in ratings(power)][:3] == [False, True, False]
-    joints = case(drive={"exploitation_factor": 3.0})
+    joints = case(drive={"joint_application_factor": 3.0})
     (text,) = rating_warnings(ratings(joints))
     assert text.startswith("outside a rating: joint pressure 46.47 MPa, allowed at most 21.62 MPa")
     assert text.endswith("(GOST practice (Dunaev); indicative here)")

@@ -43,7 +43,7 @@ def test_what_takes_longer_goes_in_smaller_parts():
     def size(tables, key="load.tension_N", value=1.0):
         return design(read_document(tables, []), [key], [(value,)], "test").cases_per_shard
 
-    fatigue = {"sprocket": {"treatment": "improved", "hardness_HB": 250.0}}
+    fatigue = {"sprocket": {"treatment": "quenched_and_tempered", "hardness_HB": 250.0}}
     sizes = (size({**CASE, "mechanism": {"kind": "wrap"}}), size({**CASE, "fatigue": fatigue}), size(CASE))
     assert sizes == (design_module.FEW, design_module.SOME, design_module.MANY)
     assert size(CASE, "fatigue.load_factor") == design_module.SOME

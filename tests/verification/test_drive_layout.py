@@ -10,14 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.chain.chain_length import (
-    belt_centre,
-    belt_links,
-    even_links,
-    handbook_centre,
-    handbook_links,
-    pitch_diameter,
-)
+from wearsim.chain.chain_length import belt_centre, belt_links, even_links, handbook_centre, handbook_links
 from wearsim.chain.drive_layout import (
     DriveLayout,
     Meetings,
@@ -27,6 +20,7 @@ from wearsim.chain.drive_layout import (
 )
 from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
+from wearsim.geometry.gap import pitch_diameter
 
 # teeth 1, teeth 2, wished centre distance in pitches, links chosen
 DRIVES = {

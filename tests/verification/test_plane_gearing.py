@@ -26,7 +26,7 @@ from wearsim.input.calculation_file import load_calculation
 CIRCLES = PitchCircles(135.0, 1.5)
 STEEL = {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3}
 TORQUE = {"pinion_torque_N_m": 240, "face_width_mm": 76, "pinion_speed_rpm": 1000}
-POLE = {"first_pole_distance_mm": -10, "last_pole_distance_mm": 10, "nodes": 41}
+POLE = {"first_pitch_point_distance_mm": -10, "last_pitch_point_distance_mm": 10, "nodes": 41}
 SIGMA = 454.1608627029
 W1 = 1000 * math.pi / 30
 START = math.hypot(10, 3), math.atan2(3, 10)
@@ -348,7 +348,7 @@ def test_field_of_a_stress():
 
 
 def test_field_where_no_stress_is_given():
-    law = {"contact_stress_MPa": [500, 450, 450], "pole_distance_mm": [-10, 0, 10]}
+    law = {"contact_stress_MPa": [500, 450, 450], "pitch_point_distance_mm": [-10, 0, 10]}
     given = tables(law, field=FIELD)
     field = stress_fields(pair(law), given.field)[1]
     beyond = np.hypot(field.x, field.y) > 10
@@ -686,14 +686,14 @@ def test_many_lines_go_through_the_pole_above_45_degrees(degrees):
         assert math.degrees(angle) == pytest.approx(70, abs=1e-4)
 
 
-TABLE = {"contact_stress_MPa": [560, 470, 440, 520], "pole_distance_mm": [-10, -2, 1, 10]}
-CORNER = {"contact_stress_MPa": [560, 454, 520], "pole_distance_mm": [-10, 0, 10]}
+TABLE = {"contact_stress_MPa": [560, 470, 440, 520], "pitch_point_distance_mm": [-10, -2, 1, 10]}
+CORNER = {"contact_stress_MPa": [560, 454, 520], "pitch_point_distance_mm": [-10, 0, 10]}
 
 
 @pytest.mark.parametrize(("family", "nearest", "end"), [(1, 5, None), (-1, 5, 5.585639), (-1, 6, None)])
 def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
-    law = {"contact_stress_MPa": [SIGMA, SIGMA], "pole_distance_mm": [nearest, 20]}
-    start = {"start_x_mm": 10, "start_y_mm": 3, "last_pole_distance_mm": 10.5, "nodes": 11}
+    law = {"contact_stress_MPa": [SIGMA, SIGMA], "pitch_point_distance_mm": [nearest, 20]}
+    start = {"start_x_mm": 10, "start_y_mm": 3, "last_pitch_point_distance_mm": 10.5, "nodes": 11}
     given = tables(law, [{"family": family, **start}])
     (phase,) = phases(loaded_pair(given), given)
     found = phase.inner_end and phase.inner_end[0]
@@ -705,7 +705,7 @@ def test_stress_between_points(law):
     loaded = pair(law)
     (phase,) = phases(loaded, tables(law))
     l = phase.line.contacts.pole_distance
-    asked = np.interp(l, law["pole_distance_mm"], law["contact_stress_MPa"])
+    asked = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
     stress = loaded.contact_stress(phase.line.contacts)
     assert stress == pytest.approx(asked, rel=1e-9)
     assert not phase.involute.contacts.turn.any()

@@ -1,7 +1,7 @@
 """Contact fatigue of sprockets beside their wear, against formulas (21) to (26) of source 001.
 
 Expected: N_HG K^-6 / (60 n / turns per cycle) with N_HG = 30 HB^2.4, K = sigma_H S_H / sigma_Hlim,
-sigma_Hlim = 17 HRC + 200 (surface hardened) or 2 HB + 70 (improved); sigma_H by Hertz from the
+sigma_Hlim = 17 HRC + 200 (surface hardened) or 2 HB + 70 (quenched and tempered); sigma_H by Hertz from the
 closed form of the evolute flank or from the numbers of a table of loads. Loads of a duty: Miner's
 sum over runs under each of them alone.
 """
@@ -21,7 +21,7 @@ from wearsim.result import Life, LowerBound
 MODULUS = 2.1e5 / (2.0 * (1.0 - 0.3**2))
 HARD = {"treatment": "surface_hardened", "hardness_HRC": 45}
 HARD_LIMIT = (17.0 * 45.0 + 200.0) / 1.2
-SOFT = {"treatment": "improved", "hardness_HB": 300}
+SOFT = {"treatment": "quenched_and_tempered", "hardness_HB": 300}
 SOFT_LIMIT = (2.0 * 300.0 + 70.0) / 1.1
 WRAP: dict[str, Any] = {
     "format_version": 1,
@@ -103,7 +103,7 @@ def test_strand_by_the_closed_form_of_its_flank(strand: Callable[..., dict[str, 
 
 def test_table_of_loads_by_hand(b9: Callable[..., wearsim.Case]) -> None:
     """q = 100 N/mm on 39.1 and 6.035 mm at the root, 100 rpm: 838.2 MPa against 609.1 MPa."""
-    steel = "fatigue.sprocket={treatment='improved', hardness_HB=300}"
+    steel = "fatigue.sprocket={treatment='quenched_and_tempered', hardness_HB=300}"
     result = wearsim.simulate(b9(101, steel))
     stress = math.sqrt(100.0 * MODULUS * (1.0 / 39.1 + 1.0 / 6.035) / math.pi)
     hours = endured(stress, SOFT_LIMIT, 300.0, 60.0 * 100.0)

@@ -1,7 +1,7 @@
 """Allowable stresses of gears: the numbers of section S1 of the reference text, and closed forms.
 
-Examples A (improved, regime II) and B (carburised, cyclogram), the load factor and the contact
-stress of a pair 36/54 were worked out there from source 001, independently of this code.
+Examples A (quenched and tempered, regime II) and B (carburised, load spectrum), the load factor and the
+contact stress of a pair 36/54 were worked out there from source 001, independently of this code.
 """
 
 import math
@@ -18,12 +18,12 @@ from wearsim.fatigue.endurance import FatigueCurve, contact_base_cycles, service
 from wearsim.fatigue.heat_treatment import treatments
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import pair_strength
-from wearsim.handbook.strength.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
+from wearsim.handbook.strength.spectrum import Spectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import SpurMesh
 from wearsim.input.calculation_file import load_calculation
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
-CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-improved", "b-carburised")}
+CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-tempered", "b-carburised")}
 STEEL = 2.1e5 / (2.0 * (1.0 - 0.3**2))
 
 
@@ -44,13 +44,13 @@ def both(found, criterion, attribute):
 
 class TestExampleA:
     def test_cycles(self):
-        found = pair("a-improved")
+        found = pair("a-tempered")
         assert [gear.cycles for gear in found.gears] == near([7.2e7, 1.8e7])
         assert both(found, "contact", "equivalent_cycles") == near([1.8e7, 4.5e6])
         assert both(found, "bending", "equivalent_cycles") == near([1.0296e7, 2.574e6])
 
     def test_contact_by_gost(self, validated):
-        found = pair("a-improved")
+        found = pair("a-tempered")
         base = [gear.contact.curve.base_cycles for gear in found.gears]
         expected = [23473395.97129, 18322579.50387]
         validated("base cycles, example A", base, expected, 1e-9, SOURCE, "cycles")
@@ -68,14 +68,14 @@ class TestExampleA:
         assert found.contact_governs.name == "pinion"
 
     def test_contact_as_the_source_reads(self):
-        found = pair("a-improved", "fatigue.base_cycles=source")
+        found = pair("a-tempered", "fatigue.base_cycles=source")
         assert [gear.contact.curve.base_cycles for gear in found.gears] == [1e7, 1e7]
         assert both(found, "contact", "raw_factor") == near([0.906681141, 1.142346655087])
         assert both(found, "contact", "factor") == near([1.0, 1.142346655087])
         assert both(found, "contact", "allowable") == near([582.7272727273, 607.5207211147])
 
     def test_bending(self, validated):
-        found = pair("a-improved")
+        found = pair("a-tempered")
         assert both(found, "bending", "endurance_limit") == near([499.625, 450.625])
         assert both(found, "bending", "raw_factor") == near([0.854211164, 1.076238626140])
         assert both(found, "bending", "factor") == near([1.0, 1.076238626140])
@@ -86,11 +86,11 @@ class TestExampleA:
 
     def test_printed_overload_without_its_safety(self):
         """The source has lost S_st; without it the stress is beyond the strength of any steel."""
-        found = pair("a-improved", "overload.static_safety=1")
+        found = pair("a-tempered", "overload.static_safety=1")
         assert both(found, "bending", "greatest") == near([2398.2, 2163.0])
 
     def test_greatest_contact_stress_is_of_the_yield_strength(self):
-        assert both(pair("a-improved"), "contact", "greatest") == near([2.8 * 750, 2.8 * 640])
+        assert both(pair("a-tempered"), "contact", "greatest") == near([2.8 * 750, 2.8 * 640])
 
 
 class TestExampleB:
@@ -145,7 +145,7 @@ class TestLoad:
     )
 
     def test_factors(self, validated):
-        load = pair("a-improved", *self.KEYS).load
+        load = pair("a-tempered", *self.KEYS).load
         assert load.contact_factor.application == 1.0
         assert load.contact_factor.face == near(1.052)
         assert load.contact_factor.transverse == near(1.0468)
@@ -156,19 +156,19 @@ class TestLoad:
         assert load.bending_factor.total == near(1.164 * 1.18 * 1.12)
 
     def test_shocks_of_the_machine_are_in_a_spectrum_but_not_in_a_constant_load(self):
-        assert pair("a-improved", "drive.regime=0").load.contact_factor.application == 1.25
-        assert pair("a-improved", "drive.regime=V").load.contact_factor.application == 1.0
+        assert pair("a-tempered", "drive.regime=0").load.contact_factor.application == 1.25
+        assert pair("a-tempered", "drive.regime=V").load.contact_factor.application == 1.0
         assert pair("b-carburised").load.contact_factor.application == 1.0
 
     def test_contact_stress(self, validated):
-        load = pair("a-improved", *self.KEYS).load
+        load = pair("a-tempered", *self.KEYS).load
         assert load.mesh.tangential_force == near(4444.444444444)
         quantity, found = "contact stress as printed", load.printed_contact_stress
         validated(quantity, found, 475.6585130901, 1e-9, SOURCE, "MPa")
         quantity, found = "contact stress of the normal force", load.corrected_contact_stress
         validated(quantity, found, 490.6845296400, 1e-9, SOURCE, "MPa")
         assert load.contact_stress == load.corrected_contact_stress
-        printed = pair("a-improved", *self.KEYS, "load.formula=printed").load
+        printed = pair("a-tempered", *self.KEYS, "load.formula=printed").load
         assert printed.contact_stress == printed.printed_contact_stress
 
     def test_normal_force_is_what_the_factors_of_the_standards_hold(self):
@@ -185,7 +185,7 @@ class TestLoad:
 
     def test_bending_stress(self):
         """F_t K_F Y_FS/(b m) with Y_FS = 3.47 + 13.2/z."""
-        load = pair("a-improved", *self.KEYS).load
+        load = pair("a-tempered", *self.KEYS).load
         per_form = 4000.0 / 0.9 * 1.164 * 1.18 * 1.12 / (76.0 * 3.0)
         forms = (3.47 + 13.2 / 36.0, 3.47 + 13.2 / 54.0)
         assert load.bending_stresses == near(tuple(per_form * form for form in forms))
@@ -195,7 +195,7 @@ class TestLoad:
         single = pair("b-carburised")
         steps = [(2.0, 0.4), (1.4, 0.35), (0.8, 0.25)]
         tables = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(exclude_unset=True)
-        tables["cyclogram"] = [{"relative_torque": t, "share_of_time": s} for t, s in steps]
+        tables["load_spectrum"] = [{"relative_torque": t, "share_of_time": s} for t, s in steps]
         double = pair_strength(load_calculation(tables, StrengthTables))
         assert double.spectrum.equivalence(9) == near(single.spectrum.equivalence(9))
         assert double.load.contact_stress == near(math.sqrt(2.0) * single.load.contact_stress)
@@ -265,19 +265,19 @@ class TestSpectrum:
             assert regime_spectrum("III").equivalence(k) == pytest.approx(means[k], rel=0.022)
 
     def test_a_single_level(self):
-        found = cyclogram_spectrum([(0.7, 1e6)], 1e6)
+        found = load_spectrum([(0.7, 1e6)], 1e6)
         assert (found.torque, found.peak) == (0.7, 1.0)
         assert [found.equivalence(k) for k in (3, 6, 9)] == [1.0, 1.0, 1.0]
 
     @pytest.mark.parametrize(("cycles", "excluded"), [(49999.0, True), (50000.0, False)])
     def test_an_overload_acts_for_less_than_5e4_cycles(self, cycles, excluded):
-        found = cyclogram_spectrum([(1.5, cycles), (1.0, 1e6)], 1e6)
+        found = load_spectrum([(1.5, cycles), (1.0, 1e6)], 1e6)
         assert found.torque == (1.0 if excluded else 1.5)
         assert found.peak == (1.5 if excluded else 1.0)
         assert found.peak_cycles == (cycles if excluded else 0.0)
 
     def test_two_short_torques_count_together(self):
-        found = cyclogram_spectrum([(2.0, 4e4), (1.5, 4e4), (1.0, 1e6)], 1e6)
+        found = load_spectrum([(2.0, 4e4), (1.5, 4e4), (1.0, 1e6)], 1e6)
         assert (found.torque, found.peak, found.peak_cycles) == (1.5, 2.0 / 1.5, 4e4)
 
     def test_a_share_of_a_long_life_is_no_overload(self):
@@ -286,14 +286,14 @@ class TestSpectrum:
             f"{{relative_torque={torque},share_of_time={share}}}"
             for torque, share in ((2.0, 1e-4), (1.0, 0.9999))
         ]
-        keys = (f"cyclogram=[{','.join(steps)}]", "drive.pinion_speed_rpm=1000")
+        keys = (f"load_spectrum=[{','.join(steps)}]", "drive.pinion_speed_rpm=1000")
         assert pair("b-carburised", *keys, "drive.life_hours=1666").spectrum.peak == 2.0
         assert pair("b-carburised", *keys, "drive.life_hours=16667").spectrum.peak == 1.0
 
     @pytest.mark.parametrize("steps", [[(1.0, 4e4)], [(1.0, 4e4), (0.0, 1e9)]])
     def test_nothing_but_overload(self, steps):
-        with pytest.raises(GeometryError, match=r"cyclogram: .* raise the life"):
-            cyclogram_spectrum(steps, 1e6)
+        with pytest.raises(GeometryError, match=r"load_spectrum: .* raise the life"):
+            load_spectrum(steps, 1e6)
 
     def test_exponent_of_the_published(self):
         assert Spectrum("x", ((1.0, 1.0),), published={6: 0.3}).equivalence(6.0) == 0.3
@@ -327,13 +327,13 @@ class TestFatigueCurve:
 
     def test_beyond_the_base_cycles_by_gost(self):
         """Root of order 20 down to 0.75, off unless asked for."""
-        found = pair("a-improved", "fatigue.long_life=gost", "drive.life_hours=60000")
+        found = pair("a-tempered", "fatigue.long_life=gost", "drive.life_hours=60000")
         cycles = 60.0 * 200.0 * 60000 * 0.25
         base = 30.0 * 285.5**2.4
         assert found.gears[0].contact.factor == near((base / cycles) ** 0.05)
         assert found.gears[0].contact.curve.factor(1e30) == 0.75
         assert found.gears[0].contact.curve.flat_from == near(base * 0.75**-20)
-        assert pair("a-improved", "drive.life_hours=60000").gears[0].contact.factor == 1.0
+        assert pair("a-tempered", "drive.life_hours=60000").gears[0].contact.factor == 1.0
 
     @pytest.mark.parametrize("name", CASES)
     @pytest.mark.parametrize("reading", ["constant", "gost"])
@@ -353,7 +353,7 @@ class TestLife:
         ("stress", "reading"), [(600, "constant"), (900, "constant"), (550, "gost"), (500, "gost")]
     )
     def test_of_a_stress_on_the_curve(self, validated, stress, reading):
-        endured = pair("a-improved", f"fatigue.long_life={reading}").gears[0].contact
+        endured = pair("a-tempered", f"fatigue.long_life={reading}").gears[0].contact
         miss = lambda exponent: endured.allowable_at(10.0**exponent) - stress  # noqa: E731
         expected = 10.0 ** brentq(miss, 0.0, 8.0, xtol=1e-14)
         found = endured.life(stress)
@@ -363,31 +363,31 @@ class TestLife:
 
     def test_closed_form(self):
         """N_HG (s_Hlim/(S_H s))^6 over 60 n mu."""
-        endured = pair("a-improved").gears[0].contact
+        endured = pair("a-tempered").gears[0].contact
         factor = 600.0 * 1.1 / 641.0
         expected = 30.0 * 285.5**2.4 * factor**-6 / (60.0 * 200.0 * 0.25)
         assert endured.life(600.0).hours == near(expected)
 
     def test_always_endured(self):
         """At the limit itself and below; known up to the base cycles or the life asked for."""
-        endured = pair("a-improved").gears[0].contact
+        endured = pair("a-tempered").gears[0].contact
         limit = endured.curve.limit
         knee = 30.0 * 285.5**2.4 / (60.0 * 200.0 * 0.25)
         assert endured.life(limit).bound
         assert endured.life(limit).hours == near(knee)
         assert not endured.life(1.0001 * limit).bound
-        longer = pair("a-improved", "drive.life_hours=20000").gears[0].contact
+        longer = pair("a-tempered", "drive.life_hours=20000").gears[0].contact
         assert longer.life(500.0).hours == 20000.0
 
     def test_never_endured(self):
-        endured = pair("a-improved").gears[0].contact
+        endured = pair("a-tempered").gears[0].contact
         assert endured.life(2.6001 * endured.curve.limit).hours == 0.0
         assert endured.life(2.5999 * endured.curve.limit).hours > 0.0
 
     def test_margin_is_1_at_the_life(self):
-        found = pair("a-improved")
+        found = pair("a-tempered")
         hours = found.stresses[0][0].life.hours
-        again = pair("a-improved", f"drive.life_hours={hours!r}")
+        again = pair("a-tempered", f"drive.life_hours={hours!r}")
         assert again.stresses[0][0].margin == near(1.0)
         assert found.stresses[0][0].margin > 1.0
 
@@ -397,7 +397,7 @@ class TestTreatments:
         """sigma_Hlim and sigma_Flim at a hardness of the band, typed from the source."""
         expected = {
             "normalised": (180, 430, 315),
-            "improved": (250, 570, 437.5),
+            "quenched_and_tempered": (250, 570, 437.5),
             "through_hardened": (44, 848, 525),
             "surface_hardened": (48, 1016, 650),
             "carburised": (60, 1380, 775),
@@ -426,7 +426,7 @@ class TestTreatments:
 
     def test_exponents_safeties_and_limits(self):
         for name, found in treatments().items():
-            soft = name in ("normalised", "improved")
+            soft = name in ("normalised", "quenched_and_tempered")
             homogeneous = soft or name == "through_hardened"
             assert found.bending_exponent == (6 if soft else 9)
             assert found.contact_safety == (1.1 if homogeneous else 1.2)

@@ -69,7 +69,7 @@ class Treatment:
 
         Examples
         --------
-        >>> treatments()["improved"].contact_limit(285.5)
+        >>> treatments()["quenched_and_tempered"].contact_limit(285.5)
         641.0
         """
         slope, offset = self.contact_line
@@ -94,8 +94,8 @@ class Treatment:
 
         Examples
         --------
-        >>> treatments()["improved"].outside(400.0)
-        'table 2.3 holds for at most 350 HB where it is improved, it is 400'
+        >>> treatments()["quenched_and_tempered"].outside(400.0)
+        'table 2.3 holds for at most 350 HB where it is quenched_and_tempered, it is 400'
         """
         least, greatest = self.hardness_range
         if least <= hardness <= greatest:

@@ -21,11 +21,13 @@ def load_calculation(source: Source, model: type[Tables], overrides: Sequence[st
 def checked(document: Document, model: type[Tables]) -> Tables:
     """Return the tables of a document."""
     try:
-        return model.model_validate(document.data)
+        tables = model.model_validate(document.data)
     except ValidationError as error:
         document.faults.add_validation(error, model)
         document.faults.check()
         raise
+    document.faults.check()
+    return tables
 
 
 def defaults_taken(tables: Table, prefix: str = "") -> tuple[str, ...]:

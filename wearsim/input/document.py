@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
+from wearsim.input.former_words import present_key, present_tables
 from wearsim.input.messages import Faults
 
 
@@ -48,10 +49,15 @@ def read_document(source: Source, overrides: Sequence[str]) -> Document:
         file, name, folder = str(path), path.stem, path.parent
         text = source.text if isinstance(source, CaseText) else _read(path)
         data = _parsed(path, text)
-    faults = Faults(file, text, [item.partition("=")[0].strip() for item in overrides])
-    written = copy.deepcopy(data)
-    for item in overrides:
+    keys = [item.partition("=")[0].strip() for item in overrides]
+    faults = Faults(file, text, map(present_key, keys))
+    written = present_tables(data, faults.note, faults.add)
+    data = copy.deepcopy(written)
+    for key, item in zip(keys, overrides, strict=True):
+        if present_key(key) != key:
+            faults.note(f"--set {key}", f"is read as {present_key(key)}: write that")
         _override(data, item)
+    data = present_tables(data, faults.note, faults.add)
     return Document(name, folder, retitled(data, written), faults)
 
 
@@ -153,7 +159,7 @@ def _bare(raw: str) -> float | str:
 
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
-    key, raw = key.strip(), raw.strip()
+    key, raw = present_key(key.strip()), raw.strip()
     if not equals or not all(key.split(".")):
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:

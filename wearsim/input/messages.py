@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
+from wearsim.input.former_words import written_key
 from wearsim.input.schema.dotted import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
@@ -14,12 +15,13 @@ _MOST_SHOWN = 20
 
 
 class Faults:
-    """What is wrong with one input, collected in one pass."""
+    """What is wrong with one input or read otherwise than it is written, collected in one pass."""
 
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
         self.file = file
         self.text = text
         self.overrides = tuple(overrides)
+        self.notes: list[str] = []
         self._found: list[Fault] = []
         self._lines: dict[str, int] = {}
         self._distrusted: set[str] = set()
@@ -29,6 +31,10 @@ class Faults:
         """Number of faults found so far."""
         return len(self._found)
 
+    def note(self, key: str, message: str) -> None:
+        """Add what is to be known about a key that is right."""
+        self.notes.append(f"{key} {message}")
+
     def add(self, key: str, message: str) -> None:
         """Add a fault of a key."""
         if key.partition(".")[0] in self._distrusted:
@@ -37,7 +43,7 @@ class Faults:
             self._found.append(Fault(message, "", f"--set {key}"))
             return
         if key not in self._lines:
-            self._lines[key] = line_of(self.text, key)
+            self._lines[key] = line_of(self.text, written_key(key, self.text))
         self._found.append(Fault(message, key, self.file, self._lines[key]))
 
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:

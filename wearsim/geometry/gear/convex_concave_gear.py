@@ -100,7 +100,7 @@ class ConvexConcaveGear:
             if not width > 0.0:
                 raise GeometryError(
                     f"{what} must be above 0 mm, is {width:.4g} mm with z = {self.teeth}: lower "
-                    "addendum_ratio or pole_angle_deg, or change the radii of the arcs"
+                    "addendum_ratio or pitch_point_angle_deg, or change the radii of the arcs"
                 )
 
     @property

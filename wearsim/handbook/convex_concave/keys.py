@@ -16,9 +16,9 @@ class ConvexConcaveTable(Table):
     module_mm: Positive
     pinion_teeth: Teeth
     wheel_teeth: Teeth
-    pole_angle_deg: Annotated[Positive, Field(lt=45.0)] = 20.0
-    head_arc_radius_mm: Positive
-    foot_arc_radius_mm: Positive | None = None
+    pitch_point_angle_deg: Annotated[Positive, Field(lt=45.0)] = 20.0
+    addendum_arc_radius_mm: Positive
+    dedendum_arc_radius_mm: Positive | None = None
     addendum_ratio: PositiveNumber = 1.0
     backlash_mm: NotNegative = 0.0
 

@@ -156,14 +156,14 @@ def convex_concave(tables: ConvexConcaveTables) -> Layout:
         The teeth cannot be, or a roller does not rest on them.
     """
     given, body = tables.convex_concave, tables.gears
-    foot_arc = given.foot_arc_radius_mm
+    foot_arc = given.dedendum_arc_radius_mm
     pair = ConvexConcave(
         given.module_mm,
         given.pinion_teeth,
         given.wheel_teeth,
-        math.radians(given.pole_angle_deg),
-        given.head_arc_radius_mm,
-        given.head_arc_radius_mm if foot_arc is None else foot_arc,
+        math.radians(given.pitch_point_angle_deg),
+        given.addendum_arc_radius_mm,
+        given.addendum_arc_radius_mm if foot_arc is None else foot_arc,
         given.addendum_ratio * given.module_mm,
         given.backlash_mm,
     )

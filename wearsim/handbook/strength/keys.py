@@ -21,7 +21,7 @@ from wearsim.input.units import Number, Positive, PositiveNumber
 OVERLOAD_CYCLES = 5e4
 """Number of load cycles below which a torque is an overload and does not fatigue."""
 
-_YIELDS = ("normalised", "improved", "through_hardened")
+_YIELDS = ("normalised", "quenched_and_tempered", "through_hardened")
 
 Share = Annotated[PositiveNumber, Field(le=1.0)]
 Factor = Annotated[PositiveNumber, Field(ge=0.01, le=100.0)]
@@ -53,8 +53,8 @@ class StrengthDriveTable(Table):
         ]
 
 
-class CyclogramStep(Table):
-    """A torque of the cyclogram with the time it acts."""
+class LoadSpectrumStep(Table):
+    """A torque of the load spectrum with the time it acts."""
 
     relative_torque: Annotated[Number, Field(ge=0.0, le=1000.0)]
     share_of_time: Share | None = None
@@ -175,7 +175,7 @@ class StrengthTables(CalculationTables):
     """The whole file."""
 
     drive: StrengthDriveTable
-    cyclogram: list[CyclogramStep] = Field(default_factory=list)
+    load_spectrum: list[LoadSpectrumStep] = Field(default_factory=list)
     pinion: GearTable
     wheel: GearTable
     fatigue: FatigueTable = FatigueTable()
@@ -184,13 +184,13 @@ class StrengthTables(CalculationTables):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""
-        if not self.cyclogram:
+        if not self.load_spectrum:
             return []
         found = []
         if self.drive.regime is not None:
-            found.append(("drive.regime", "[[cyclogram]] gives the loads already: remove one of both"))
-        total = math.fsum(step.share_of_time or 0.0 for step in self.cyclogram)
+            found.append(("drive.regime", "[[load_spectrum]] gives the loads already: remove one of both"))
+        total = math.fsum(step.share_of_time or 0.0 for step in self.load_spectrum)
         if abs(total - 1.0) > 1e-6:
             message = f"the shares of time must come to 1, come to {total:.6g}: correct them"
-            found.append(("cyclogram", message))
+            found.append(("load_spectrum", message))
         return found

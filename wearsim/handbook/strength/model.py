@@ -22,7 +22,7 @@ from wearsim.handbook.strength.keys import (
     StrengthLoadTable,
     StrengthTables,
 )
-from wearsim.handbook.strength.spectrum import Spectrum, cyclogram_spectrum, regime_spectrum
+from wearsim.handbook.strength.spectrum import Spectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import (
     LoadFactor,
     SpurMesh,
@@ -215,7 +215,7 @@ def pair_strength(tables: StrengthTables) -> PairStrength:
     Raises
     ------
     GeometryError
-        Everything in the cyclogram is an overload.
+        Everything in the load spectrum is an overload.
     """
     drive = tables.drive
     hours = drive.life_hours
@@ -239,13 +239,13 @@ def pair_strength(tables: StrengthTables) -> PairStrength:
 
 def _spectrum(tables: StrengthTables, cycles: float) -> Spectrum:
     """Return the loads; a torque is no overload once the gear with more cycles has enough."""
-    if not tables.cyclogram:
+    if not tables.load_spectrum:
         return regime_spectrum(tables.drive.regime or "0")
     steps = [
         (step.relative_torque, step.overload_cycles or (step.share_of_time or 0.0) * cycles)
-        for step in tables.cyclogram
+        for step in tables.load_spectrum
     ]
-    return cyclogram_spectrum(steps, cycles)
+    return load_spectrum(steps, cycles)
 
 
 def _gear(

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-_WIDTHS = (46, 18, 18)
+_WIDTHS = (46, 23, 23)
 
 
 def strength_text(tables: StrengthTables, pair: PairStrength) -> str:
@@ -132,7 +132,7 @@ def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, .
         found.append("K_HL and K_FL are not below 1: what is endured for N_HG is always endured")
     if tables.overload.static_safety != 1.0:
         found.append(f"S_st = {tables.overload.static_safety:g} (textbook: not in the source)")
-    if tables.cyclogram:
+    if tables.load_spectrum:
         found.append("which torques are overloads is that of the life asked for")
     if load is not None:
         found.append(

@@ -1,6 +1,6 @@
 """Load spectra of gears and the constant load that fatigues as much.
 
-Source 001, formula (22) and table 2.2: typical regimes and cyclograms. An overload, which acts
+Source 001, formula (22) and table 2.2: typical regimes and load spectra. An overload, which acts
 for less than 5e4 cycles, is no part of the sum; it is judged against the static limits.
 """
 
@@ -24,7 +24,7 @@ class Spectrum:
     blocks : tuple
         Pairs of a torque over the largest long-acting one and its share of all cycles.
     torque : float
-        The largest long-acting torque over the torque that the cyclogram is relative to.
+        The largest long-acting torque over the torque that the load spectrum is relative to.
     peak : float
         The largest torque at all over the largest long-acting one; 1 without overloads.
     peak_cycles : float
@@ -97,8 +97,8 @@ def regime_spectrum(name: str) -> Spectrum:
     return Spectrum(title, regimes()[name], published=published)
 
 
-def cyclogram_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Spectrum:
-    """Return the spectrum of a cyclogram, its overloads set apart.
+def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Spectrum:
+    """Return what a load spectrum comes to, its overloads set apart.
 
     Overloads are the largest torques as long as they act, together, for less than 5e4 cycles.
 
@@ -121,7 +121,7 @@ def cyclogram_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Sp
 
     Examples
     --------
-    >>> spectrum = cyclogram_spectrum([(1.0, 6e6), (0.5, 4e6), (1.6, 2e4)], 1e7)
+    >>> spectrum = load_spectrum([(1.0, 6e6), (0.5, 4e6), (1.6, 2e4)], 1e7)
     >>> spectrum.peak, round(spectrum.equivalence(3), 6)
     (1.6, 0.65)
     """
@@ -130,7 +130,7 @@ def cyclogram_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Sp
     for first, (torque, cycles) in enumerate(ordered):
         if torque > 0.0 and acted + cycles >= OVERLOAD_CYCLES:
             return Spectrum(
-                name="cyclogram",
+                name="load spectrum",
                 blocks=tuple((each / torque, count / total) for each, count in ordered[first:]),
                 torque=torque,
                 peak=ordered[0][0] / torque,
@@ -138,6 +138,6 @@ def cyclogram_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Sp
             )
         acted += cycles if torque > 0.0 else 0.0
     raise GeometryError(
-        f"cyclogram: torques above 0 must act for at least {OVERLOAD_CYCLES:g} cycles, but act for "
-        f"{acted:.4g}: that is all overload, raise the life or leave out the cyclogram"
+        f"load_spectrum: torques above 0 must act for at least {OVERLOAD_CYCLES:g} cycles, but act for "
+        f"{acted:.4g}: that is all overload, raise the life or leave out the load spectrum"
     )

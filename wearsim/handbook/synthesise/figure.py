@@ -81,7 +81,7 @@ def indices_figure(title: str, indices: pd.DataFrame) -> Figure:
                 inverse = column.endswith("radius_mm")
                 values = 1.0 / rows[column] if inverse else rows[column]
                 label = f"phase {number}" if style == "-" else None
-                panel.plot(rows["pole_distance_mm"], values, style, color=colour, label=label)
+                panel.plot(rows["pitch_point_distance_mm"], values, style, color=colour, label=label)
     for panel, (label, _) in zip(panels, _PANELS, strict=True):
         panel.set_title(label, fontsize=9, loc="left")
         panel.grid(alpha=0.3)

@@ -47,20 +47,20 @@ class StressTable(Table):
     """The contact stress: one for all, or one at each of some distances from the pole."""
 
     contact_stress_MPa: Series
-    pole_distance_mm: Series | None = None
+    pitch_point_distance_mm: Series | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        names = ("contact_stress_MPa", "pole_distance_mm")
-        return stress_conflicts(self.contact_stress_MPa, self.pole_distance_mm, names)
+        names = ("contact_stress_MPa", "pitch_point_distance_mm")
+        return stress_conflicts(self.contact_stress_MPa, self.pitch_point_distance_mm, names)
 
 
 class PhaseTable(Table):
     """A line of action: through the pole, or from a point beside it."""
 
     family: Literal[1, -1] = 1
-    first_pole_distance_mm: Signed | None = None
-    last_pole_distance_mm: Signed
+    first_pitch_point_distance_mm: Signed | None = None
+    last_pitch_point_distance_mm: Signed
     start_x_mm: Signed | None = None
     start_y_mm: Signed | None = None
     nodes: Annotated[int, Field(ge=11, le=20001)] = 201
@@ -76,8 +76,8 @@ class PhaseTable(Table):
     @property
     def reach(self) -> tuple[float, float]:
         """Least and greatest distance from the pole [mm]."""
-        first = self.start[0] if self.start else self.first_pole_distance_mm
-        last = self.last_pole_distance_mm
+        first = self.start[0] if self.start else self.first_pitch_point_distance_mm
+        last = self.last_pitch_point_distance_mm
         return (last, last) if first is None else (min(first, last), max(first, last))
 
     def conflicts(self) -> list[tuple[str, str]]:
@@ -88,26 +88,26 @@ class PhaseTable(Table):
         if missing:
             return [(missing[0], "a point needs both coordinates: give it too")]
         found = []
-        if self.first_pole_distance_mm is not None:
-            found.append(("first_pole_distance_mm", "start_x_mm gives the start: remove one"))
+        if self.first_pitch_point_distance_mm is not None:
+            found.append(("first_pitch_point_distance_mm", "start_x_mm gives the start: remove one"))
         if not self.start_x_mm * self.start_y_mm > 0.0:  # type: ignore[operator]
             message = f"must have the sign of start_x_mm, {self.start_x_mm:g} (got {self.start_y_mm:g})"
             return [*found, ("start_y_mm", f"{message}: the pressure angle is above 0")]
-        first, last = self.start[0], self.last_pole_distance_mm  # type: ignore[index]
+        first, last = self.start[0], self.last_pitch_point_distance_mm  # type: ignore[index]
         if not first * last > 0.0 or first == last:
             message = f"must be on the side of the start, {first:g}, and not there (got {last:g})"
-            found.append(("last_pole_distance_mm", message))
+            found.append(("last_pitch_point_distance_mm", message))
         return found
 
     def _pole_conflicts(self) -> list[tuple[str, str]]:
         if self.family == -1:
             message = "must be 1 without start_x_mm: the small radii never reach the pole (got -1)"
             return [("family", message)]
-        first, last = self.first_pole_distance_mm, self.last_pole_distance_mm
+        first, last = self.first_pitch_point_distance_mm, self.last_pitch_point_distance_mm
         if first is None:
-            return [("first_pole_distance_mm", "give this, or start_x_mm and start_y_mm")]
+            return [("first_pitch_point_distance_mm", "give this, or start_x_mm and start_y_mm")]
         if not first < last:
-            return [("last_pole_distance_mm", f"must be above the first, {first:g} (got {last:g})")]
+            return [("last_pitch_point_distance_mm", f"must be above the first, {first:g} (got {last:g})")]
         return []
 
 
@@ -153,12 +153,12 @@ class SynthesisTables(CalculationTables):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""
-        given = self.stress.pole_distance_mm
+        given = self.stress.pitch_point_distance_mm
         if given is None:
             return []
         return [
             (
-                "stress.pole_distance_mm",
+                "stress.pitch_point_distance_mm",
                 f"must reach from {low:.6g} to {high:.6g} as phase {number} does (got {given[0]:g} to "
                 f"{given[-1]:g})",
             )

@@ -90,7 +90,7 @@ def loaded_pair(tables: SynthesisTables) -> LoadedPair:
     circles = PitchCircles(tables.gears.centre_distance_mm, tables.gears.gear_ratio)
     pinion, wheel = _elastic(tables.material.pinion), _elastic(tables.material.wheel)
     stress = np.array(tables.stress.contact_stress_MPa)
-    distance = tables.stress.pole_distance_mm
+    distance = tables.stress.pitch_point_distance_mm
     return LoadedPair(
         circles,
         contact_modulus((pinion[0], wheel[0]), (pinion[1], wheel[1])),
@@ -154,7 +154,7 @@ def _phase(pair: LoadedPair, table: PhaseTable, compared: float | None) -> Phase
         line = synthesis.through_pole(crossing, np.linspace(*table.reach, table.nodes))
         end, angle = None, crossing.pressure_angle
     else:
-        along = np.linspace(table.start[0], table.last_pole_distance_mm, table.nodes)
+        along = np.linspace(table.start[0], table.last_pitch_point_distance_mm, table.nodes)
         line = synthesis.from_point(table.start, along)
         end, angle = _inner_end(pair, synthesis, table.start), table.start[1]
     straight = involute(pair.circles, angle if compared is None else compared, line.contacts.pole_distance)

@@ -57,9 +57,9 @@ def synthesis_sheet(tables: SynthesisTables, pair: LoadedPair, phases: Sequence[
         text=_text(tables.title, pair, phases, indices),
         content={
             "title": tables.title,
-            "least_pole_stress_MPa": pair.least_pole_stress,
-            "best_pole_angle_deg": math.degrees(pair.load.best_pole_angle),
-            "pole_pressure_angle_deg": _pole_angle(pair),
+            "least_pitch_point_stress_MPa": pair.least_pole_stress,
+            "best_pitch_point_angle_deg": math.degrees(pair.load.best_pole_angle),
+            "pitch_point_pressure_angle_deg": _pole_angle(pair),
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
             "indices": _plain(indices),
         },
@@ -78,7 +78,7 @@ def _by_phase(columns: Iterable[Mapping[str, Vector]]) -> pd.DataFrame:
 def _indices(pair: LoadedPair, phase: Phase) -> dict[str, Vector]:
     contacts, straight = phase.line.contacts, phase.involute.contacts
     return {
-        "pole_distance_mm": contacts.pole_distance,
+        "pitch_point_distance_mm": contacts.pole_distance,
         "roll_angle_deg": np.degrees(phase.line.roll_angle),
         **_contact_columns(pair, contacts),
         "contact_stress_MPa": pair.contact_stress(contacts),
@@ -109,7 +109,7 @@ def _contact_columns(pair: LoadedPair, contacts: Contacts) -> dict[str, Vector]:
 def _line(line: LineOfAction) -> dict[str, Vector]:
     contacts = line.contacts
     return {
-        "pole_distance_mm": contacts.pole_distance,
+        "pitch_point_distance_mm": contacts.pole_distance,
         "contact_x_mm": contacts.points[:, 0],
         "contact_y_mm": contacts.points[:, 1],
         "pressure_angle_deg": np.degrees(contacts.pressure_angle),
@@ -129,7 +129,7 @@ def _wheel(line: LineOfAction) -> dict[str, Vector]:
 
 def _profile(line: LineOfAction, points: Vector, roll_angle: Vector, curvature: Vector) -> dict[str, Vector]:
     return {
-        "pole_distance_mm": line.contacts.pole_distance,
+        "pitch_point_distance_mm": line.contacts.pole_distance,
         "roll_angle_deg": np.degrees(roll_angle),
         "x_mm": points[:, 0],
         "y_mm": points[:, 1],
@@ -143,7 +143,7 @@ def _fields(pair: LoadedPair, name: str, fields: Mapping[Any, MeshField]) -> pd.
         columns = {
             "contact_x_mm": field.x,
             "contact_y_mm": field.y,
-            "pole_distance_mm": field.contacts.pole_distance,
+            "pitch_point_distance_mm": field.contacts.pole_distance,
             **_contact_columns(pair, field.contacts),
             "contact_stress_MPa": field.contact_stress,
         }
@@ -168,10 +168,10 @@ def _summary(number: int, phase: Phase) -> dict[str, Any]:
     return {
         "mesh_phase": number,
         "family": phase.family,
-        "through_pole": phase.through_pole,
-        "first_pole_distance_mm": float(l[0]),
-        "last_pole_distance_mm": float(l[-1]),
-        "end_pole_distance_mm": None if end is None else end[0],
+        "through_pitch_point": phase.through_pole,
+        "first_pitch_point_distance_mm": float(l[0]),
+        "last_pitch_point_distance_mm": float(l[-1]),
+        "end_pitch_point_distance_mm": None if end is None else end[0],
         "end_pressure_angle_deg": None if end is None else math.degrees(end[1]),
     }
 
@@ -233,13 +233,13 @@ def _form(rows: pd.DataFrame, wheel: str) -> str:
     signs = np.sign(rows[f"{wheel}_flank_radius_mm"].to_numpy())
     if signs.min() == signs.max():
         return "convex" if signs[0] > 0.0 else "concave"
-    at = rows["pole_distance_mm"].to_numpy()[np.flatnonzero(np.diff(signs))]
+    at = rows["pitch_point_distance_mm"].to_numpy()[np.flatnonzero(np.diff(signs))]
     return "convex and concave, straight near l = " + ", ".join(f"{l:.3g}" for l in at) + " mm"
 
 
 def _row(one: "pd.Series[float]") -> str:
     return (
-        f"{one['pole_distance_mm']:9.3f}{one['pressure_angle_deg']:8.3f}{one['roll_angle_deg']:9.3f}"
+        f"{one['pitch_point_distance_mm']:9.3f}{one['pressure_angle_deg']:8.3f}{one['roll_angle_deg']:9.3f}"
         f"{one['pinion_flank_radius_mm']:10.3f}{one['wheel_flank_radius_mm']:10.3f}"
         f"{one['contact_stress_MPa']:9.2f}{one['involute_contact_stress_MPa']:10.2f}"
         f"{one['sliding_speed_mm_per_s']:9.1f}{one['pinion_specific_sliding']:9.4f}"

@@ -38,7 +38,7 @@ class DriveTable(Table):
     inclination_deg: Annotated[NotNegative, Field(le=90.0)] | None = None
     link_stiffness_N_per_mm: Positive | None = None
     service_factor: Annotated[PositiveNumber, Field(ge=1.0, le=10.0)] | None = None
-    exploitation_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
+    joint_application_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

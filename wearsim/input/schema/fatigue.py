@@ -8,7 +8,7 @@ from wearsim.input.schema.table import Table
 from wearsim.input.units import Positive, PositiveNumber
 
 Treatment = Literal[
-    "normalised", "improved", "through_hardened", "surface_hardened", "carburised", "nitrided"
+    "normalised", "quenched_and_tempered", "through_hardened", "surface_hardened", "carburised", "nitrided"
 ]
 
 AtLeastOne = Annotated[PositiveNumber, Field(ge=1.0, le=100.0)]

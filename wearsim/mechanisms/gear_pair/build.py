@@ -175,15 +175,15 @@ def _involute(case: Record, table: GearTable) -> ToothPair:
 def _convex_concave(case: Record, table: GearTable, torque: float, modulus: float) -> ToothPair:
     from wearsim.geometry.gear.convex_concave import ConvexConcave  # takes 0.1 s, for scipy
 
-    head = table.head_arc_radius_mm
+    head = table.addendum_arc_radius_mm
     assert head is not None
     return ConvexConcave(
         table.module_mm,
         table.pinion_teeth,
         table.wheel_teeth,
-        math.radians(_taken(case, table, "pole_angle_deg", 20.0)),
+        math.radians(_taken(case, table, "pitch_point_angle_deg", 20.0)),
         head,
-        _taken(case, table, "foot_arc_radius_mm", head, "as of the head"),
+        _taken(case, table, "dedendum_arc_radius_mm", head, "as of the head"),
         table.module_mm * _taken(case, table, "addendum_ratio", 1.0),
     )
 
@@ -197,7 +197,7 @@ def _prescribed_stress(case: Record, table: GearTable, torque: float, modulus: f
     circles = PitchCircles(0.5 * table.module_mm * sum(teeth), teeth[1] / teeth[0])
     design = 1000.0 * _taken(case, table, "design_torque_N_m", 0.001 * torque, "as of the load")
     load = LineLoad(design / (table.face_width_mm * circles.pinion_radius), 1)
-    places = table.stress_pole_distance_mm or (0.0,)
+    places = table.stress_pitch_point_distance_mm or (0.0,)
     law = StressLaw(np.array(places), np.array(stress))
     # The shape does not depend on the speed.
     return SynthesisedPair(LoadedPair(circles, modulus, load, law, 0.0), teeth, table.reach)

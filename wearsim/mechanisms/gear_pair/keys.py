@@ -25,16 +25,26 @@ _KEYS = {
         "pinion_tip_radius_mm",
         "wheel_tip_radius_mm",
     ),
-    "convex_concave": ("pole_angle_deg", "head_arc_radius_mm", "foot_arc_radius_mm", "addendum_ratio"),
+    "convex_concave": (
+        "pitch_point_angle_deg",
+        "addendum_arc_radius_mm",
+        "dedendum_arc_radius_mm",
+        "addendum_ratio",
+    ),
     "prescribed_stress": (
         "contact_stress_MPa",
-        "stress_pole_distance_mm",
+        "stress_pitch_point_distance_mm",
         "design_torque_N_m",
-        "first_pole_distance_mm",
-        "last_pole_distance_mm",
+        "first_pitch_point_distance_mm",
+        "last_pitch_point_distance_mm",
     ),
 }
-_NEEDED = ("head_arc_radius_mm", "contact_stress_MPa", "first_pole_distance_mm", "last_pole_distance_mm")
+_NEEDED = (
+    "addendum_arc_radius_mm",
+    "contact_stress_MPa",
+    "first_pitch_point_distance_mm",
+    "last_pitch_point_distance_mm",
+)
 
 
 class GearTable(Table):
@@ -51,15 +61,15 @@ class GearTable(Table):
     wheel_shift: Annotated[Number, Field(ge=-2.0, le=2.0)] | None = None
     pinion_tip_radius_mm: Positive | None = None
     wheel_tip_radius_mm: Positive | None = None
-    pole_angle_deg: Annotated[Positive, Field(lt=45.0)] | None = None
-    head_arc_radius_mm: Positive | None = None
-    foot_arc_radius_mm: Positive | None = None
+    pitch_point_angle_deg: Annotated[Positive, Field(lt=45.0)] | None = None
+    addendum_arc_radius_mm: Positive | None = None
+    dedendum_arc_radius_mm: Positive | None = None
     addendum_ratio: PositiveNumber | None = None
     contact_stress_MPa: Series | None = None
-    stress_pole_distance_mm: Series | None = None
+    stress_pitch_point_distance_mm: Series | None = None
     design_torque_N_m: Positive | None = None
-    first_pole_distance_mm: Annotated[Signed, Field(lt=0.0)] | None = None
-    last_pole_distance_mm: Annotated[Signed, Field(gt=0.0)] | None = None
+    first_pitch_point_distance_mm: Annotated[Signed, Field(lt=0.0)] | None = None
+    last_pitch_point_distance_mm: Annotated[Signed, Field(gt=0.0)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -76,20 +86,22 @@ class GearTable(Table):
             if key in _NEEDED and getattr(self, key) is None
         ]
         if self.contact_stress_MPa is not None:
-            stress, distance = self.contact_stress_MPa, self.stress_pole_distance_mm
-            names = ("contact_stress_MPa", "stress_pole_distance_mm")
+            stress, distance = self.contact_stress_MPa, self.stress_pitch_point_distance_mm
+            names = ("contact_stress_MPa", "stress_pitch_point_distance_mm")
             found += stress_conflicts(stress, distance, names)
-        if not found and self.stress_pole_distance_mm is not None:
-            given, ends = self.stress_pole_distance_mm, self.reach
+        if not found and self.stress_pitch_point_distance_mm is not None:
+            given, ends = self.stress_pitch_point_distance_mm, self.reach
             if not given[0] <= ends[0] < ends[1] <= given[-1]:
                 message = f"must reach from {ends[0]:g} to {ends[1]:g} as contact does"
-                found.append(("stress_pole_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})"))
+                found.append(
+                    ("stress_pitch_point_distance_mm", f"{message} (got {given[0]:g} to {given[-1]:g})")
+                )
         return found
 
     @property
     def reach(self) -> tuple[float, float]:
         """Distances from the pole at which contact starts and ends [mm]."""
-        return self.first_pole_distance_mm or 0.0, self.last_pole_distance_mm or 0.0
+        return self.first_pitch_point_distance_mm or 0.0, self.last_pitch_point_distance_mm or 0.0
 
 
 class GearMaterialsTable(Table):

@@ -89,7 +89,9 @@ def resolve_wrap(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | N
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout),
         service_factor=_factor(case, "service", "smooth load", "power"),
-        exploitation_factor=_factor(case, "exploitation", "steady, drip oil, one shift", "joint pressure"),
+        exploitation_factor=_factor(
+            case, "joint_application", "steady, drip oil, one shift", "joint pressure"
+        ),
         chain=chain,
     )
 
@@ -101,7 +103,7 @@ def _factor(case: Resolution, name: str, why: str, what: str) -> float:
     if given is None:
         case.take(f"drive.{key}", 1.0, f"{why}; {effect}")
         return 1.0
-    case.assumptions.append(f"{name} factor {given:g}: {effect}")
+    case.assumptions.append(f"{name.replace('_', ' ')} factor {given:g}: {effect}")
     return given
 
 
