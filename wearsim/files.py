@@ -50,57 +50,20 @@ def check_folder(folder: Path, force: bool) -> None:
         return
     if not folder.is_dir():
         raise OutputError(f"{folder}: must be a folder to be replaced, but is a file: choose another place")
-    foreign = sorted(_foreign(folder))
+    foreign = sorted(_names(folder) - written(folder))
     if foreign:
         raise OutputError(
-            f"{folder}: must hold nothing but a result to be replaced, but holds {foreign[0]}: choose "
-            "another place"
+            f"{folder}: must hold nothing but what its file {_MARKER} lists to be replaced, but holds "
+            f"{foreign[0]}: move that away, or choose another place"
         )
     if Path.cwd().is_relative_to(folder.resolve()):
         raise OutputError(f"{folder}: must not be the folder you are in: choose another place")
-
-
-def _foreign(folder: Path) -> set[str]:
-    """Names in a folder that wearsim did not write."""
-    own = written(folder)
-    if own:
-        return _names(folder) - own
-    entries = list(folder.iterdir())
-    former = any(_begins(entry, _FORMER[entry.name]) for entry in entries if entry.name in _FORMER)
-    return {entry.name for entry in entries if not (former and _was_written(entry))}
 
 
 def _names(folder: Path) -> set[str]:
     """Names of the files in a folder and below."""
     paths = (path for path in folder.rglob("*") if path.is_symlink() or not path.is_dir())
     return {path.relative_to(folder).as_posix() for path in paths}
-
-
-_PAGE = b'<meta name="generator" content="wearsim '
-_FORMER = {
-    "result.json": b'"schema_version"',
-    "index.html": _PAGE,
-    "depth_over_hours.svg": b"",
-    "maintenance.svg": b"",
-    "calibrated.toml": b"",
-}
-"""Files of wearsim before there were markers, and what each has near its top."""
-
-
-def _was_written(entry: Path) -> bool:
-    """Whether an entry can be of wearsim before there were markers, by its ending."""
-    if entry.suffix == ".html":
-        return _begins(entry, _PAGE)
-    endings = ".json .csv .md .toml .png .svg .parquet .js .dxf .stl"
-    return entry.name == "inputs" or entry.suffix in endings.split()
-
-
-def _begins(path: Path, content: bytes) -> bool:
-    """Whether something stands near the top of a file."""
-    if not path.is_file():
-        return False
-    with path.open("rb") as file:
-        return content in file.read(500)
 
 
 @contextlib.contextmanager

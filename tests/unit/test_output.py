@@ -229,40 +229,14 @@ def test_what_the_marker_does_not_name_is_kept(tmp_path, name):
     fill(run, text="old")
     (run / "inputs").mkdir()
     (run / name).write_text("mine")
-    with pytest.raises(OutputError, match=f"must hold nothing but a result to be replaced, but holds {name}"):
+    with pytest.raises(OutputError, match=f"but holds {name}: move that away"):
         fill(run)
     assert (run / name).read_text() == "mine"
     assert (run / "history.csv").read_text() == "old"
 
 
-FORMER = {
-    "result.json": '{\n "schema_version": 1}',
-    "index.html": '<meta charset="utf-8">\n<meta name="generator" content="wearsim 0.1.0">',
-    "calibrated.toml": "",
-}
-
-
-@pytest.mark.parametrize("name", FORMER)
-def test_folder_of_before_there_were_markers_is_replaced(tmp_path, name):
-    run = tmp_path / "run"
-    run.mkdir()
-    (run / name).write_text(FORMER[name])
-    (run / "flank.csv").write_text("old")
-    (run / "inputs").mkdir()
-    (run / "notes.txt").write_text("mine")
-    with pytest.raises(OutputError, match=r"but holds notes\.txt"):
-        fill(run)
-    (run / "notes.txt").unlink()
-    (run / "other.html").write_text("mine")
-    with pytest.raises(OutputError, match=r"but holds other\.html"):
-        fill(run)
-    (run / "other.html").unlink()
-    fill(run)
-    assert tree(tmp_path) == FILLED
-
-
 @pytest.mark.parametrize("name", ["result.json", "index.html", "flank.csv"])
-def test_folder_of_another_program_is_not_replaced(tmp_path, name):
+def test_folder_without_a_marker_is_not_replaced(tmp_path, name):
     run = tmp_path / "run"
     run.mkdir()
     (run / name).write_text("{}")
