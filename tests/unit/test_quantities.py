@@ -22,7 +22,7 @@ from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.kind import MECHANISMS
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
-from wearsim.input.schema.uncertainty import Distribution
+from wearsim.input.schema.study_tables import Distribution
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table

@@ -27,7 +27,7 @@ import pytest
 from scipy import stats
 
 import wearsim
-from wearsim.input.schema.uncertainty import Distribution
+from wearsim.input.schema.study_tables import Distribution
 from wearsim.runner.distributions import quantile
 
 CYCLES = (100, 200, 500)

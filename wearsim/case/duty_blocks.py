@@ -9,7 +9,7 @@ from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_log
 from wearsim.input.duty_log import LogBlock, log_blocks, merged
 from wearsim.input.schema import DutyBlock
-from wearsim.input.schema.load import LOAD_KEYS
+from wearsim.input.schema.drive_tables import LOAD_KEYS
 
 BINS = [20, 8]
 """Bins of tension and speed that a log is sorted into."""

@@ -10,7 +10,7 @@ from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.case_record import Record, Resolution
 from wearsim.input.schema import MaterialTable, RunTable, SprocketTable, Table, WearTable
-from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
+from wearsim.input.schema.wear_tables import FatigueTable, FlankMaterialTable
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.former_words import written_key
-from wearsim.input.schema.dotted import CHOSEN, is_number, without_numbers
+from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
 _MOST_SHOWN = 20

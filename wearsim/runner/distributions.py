@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from wearsim.geometry.profile import Vector
-from wearsim.input.schema.uncertainty import Distribution
+from wearsim.input.schema.study_tables import Distribution
 
 Quantile = Callable[[Vector], Vector]
 

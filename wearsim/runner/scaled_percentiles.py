@@ -3,7 +3,7 @@
 import numpy as np
 
 from wearsim.case.model import Case
-from wearsim.input.schema.uncertainty import Distribution
+from wearsim.input.schema.study_tables import Distribution
 from wearsim.result import Life, WearResult
 from wearsim.runner.distributions import quantile
 from wearsim.runner.scatter import coefficient_key

@@ -12,7 +12,7 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.input.document import Document, read_document
-from wearsim.input.schema.uncertainty import Distribution
+from wearsim.input.schema.study_tables import Distribution
 from wearsim.result.folder import FILE_KEYS
 from wearsim.runner.design import Design, design, replaced, value_at
 from wearsim.runner.distributions import described, quantile

@@ -5,7 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.fatigue import (
+from wearsim.input.schema.drive_tables import Regime
+from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.schema.wear_tables import (
     NITRIDED_LIMIT,
     AtLeastOne,
     Brinell,
@@ -14,8 +16,6 @@ from wearsim.input.schema.fatigue import (
     Treatment,
     one_hardness,
 )
-from wearsim.input.schema.load import Regime
-from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 
 OVERLOAD_CYCLES = 5e4

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.material import MaterialTable
 from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.schema.wear_tables import MaterialTable
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
 from wearsim.mechanisms.gear_pair.keys import listed, stress_conflicts
 

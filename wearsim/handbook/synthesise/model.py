@@ -15,7 +15,7 @@ from wearsim.geometry.gear.line_synthesis import Synthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
 from wearsim.geometry.profile import Vector
 from wearsim.handbook.synthesise.keys import MeshFieldTable, MeshLoadTable, PhaseTable, SynthesisTables
-from wearsim.input.schema.material import MaterialTable
+from wearsim.input.schema.wear_tables import MaterialTable
 
 _NEAREST = 1e-6
 """Distance from the pole down to which the inner end of a line is looked for, over its start's."""

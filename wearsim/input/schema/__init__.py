@@ -1,19 +1,26 @@
-"""The whole input file, one module a table."""
+"""The whole input file of a drive with a chain."""
 
 from pydantic import Field
 
-from wearsim.input.schema.chain import ChainTable
-from wearsim.input.schema.drive import DriveTable, JointTable, MechanismTable
-from wearsim.input.schema.fatigue import SprocketFatigueTable
-from wearsim.input.schema.load import DutyBlock, LoadTable
-from wearsim.input.schema.maintenance import MaintenanceTable, ServiceTable
-from wearsim.input.schema.material import MaterialsTable, MaterialTable
-from wearsim.input.schema.optimise import OptimiseTable
-from wearsim.input.schema.run import RunTable, StopTable
-from wearsim.input.schema.sprocket import SprocketTable
+from wearsim.input.schema.drive_tables import (
+    ChainTable,
+    DriveTable,
+    DutyBlock,
+    JointTable,
+    LoadTable,
+    MechanismTable,
+    SprocketTable,
+)
+from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.input.schema.table import FormatVersion, Table
-from wearsim.input.schema.uncertainty import Uncertainty
-from wearsim.input.schema.wear import WearTable
+from wearsim.input.schema.wear_tables import (
+    MaterialsTable,
+    MaterialTable,
+    RunTable,
+    SprocketFatigueTable,
+    StopTable,
+    WearTable,
+)
 
 __all__ = [
     "CaseTables",

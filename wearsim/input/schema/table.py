@@ -1,8 +1,9 @@
 """What every table of the input file has in common."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from wearsim.catalogue.catalogues import nearest
@@ -67,3 +68,109 @@ class CalculationTables(Table):
 
     format_version: FormatVersion
     title: str = ""
+
+
+Finite = Annotated[int | float, Field(allow_inf_nan=False)]
+"""A number in the unit of the key that it is for."""
+
+Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
+"""The same above 0."""
+
+
+def is_number(part: str) -> bool:
+    """Return whether a part of a dotted name counts the entries of a list.
+
+    Examples
+    --------
+    >>> is_number("2"), is_number("\u00b2"), is_number("teeth")
+    (True, False, False)
+    """
+    return part.isascii() and part.isdecimal() and len(part) < _LONGEST
+
+
+_LONGEST = 10
+"""Digits from which on no list has so many entries."""
+
+
+def without_numbers(key: str) -> str:
+    """Return a dotted name without the numbers of entries of lists.
+
+    Examples
+    --------
+    >>> without_numbers("duty.2.speed_rpm")
+    'duty.speed_rpm'
+    """
+    return ".".join(part for part in key.split(".") if not is_number(part))
+
+
+def all_differ(values: Sequence[Any]) -> bool:
+    """Return whether no value of a list stands there twice.
+
+    Examples
+    --------
+    >>> all_differ([20, 20.0]), all_differ([1, True])
+    (False, True)
+    """
+    return len({_told_apart(value) for value in values}) == len(values)
+
+
+def _told_apart(value: Any) -> Any:
+    if isinstance(value, list):
+        return tuple(_told_apart(entry) for entry in value)
+    return isinstance(value, bool), value
+
+
+def dotted(value: Any, leaf: str | None = None) -> Any:
+    """Return nested tables as one with dotted keys, so that both ways to write them are one.
+
+    Examples
+    --------
+    >>> dotted({"wear": {"coefficient": {"from": 1, "to": 2}}}, "from")
+    {'wear.coefficient': {'from': 1, 'to': 2}}
+    """
+    if not isinstance(value, dict):
+        return value
+    flat: dict[str, Any] = {}
+    for key, below in value.items():
+        nested = isinstance(below, dict) and not (leaf is not None and _is_value(below, leaf))
+        inner = dotted(below, leaf) if nested else {"": below}
+        for name, entry in inner.items():
+            whole = _counted(f"{key}.{name}" if name else key)
+            if whole in flat:
+                raise ValueError(
+                    f"{whole} is given twice, with and without quotes or zeros before a number: remove one"
+                )
+            flat[whole] = entry
+    return flat
+
+
+def _counted(key: str) -> str:
+    parts = key.split(".")
+    return ".".join(str(int(part)) if is_number(part) else part for part in parts)
+
+
+def _is_value(table: dict[str, Any], leaf: str) -> bool:
+    return leaf in table or not any(isinstance(entry, dict | list) for entry in table.values())
+
+
+def list_or(table: type[BaseModel], values: Any, words: str) -> Any:
+    """Return the type of a key that takes a table or a list, faulted as what was meant."""
+    return Annotated[
+        Annotated[table, Tag(_TABLE)] | Annotated[values, Tag(_LIST)],
+        Discriminator(
+            _chosen,
+            custom_error_type="table_or_list",
+            custom_error_message=f"must be {words} or a list of values",
+        ),
+    ]
+
+
+def _chosen(value: Any) -> str | None:
+    if isinstance(value, list):
+        return _LIST
+    return _TABLE if isinstance(value, dict | BaseModel) else None
+
+
+_TABLE, _LIST = "(table)", "(list)"
+CHOSEN = (_TABLE, _LIST)
+"""What pydantic adds to the place of a fault by `list_or`."""

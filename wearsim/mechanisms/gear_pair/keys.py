@@ -5,13 +5,16 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.fatigue import FatigueTable, FlankMaterialTable
-from wearsim.input.schema.material import MaterialTable
-from wearsim.input.schema.optimise import OptimiseTable
-from wearsim.input.schema.run import Depth, RunTable
+from wearsim.input.schema.study_tables import OptimiseTable, Uncertainty
 from wearsim.input.schema.table import CalculationTables, Table
-from wearsim.input.schema.uncertainty import Uncertainty
-from wearsim.input.schema.wear import WearTable
+from wearsim.input.schema.wear_tables import (
+    Depth,
+    FatigueTable,
+    FlankMaterialTable,
+    MaterialTable,
+    RunTable,
+    WearTable,
+)
 from wearsim.input.units import Number, Positive, PositiveNumber, Series, Signed, Speed
 
 Teeth = Annotated[int, Field(ge=5, le=1000)]

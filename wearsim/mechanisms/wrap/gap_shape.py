@@ -19,7 +19,7 @@ from wearsim.geometry.profile import Profile, Vector
 from wearsim.input.case_record import Resolution
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
-from wearsim.input.schema.sprocket import BETWEEN_FORMS
+from wearsim.input.schema.drive_tables import BETWEEN_FORMS
 
 OUTLINE_NODES = 601
 

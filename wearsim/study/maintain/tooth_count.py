@@ -10,7 +10,7 @@ from typing import Any
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.chain.drive_layout import Meetings
-from wearsim.input.schema.sprocket import STANDARD_FORMS
+from wearsim.input.schema.drive_tables import STANDARD_FORMS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.result.folder import FILE_KEYS

@@ -10,8 +10,8 @@ from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document, read_document
-from wearsim.input.schema.dotted import all_differ
-from wearsim.input.schema.optimise import MeasureLimit, OptimiseTable
+from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
+from wearsim.input.schema.table import all_differ
 from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
 from wearsim.runner.scatter import WITH_FATIGUE
 from wearsim.study.optimise.mass import blank_mass, mass_assumption

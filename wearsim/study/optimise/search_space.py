@@ -12,8 +12,8 @@ from pydantic.fields import FieldInfo
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile import Vector
 from wearsim.input.keys import parts, schema_fields, schema_of, words
-from wearsim.input.schema.dotted import without_numbers
-from wearsim.input.schema.optimise import ParameterRange
+from wearsim.input.schema.study_tables import ParameterRange
+from wearsim.input.schema.table import without_numbers
 from wearsim.runner.design import NAMES_FILE
 from wearsim.study.uncertainty.model import unit_samples
 

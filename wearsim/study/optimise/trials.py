@@ -9,7 +9,7 @@ import pandas as pd
 
 from wearsim.case.model import Case
 from wearsim.errors import StudyError, WearsimError
-from wearsim.input.schema.optimise import MeasureLimit
+from wearsim.input.schema.study_tables import MeasureLimit
 from wearsim.report.lines import kinds
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases

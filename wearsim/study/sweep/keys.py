@@ -4,8 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, PositiveInt, field_validator
 
-from wearsim.input.schema.dotted import Finite, all_differ, dotted, list_or
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.schema.table import CalculationTables, Finite, Table, all_differ, dotted, list_or
 
 Value = bool | Finite | str | list[bool | Finite | str]
 Values = Annotated[list[Value], Field(min_length=1)]

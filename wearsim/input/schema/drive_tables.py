@@ -1,0 +1,276 @@
+"""What runs on the sprocket, and how: [chain], [sprocket], [drive], [mechanism], [joint], [load], [[duty]]."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
+
+from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
+from wearsim.input.schema.table import Table
+from wearsim.input.units import NotNegative, Positive, PositiveNumber, Speed
+
+
+class MechanismTable(Table):
+    """The picture of what touches the flank."""
+
+    kind: Literal["strand", "prescribed", "wrap"] | None = None
+    table_file: str | None = None
+    phases: Annotated[int, Field(ge=1, le=720)] | None = None
+    roller_slip_fraction: Annotated[PositiveNumber, Field(ge=1e-6, le=1.0)] | None = None
+    """Below the least what slides is lost in the rounding of the flank's points."""
+    friction_roller_tooth: Annotated[NotNegative, Field(le=1.0)] | None = None
+    friction_roller_bush: Annotated[NotNegative, Field(le=1.0)] | None = None
+
+
+class JointTable(Table):
+    """Wear of pin and bush, which makes the chain grow."""
+
+    specific_wear_rate_mm2_per_N: Positive | None = None
+    pitch: Literal["alternating", "uniform"] | None = None
+
+
+class DriveTable(Table):
+    """The other sprocket, the length of the chain, its slack span and how hard the drive is used."""
+
+    mate_teeth: Annotated[int, Field(ge=5, le=1000)] | None = None
+    links: Annotated[int, Field(ge=10, le=100000)] | None = None
+    centre_distance_mm: Positive | None = None
+    slack_tension_N: Positive | None = None
+    sag_percent: Annotated[PositiveNumber, Field(le=20.0)] | None = None
+    inclination_deg: Annotated[NotNegative, Field(le=90.0)] | None = None
+    link_stiffness_N_per_mm: Positive | None = None
+    service_factor: Annotated[PositiveNumber, Field(ge=1.0, le=10.0)] | None = None
+    joint_application_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        pairs = (("links", "centre_distance_mm"), ("slack_tension_N", "sag_percent"))
+        found = [
+            (second, f"{first} gives this already: remove one of both")
+            for first, second in pairs
+            if getattr(self, first) is not None and getattr(self, second) is not None
+        ]
+        if self.slack_tension_N is not None and self.inclination_deg is not None:
+            found.append(("inclination_deg", "slack_tension_N is given: remove one of both"))
+        return found
+
+
+class ChainTable(Table):
+    """A chain of the catalogue by its designation, or one of one's own by its dimensions."""
+
+    designation: str | None = None
+    pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
+    """From below the finest chains to far beyond the largest; what is outside is a slip of units."""
+    roller_diameter_mm: Positive | None = None
+    inner_width_mm: Positive | None = None
+    pin_diameter_mm: Positive | None = None
+    bush_diameter_mm: Positive | None = None
+    bearing_area_mm2: Positive | None = None
+    mass_kg_per_m: Positive | None = None
+
+    @field_validator("designation", mode="before")
+    @classmethod
+    def _text(cls, value: object) -> object:
+        """A number is refused as its text is, with the chains that may be meant."""
+        return str(value) if type(value) is int else value
+
+    @field_validator("designation")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        if value is None or chain_name(value):
+            return value
+        raise ValueError(
+            f"no such chain in the catalogue{nearest_chain(value)} (wearsim list chains shows them all)"
+        )
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        own = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
+        given = [key for key in own if getattr(self, key) is not None]
+        if self.designation is not None:
+            given += [key for key in self._known_by_designation() if getattr(self, key) is not None]
+            return [(key, "a designation gives this already: remove one of both") for key in given]
+        missing = [key for key in own if key not in given]
+        if missing:
+            message = (
+                "give a designation, or pitch_mm, roller_diameter_mm and inner_width_mm "
+                f"(missing: {', '.join(missing)})"
+            )
+            return [(missing[0], message)]
+        assert self.roller_diameter_mm and self.pitch_mm
+        if not self.roller_diameter_mm < self.pitch_mm:
+            message = (
+                f"the roller must be smaller than the pitch of {self.pitch_mm:g} mm "
+                f"(got {self.roller_diameter_mm:g})"
+            )
+            return [("roller_diameter_mm", message)]
+        inside = self.bush_diameter_mm or self.pin_diameter_mm
+        if inside and inside > self.roller_diameter_mm:
+            key = "bush_diameter_mm" if self.bush_diameter_mm else "pin_diameter_mm"
+            message = f"must fit into the roller of {self.roller_diameter_mm:g} mm (got {inside:g})"
+            return [(key, message)]
+        return []
+
+    def _known_by_designation(self) -> list[str]:
+        chain = chains()[chain_name(self.designation or "") or ""]
+        values = {
+            "pin_diameter_mm": chain.pin_diameter,
+            "bearing_area_mm2": chain.bearing_area,
+            "mass_kg_per_m": chain.mass_per_length,
+        }
+        return [key for key, value in values.items() if value]
+
+
+STANDARD_FORMS = ("iso606", "ansi_b29", "gost591")
+
+BETWEEN_FORMS = ("seat_radius_mm", "flank_radius_mm", "seating_angle_deg")
+"""What ISO 606 leaves free between its minimum and its maximum form."""
+
+_BELONGS_TO = {
+    "form": ("iso606",),
+    **dict.fromkeys(BETWEEN_FORMS, ("iso606",)),
+    "displaced": ("gost591",),
+    "seat_centre": STANDARD_FORMS,
+    "tip_diameter_mm": STANDARD_FORMS,
+    "points_file": ("points",),
+    "points_noise_mm": ("points", "dxf"),
+    "dxf_file": ("dxf",),
+    "dxf_layer": ("dxf",),
+    "back_flank": ("evolute", "points"),
+    "evolute_offset_mm": ("evolute", "points"),
+    "contact_start_mm": ("evolute", "points"),
+    "contact_end_mm": ("evolute", "points"),
+}
+
+
+class SprocketTable(Table):
+    """Teeth, tooth form and, on a strand, the range of contact."""
+
+    teeth: Annotated[int, Field(ge=5, le=1000)]
+    profile: Literal["evolute", "points", "iso606", "ansi_b29", "gost591", "dxf"]
+    role: Literal["driver", "driven"] | None = None
+    engaged_every: Annotated[int, Field(ge=1, le=4)] = 1
+    form: Literal["min", "max"] | None = None
+    seat_radius_mm: Positive | None = None
+    flank_radius_mm: Positive | None = None
+    seating_angle_deg: Positive | None = None
+    displaced: bool | None = None
+    seat_centre: Literal["pitch_circle", "root_diameter"] | None = None
+    tip_diameter_mm: Positive | None = None
+    points_file: str | None = None
+    points_noise_mm: NotNegative | None = None
+    dxf_file: str | None = None
+    dxf_layer: str | None = None
+    face_width_mm: Positive | None = None
+    evolute_offset_mm: Positive | None = None
+    contact_start_mm: Positive | None = None
+    contact_end_mm: Positive | None = None
+    back_flank: Literal["relieved", "mirrored"] = "relieved"
+    nodes: Annotated[int, Field(ge=11, le=20001)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = [
+            (key, f"belongs to profile = {' or '.join(map(repr, profiles))}: remove it")
+            for key, profiles in _BELONGS_TO.items()
+            if key in self.model_fields_set and self.profile not in profiles
+        ]
+        found += [
+            (key, f"profile = {self.profile!r} needs this key")
+            for key in ("points_file", "dxf_file")
+            if self.profile in _BELONGS_TO[key] and getattr(self, key) is None
+        ]
+        found += [
+            (key, f"form = {self.form!r} gives this already: remove one of both")
+            for key in BETWEEN_FORMS
+            if self.form is not None and getattr(self, key) is not None
+        ]
+        return found
+
+
+Share = Annotated[PositiveNumber, Field(le=1.0)]
+
+
+class DutyBlock(Table):
+    """A part of the duty in which load and speed are constant."""
+
+    share_of_time: Share | None = None
+    share_of_cycles: Share | None = None
+    tension_N: Positive | None = None
+    power_kW: Positive | None = None
+    torque_N_m: Positive | None = None
+    speed_rpm: Speed
+    wear_factor: PositiveNumber = 1.0
+    applies_to: Literal["all", "teeth", "joints"] = "all"
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = []
+        for keys in (("share_of_time", "share_of_cycles"), LOAD_KEYS):
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) != 1:
+                names = f"{', '.join(keys[:-1])} and {keys[-1]}"
+                message = f"give exactly one of {names} (got {', '.join(given) or 'none'})"
+                found.append((given[1] if given else keys[0], message))
+        return found
+
+
+LOAD_KEYS = ("tension_N", "power_kW", "torque_N_m")
+"""Keys of which exactly one gives a load."""
+
+_MOST_BINS = 100
+
+
+def _bins(value: object) -> object:
+    pair = value if isinstance(value, list) and len(value) == 2 else [None]
+    if not all(type(entry) is int and 1 <= entry <= _MOST_BINS for entry in pair):
+        raise ValueError(
+            f"must be two whole numbers from 1 to {_MOST_BINS}, bins of the tension and of the speed, "
+            "such as [20, 8]"
+        )
+    return value
+
+
+def _named(value: object) -> object:
+    """Take the number 0 for the name: that is what --set load.regime=0 gives."""
+    return "0" if type(value) is int and value == 0 else value
+
+
+Regime = Annotated[Literal["0", "I", "II", "III", "IV", "V"], BeforeValidator(_named)]
+"""A typical regime of loading, from constant to very light."""
+
+_BINS: dict[str, Any] = {
+    "type": "array",
+    "items": {"type": "integer", "minimum": 1, "maximum": _MOST_BINS},
+    "minItems": 2,
+    "maxItems": 2,
+}
+
+
+class LoadTable(Table):
+    """Load and speed of this sprocket: constant, by a typical regime, or by a log."""
+
+    tension_N: Positive | None = None
+    power_kW: Positive | None = None
+    torque_N_m: Positive | None = None
+    speed_rpm: Speed | None = None
+    regime: Regime | None = None
+    duty_file: str | None = None
+    duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.duty_file is not None:
+            keys = (*LOAD_KEYS, "speed_rpm", "regime")
+            return [
+                (key, "duty_file gives load and speed: remove one of both")
+                for key in keys
+                if getattr(self, key) is not None
+            ]
+        found = []
+        if self.duty_bins is not None:
+            found.append(("duty_bins", "belongs to duty_file: remove it"))
+        given = [key for key in LOAD_KEYS if getattr(self, key) is not None]
+        if len(given) > 1:
+            message = f"give exactly one of {', '.join(LOAD_KEYS)} (got {', '.join(given)})"
+            found.append((given[1], message))
+        return found

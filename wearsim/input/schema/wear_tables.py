@@ -1,0 +1,203 @@
+"""How it wears and when that ends: [wear], [material], [stop], [run] and [fatigue]."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
+
+from wearsim.catalogue.catalogues import materials, wear_conditions
+from wearsim.input.schema.table import Table, known
+from wearsim.input.units import Number, Positive, PositiveNumber
+
+_KEYS = {
+    "archard": ("specific_wear_rate_mm2_per_N",),
+    "power": ("coefficient", "pressure_exponent"),
+    "drozdov": (
+        "coefficient",
+        "pressure_exponent",
+        "hardness_MPa",
+        "reference_speed_mm_per_s",
+        "speed_exponent",
+    ),
+}
+
+
+class WearTable(Table):
+    """The wear law and its coefficient."""
+
+    law: Literal["archard", "power", "drozdov"] = "archard"
+    condition: str | None = None
+    specific_wear_rate_mm2_per_N: Positive | None = None
+    coefficient: PositiveNumber | None = None
+    pressure_exponent: Annotated[PositiveNumber, Field(le=20.0)] | None = None
+    hardness_MPa: Annotated[Positive, Field(ge=1e-3, le=1e6)] | None = None
+    reference_speed_mm_per_s: Annotated[Positive, Field(ge=1e-6, le=1e9)] | None = None
+    speed_exponent: Annotated[Number, Field(ge=-20.0, le=20.0)] | None = None
+    case_depth_mm: Positive | None = None
+    core_factor: PositiveNumber | None = None
+    roller_wear_ratio: Annotated[Number, Field(ge=0.0)] | None = None
+    running_in_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+    running_in_distance_mm: Positive | None = None
+    band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+
+    @field_validator("condition")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        wanted = _KEYS[self.law]
+        every = dict.fromkeys(key for keys in _KEYS.values() for key in keys)
+        given = [key for key in every if getattr(self, key) is not None]
+        found = [
+            (key, f"does not belong to law = {self.law!r}: remove it") for key in given if key not in wanted
+        ]
+        if self.condition is None:
+            alternative = " (or condition)" if self.law == "archard" else ""
+            found += [
+                (key, f"law = {self.law!r} needs this key{alternative}") for key in wanted if key not in given
+            ]
+        elif self.law != "archard" or given:
+            other = f"or {', '.join(given)}" if given else f"or law = {self.law!r}"
+            message = f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
+            found.append(("condition", message))
+        for pair in (("case_depth_mm", "core_factor"), ("running_in_factor", "running_in_distance_mm")):
+            missing = [key for key in pair if getattr(self, key) is None]
+            if len(missing) == 1:
+                other = pair[1 - pair.index(missing[0])]
+                found.append((missing[0], f"{other} needs this key"))
+        return found
+
+
+class MaterialTable(Table):
+    """A material of the table by its name, or by its elastic constants."""
+
+    name: str | None = None
+    youngs_modulus_MPa: Positive | None = None
+    poissons_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)] | None = None
+
+    @field_validator("name")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(value, dict(materials()), "material", "wearsim list materials")
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.name is None:
+            return []
+        return [
+            (key, "the material's name gives this already: remove one of both")
+            for key in ("youngs_modulus_MPa", "poissons_ratio")
+            if getattr(self, key) is not None
+        ]
+
+
+class MaterialsTable(Table):
+    """The materials in contact."""
+
+    sprocket: MaterialTable = MaterialTable()
+    roller: MaterialTable = MaterialTable()
+
+
+Depth = Annotated[Positive, Field(ge=1e-9)]
+"""Worn off: far below an atom is a slip of the pen."""
+
+
+class StopTable(Table):
+    """Limits; the first one met ends the life."""
+
+    critical_depth_mm: Depth | None = None
+    min_tip_land_mm: Positive | None = None
+    case_depth_mm: Depth | None = None
+    min_tooth_thickness_mm: Positive | None = None
+    over_pins_change_mm: Positive | None = None
+    min_slack_tension_N: Positive | None = None
+    elongation_percent: Annotated[PositiveNumber, Field(le=10.0)] | None = None
+
+
+class RunTable(Table):
+    """How the life is calculated."""
+
+    method: Literal["advance", "per_cycle"] = "advance"
+    cycles_per_update: Annotated[int, Field(ge=1)] | None = None
+    life_tolerance: Annotated[PositiveNumber, Field(ge=1e-6, le=0.1)] | None = None
+    horizon_hours: Annotated[Positive, Field(ge=1e-6)] = 1e6
+    """At least some milliseconds, in which no tooth wears."""
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.cycles_per_update is None or self.method == "per_cycle":
+            return []
+        message = "belongs to method = 'per_cycle': remove it or change the method"
+        return [("cycles_per_update", message)]
+
+
+Treatment = Literal[
+    "normalised", "quenched_and_tempered", "through_hardened", "surface_hardened", "carburised", "nitrided"
+]
+
+AtLeastOne = Annotated[PositiveNumber, Field(ge=1.0, le=100.0)]
+Stress = Annotated[Positive, Field(ge=1.0, le=1e5)]
+
+
+def _mean(value: object) -> object:
+    """Take the two ends of a band for its mean."""
+    if not isinstance(value, list):
+        return value
+    ends = [end for end in value if type(end) in (int, float)]
+    if len(value) != 2 or len(ends) != 2 or not 0.0 < ends[0] <= ends[1]:
+        raise ValueError("must be a number, or the two ends of its band, such as [269, 302]")
+    return 0.5 * (ends[0] + ends[1])
+
+
+_BAND: dict[str, Any] = {
+    "anyOf": [
+        {"type": "number", "exclusiveMinimum": 0.0},
+        {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0.0}, "minItems": 2, "maxItems": 2},
+    ]
+}
+Brinell = Annotated[PositiveNumber, Field(le=750.0), BeforeValidator(_mean), WithJsonSchema(_BAND)]
+Rockwell = Annotated[PositiveNumber, Field(le=70.0), BeforeValidator(_mean), WithJsonSchema(_BAND)]
+
+NITRIDED_LIMIT = (
+    "contact_limit_MPa",
+    "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take 1050 MPa",
+)
+"""The fault of nitrided flanks without an endurance limit."""
+
+
+def one_hardness(brinell: float | None, rockwell: float | None) -> list[tuple[str, str]]:
+    """Return the fault of flanks whose hardness is given in no scale or in both."""
+    if (brinell is None) != (rockwell is None):
+        return []
+    got = "none" if brinell is None else "both"
+    return [("hardness_HB", f"give exactly one of hardness_HB and hardness_HRC (got {got})")]
+
+
+class FlankMaterialTable(Table):
+    """What flanks are made of, against contact fatigue."""
+
+    treatment: Treatment
+    hardness_HB: Brinell | None = None
+    hardness_HRC: Rockwell | None = None
+    contact_limit_MPa: Stress | None = None
+    contact_safety: AtLeastOne | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = one_hardness(self.hardness_HB, self.hardness_HRC)
+        if self.treatment == "nitrided" and self.contact_limit_MPa is None:
+            found.append(NITRIDED_LIMIT)
+        return found
+
+
+class FatigueTable(Table):
+    """Contact fatigue beside the wear."""
+
+    load_factor: AtLeastOne = 1.0
+
+
+class SprocketFatigueTable(FatigueTable):
+    """Contact fatigue of a sprocket."""
+
+    sprocket: FlankMaterialTable
