@@ -1,4 +1,4 @@
-"""What runs on the sprocket, and how: [chain], [sprocket], [drive], [mechanism], [joint], [load], [[duty]]."""
+"""What runs on a sprocket, and how: [chain], [sprocket], [drive], [mechanism], [joint], [load], [[duty]]."""
 
 from typing import Annotated, Any, Literal
 
