@@ -158,11 +158,12 @@ def test_workbook_and_comparison(cli, drive, tmp_path):
     assert summary.count("(overloaded)") == 1
 
 
-@pytest.mark.parametrize(("key", "what"), [("service", "power"), ("exploitation", "joint pressure")])
+@pytest.mark.parametrize(("key", "what"), [("service", "power"), ("joint_application", "joint pressure")])
 def test_factors_of_ratings_say_that_they_change_no_wear(key, what):
     effect = f"it changes the {what} in the ratings, not the wear"
     tables = tomllib.loads(CASE)
     (text,) = [text for text in wearsim.load_case(tables).assumptions if f"{key}_factor" in text]
     assert text.startswith(f"drive.{key}_factor = 1 (") and text.endswith(f"{effect})")
     tables["drive"][f"{key}_factor"] = 1.4
-    assert f"{key} factor 1.4: {effect}" in wearsim.load_case(tables).assumptions
+    words = key.replace("_", " ")
+    assert f"{words} factor 1.4: {effect}" in wearsim.load_case(tables).assumptions

@@ -3,6 +3,7 @@
 Expected: the same peak within 10 %, measured by tracemalloc, for a life ten times as long.
 """
 
+import gc
 import tracemalloc
 from collections.abc import Callable
 
@@ -16,6 +17,7 @@ from wearsim.wear.per_cycle import run_per_cycle
 
 
 def peak(wear: Callable[[], object]) -> int:
+    gc.collect()
     tracemalloc.start()
     try:
         wear()

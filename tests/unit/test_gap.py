@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry import measuring
+from wearsim.geometry import worn_tooth
 from wearsim.geometry.forms import iso606
 from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
 from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap, tooth_height_factor, tooth_width
@@ -271,7 +271,7 @@ def test_pointed_height_of_a_long_pitch_is_not_a_number() -> None:
 
 def test_pin_must_reach_the_bottom() -> None:
     gap = iso606_gap(12.7, 8.51, 17)
-    assert measuring.seated_radius(gap, 8.51) == pytest.approx(gap.bottom_radius + 4.255)
+    assert worn_tooth.seated_radius(gap, 8.51) == pytest.approx(gap.bottom_radius + 4.255)
     for diameter in (0.0, 8.6):
         with pytest.raises(GeometryError, match="measuring pin: its diameter"):
-            measuring.seated_radius(gap, diameter)
+            worn_tooth.seated_radius(gap, diameter)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from wearsim.catalogue.catalogues import chains
-from wearsim.geometry import measuring
+from wearsim.geometry import worn_tooth
 from wearsim.geometry.forms import gost591, iso606
 from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
 from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap
@@ -345,7 +345,7 @@ def test_gost_displaced_halves_are_the_plain_ones_moved_apart() -> None:
 
 
 def test_measuring() -> None:
-    over, across = measuring.measurement_over_pins, measuring.root_caliper
+    over, across = worn_tooth.measurement_over_pins, worn_tooth.root_caliper
     for pitch, roller, teeth, printed in (
         (12.7, 8.51, 17, "77.3310"),
         (12.7, 8.51, 18, "81.6464"),
@@ -353,7 +353,7 @@ def test_measuring() -> None:
         (25.4, 15.88, 19, "169.6715"),
     ):
         gap = iso606_gap(pitch, roller, teeth, seat_centre="root_diameter")
-        check(printed, over(measuring.seated_radius(gap, roller), roller, teeth))
+        check(printed, over(worn_tooth.seated_radius(gap, roller), roller, teeth))
     check("60.3110", across(0.5 * pitch_diameter(12.7, 17), 8.51, 17))
     check("3.50873", over(0.5 * pitch_diameter(0.5, 20), 0.3125, 20))
     check("3.02199", over(0.5 * pitch_diameter(0.5, 17), 0.3125, 17))
@@ -367,7 +367,7 @@ def test_measuring() -> None:
 def test_measurement_over_pins_of_a_worn_seat_drops_by_both_seats() -> None:
     """Both seats 0.1 mm deeper: 0.2 mm less for even z, 0.2 cos(90/z) for odd z."""
     for teeth, less in ((18, 0.2), (17, 0.2 * math.cos(math.pi / 34))):
-        new, worn = (measuring.measurement_over_pins(rc, 8.51, teeth) for rc in (36.0, 35.9))
+        new, worn = (worn_tooth.measurement_over_pins(rc, 8.51, teeth) for rc in (36.0, 35.9))
         assert new - worn == pytest.approx(less, abs=1e-13)
 
 
