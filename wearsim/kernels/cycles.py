@@ -1,4 +1,4 @@
-"""The loop over loading cycles."""
+"""The loop over loading cycles: equations (10) to (12) of the source, and the file to read first."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def run_cycles(
     updates: int,
     done: Vector,
 ) -> int:
-    """Wear the flank update by update, physics.md (10) to (12), in place.
+    """Wear the flank update by update in place: the source's equations (10) to (12), as they stand.
 
     Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
     worn points and moves each along its normal. It stops before an update that the
@@ -78,9 +78,11 @@ def run_cycles(
         status = update_status(load, relative, step, spacing_squared, diffusion)
         if status != RUNNING:
             return status
+        # Equation (10) of the source: every point goes down its normal by the depth of the cycle.
         for j in range(n):
             x[j] -= step[j] * normal_x[j]
             y[j] -= step[j] * normal_y[j]
+        # Equations (11) and (12) of the source: the sum of all cycles, until a point has the critical depth.
         reached = 0
         for j in range(n):
             depth[j] += step[j]

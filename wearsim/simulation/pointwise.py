@@ -1,5 +1,6 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.contact.engagement import Contact, Mechanism
 from wearsim.contact.hertz import peak_pressure
-from wearsim.errors import WearsimError
+from wearsim.errors import ConvergenceError, WearsimError
 from wearsim.geometry.profile import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
@@ -16,6 +17,9 @@ from wearsim.simulation.task import Task, limit_states, new_flank_pressure, runn
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
+
+MOST_UPDATES = 1_000_000_000
+"""Updates of a cycle-by-cycle run, each of a microsecond or two on 200 points."""
 
 
 def simulate_points(case: Case) -> WearResult:
@@ -128,15 +132,23 @@ def _first_run(case: Case, contact: Contact, warnings: list[str]) -> tuple[Traje
         return run, error
     from wearsim.wear.per_cycle import run_per_cycle
 
-    run = asked.run_in(
-        run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, case.run.cycles_per_update)
-    )
-    check_fold(contact, run)
     try:
         check, change = asked.run()
     except WearsimError as reason:
+        check, missing = None, str(reason)
+    cycles = case.run.cycles_per_update
+    expected = asked.running_in.constant_cycles(float(check.cycles[-1])) if check else 0.0
+    if expected > MOST_UPDATES * cycles:
+        least = math.ceil(expected / MOST_UPDATES)
+        raise ConvergenceError(
+            f"wear: a cycle-by-cycle run must stay below {MOST_UPDATES:.0e} updates, half an hour, takes "
+            f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
+        )
+    run = asked.run_in(run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, cycles))
+    check_fold(contact, run)
+    if check is None:
         warnings.append(
-            f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
+            f"the error of the steps could not be estimated by advance, 100 % is stated: {missing}"
         )
         return run, 1.0
     return run, change + difference(run, check)
