@@ -10,14 +10,14 @@ from types import SimpleNamespace
 import pytest
 from click.testing import CliRunner
 from pydantic import BaseModel
+from wearsim.export.wheel_points import wheel_points
+from wearsim.export.wheel_shapes import wheel_shapes
 
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
-from wearsim.export.wheel_points import wheel_points
-from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables

@@ -10,22 +10,22 @@ import numpy as np
 import plotly.graph_objects as go
 import pytest
 import shapely
+from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
+from wearsim.report.html.gear_sketch import gear_sketch
 
 import wearsim
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
+from wearsim.quantities import grouped
 from wearsim.report.answer import answer, ending, limit_state
 from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
 from wearsim.report.html import page_content as page
 from wearsim.report.html import writer
-from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
-from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.html.writer import page_names, save_report
-from wearsim.report.lines import grouped
 from wearsim.result import LimitState, WearResult
 
 STRAND = {

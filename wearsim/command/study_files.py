@@ -8,8 +8,8 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from wearsim.files import write_file
-from wearsim.report.figure_text import literal
 from wearsim.report.figures import picture_bytes
+from wearsim.report.lines import literal
 
 
 def save_texts(folder: Path, files: Mapping[str, str]) -> None:

@@ -4,9 +4,11 @@ from collections.abc import Sequence
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
-from wearsim.export.wheel_drawing import drawing_box, wheel_drawing
-from wearsim.export.wheel_shapes import State, WheelShape, wheel_shapes
-from wearsim.report.lines import grouped
+from wearsim.export.printed_page import drawing_bytes
+from wearsim.export.wheel_drawing import wheel_points, wheel_scene
+from wearsim.geometry.wheel import State, WheelShape
+from wearsim.quantities import grouped
+from wearsim.report.scene import wheel_shapes
 from wearsim.result import WearResult
 
 
@@ -14,22 +16,13 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
     """Return the wheels of a case as the content of a file."""
     shapes = wheel_shapes(case, result)
     if form == "csv":
-        from wearsim.export.wheel_points import wheel_points
-
         return wheel_points(shapes, states).to_csv(index=False).encode()
     if form == "step":
         from wearsim.export.step import step_bytes
 
         return step_bytes(shapes, states)
-    note = wheel_note(case, result, shapes, states)
-    drawing = wheel_drawing(shapes, states, note)
-    if form == "svg":
-        from wearsim.export.printed_page import svg_text
-
-        return svg_text(drawing, drawing_box(shapes, note)).encode()
-    from wearsim.export.dxf_writer import dxf_text
-
-    return dxf_text(drawing).encode()
+    scene, layers = wheel_scene(shapes, states, wheel_note(case, result, shapes, states))
+    return drawing_bytes(scene, layers, form)
 
 
 def wheel_note(

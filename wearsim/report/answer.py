@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from wearsim.chain.selection import Finding
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.quantities import grouped
+from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 

@@ -1,4 +1,4 @@
-"""Numbers and lines as texts for the screen show them."""
+"""Lines of text as the screen and figures show them."""
 
 import re
 import textwrap
@@ -7,22 +7,6 @@ _WIDTH = 100
 _LABEL = 13
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
-
-
-def grouped(value: float, digits: int = 4) -> str:
-    """Return a number with few digits and thousands set apart, as one reads it aloud.
-
-    Examples
-    --------
-    >>> grouped(15149.24)
-    '15 150'
-    >>> grouped(0.012341)
-    '0.01234'
-    """
-    rounded = float(f"{value:.{digits}g}")
-    if abs(rounded) >= 10 ** (digits - 1):
-        return f"{rounded:,.0f}".replace(",", " ")
-    return f"{rounded:.{digits}g}"
 
 
 def row(label: str, text: str) -> str:
@@ -62,3 +46,14 @@ def told_apart(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
     """
     defaults = [text for text in assumptions if _DEFAULT.match(text)]
     return [text for text in assumptions if text not in defaults], defaults
+
+
+def literal(text: str) -> str:
+    r"""Return a text that a figure shows as it is.
+
+    Examples
+    --------
+    >>> print(literal("3 $ an hour"))
+    3 \$ an hour
+    """
+    return text.replace("$", r"\$")

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from wearsim.quantities import grouped
 from wearsim.report.answer import jumping
-from wearsim.report.lines import grouped
 from wearsim.simulation.tooth_loads import ToothLoads
 
 _COLUMNS = (

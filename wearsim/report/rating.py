@@ -8,7 +8,7 @@ from typing import Any
 from wearsim.case.model import Case, WrapDrive
 from wearsim.chain.drive_layout import Meetings, polygon_effect
 from wearsim.chain.selection import Finding
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.simulation.chain_rating import rated_drive, rating, rules_without_limit
 
 _WIDTH = 100

@@ -3,7 +3,7 @@
 from typing import Any
 
 from wearsim.command.study_files import plain
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.study.uncertainty.cross_check import Bounded, CrossCheck, CrossFit
 
 

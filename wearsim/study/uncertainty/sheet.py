@@ -10,7 +10,7 @@ import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
 from wearsim.geometry.profile import Vector
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.study.similar_texts import kinds
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.cross_check_sheet import cross_check_json, cross_check_lines
