@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import pytest
-from wearsim.export.wheel_shapes import wheel_shapes
 
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.export.step import step_bytes
+from wearsim.report.scene import wheel_shapes
 
 pytestmark = pytest.mark.slow
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import shapely
 from shapely import affinity
-from wearsim.export.wheel_shapes import wheel_shapes
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import StrandDrive
 from wearsim.export.gauge import gauge
 from wearsim.geometry.wheel import worn_gap, worn_space
+from wearsim.report.scene import wheel_shapes
 
 CASES = Path(__file__).parents[2] / "cases"
 WRAP = """\

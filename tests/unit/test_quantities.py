@@ -10,14 +10,13 @@ from types import SimpleNamespace
 import pytest
 from click.testing import CliRunner
 from pydantic import BaseModel
-from wearsim.export.wheel_points import wheel_points
-from wearsim.export.wheel_shapes import wheel_shapes
 
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
+from wearsim.export.wheel_drawing import wheel_points
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.messages import Faults
 from wearsim.input.schema import CaseTables
@@ -26,6 +25,7 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
 from wearsim.report.loads_table import loads_json
+from wearsim.report.scene import wheel_shapes
 from wearsim.result.folder import FLANK_COLUMNS
 from wearsim.runner.scatter import Scatter
 from wearsim.runner.shard import COLUMNS
