@@ -179,17 +179,15 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
 
         content = life_json(result)
         if grid is not None:
-            from wearsim.report.grid_convergence import grid_json
+            from wearsim.report.answer import grid_json
 
             content["grid"] = grid_json(grid)
         print_json(content, path, result.warnings)
     else:
-        from wearsim.report.answer import answer
+        from wearsim.report.answer import answer, grid_text
 
         click.echo(answer(result, str(path)))
         if grid is not None:
-            from wearsim.report.grid_convergence import grid_text
-
             click.echo(grid_text(grid))
 
 

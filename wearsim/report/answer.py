@@ -1,14 +1,18 @@
-"""The answer on screen."""
+"""The answer on screen, and the study of three grids that can stand below it."""
 
+import math
 import shlex
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import Finding
 from wearsim.quantities import grouped
 from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LimitState, LowerBound, WearResult
+
+if TYPE_CHECKING:
+    from wearsim.wear.accuracy import GridStudy
 
 BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
 OVERLOADED = "Overloaded:"
@@ -263,3 +267,33 @@ def _worst(result: WearResult) -> str:
             place += f", after {grouped(result.hours_run)} h"
     pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
     return f"{place}; peak pressure {pressures}"
+
+
+def grid_json(grid: "GridStudy") -> dict[str, Any]:
+    """Return a study of three grids as ``wearsim life --verify-grid --json`` prints it."""
+    return {
+        "nodes": list(grid.points),
+        "quantity": grid.quantity,
+        "values": list(grid.values),
+        "order": None if math.isnan(grid.order) else grid.order,
+        "error": grid.error,
+        "richardson": grid.extrapolates,
+    }
+
+
+def grid_text(grid: "GridStudy") -> str:
+    """Return a study of three grids as ``wearsim life --verify-grid`` prints it."""
+    from wearsim.wear.accuracy import LEAST_ORDER, MOST_ORDER  # with the solver of a life
+
+    nodes = ", ".join(map(str, grid.points))
+    values = ", ".join(f"{value:.7g}" for value in grid.values)
+    unit = "cycles" if grid.quantity == "cycles" else "mm deep"
+    if grid.extrapolates:
+        found = f"order {grid.order:.2f}, Richardson error {grid.error:.1g}"
+    else:
+        order = "no order" if math.isnan(grid.order) else f"order {grid.order:.2g}"
+        found = (
+            f"{order} instead of {LEAST_ORDER:g} to {MOST_ORDER:g}, so no extrapolation: spread of the "
+            f"three {grid.error:.1g}"
+        )
+    return row("Grid", f"{nodes} nodes: {values} {unit}; {found}")

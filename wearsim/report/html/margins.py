@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Case, StrandDrive, WrapDrive
+from wearsim.case.model import Case
 from wearsim.quantities import grouped
 from wearsim.report.answer import JUMPING, limit_name, limit_state, slack_needed
 from wearsim.result import WearResult
@@ -51,10 +51,5 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
 
 def _when_new(name: str, case: Case) -> float:
     """What the quantity of a limit is on new teeth; 0 of all that grow."""
-    drive = case.drive
-    if isinstance(drive, StrandDrive | WrapDrive):
-        if name == "min_tip_land_mm":
-            return drive.tip_land
-        if name == "min_tooth_thickness_mm":
-            return drive.pitch_line_thickness
-    return 0.0
+    falling = {"min_tip_land_mm": "tip_land", "min_tooth_thickness_mm": "pitch_line_thickness"}
+    return float(getattr(case.drive, falling[name])) if name in falling else 0.0
