@@ -1,4 +1,4 @@
-"""The one table of names: every input key and output column with symbol, unit and meaning."""
+"""The one table of names: every input key and output column with symbol, unit and meaning; its numbers."""
 
 import csv
 from dataclasses import dataclass
@@ -21,3 +21,19 @@ def quantities() -> dict[str, Quantity]:
     """Return all quantities by name."""
     with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as file:
         return {row["name"]: Quantity(**row) for row in csv.DictReader(file)}
+
+
+def grouped(value: float, digits: int = 4) -> str:
+    """Return a number with few digits and thousands set apart, as one reads it aloud.
+
+    Examples
+    --------
+    >>> grouped(15149.24)
+    '15 150'
+    >>> grouped(0.012341)
+    '0.01234'
+    """
+    rounded = float(f"{value:.{digits}g}")
+    if abs(rounded) >= 10 ** (digits - 1):
+        return f"{rounded:,.0f}".replace(",", " ")
+    return f"{rounded:.{digits}g}"

@@ -7,7 +7,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 
 HARD = "fatigue.sprocket={treatment='surface_hardened', hardness_HRC=45}"
 MILD = ("--set", "stop.critical_depth_mm=0.7")

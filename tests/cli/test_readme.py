@@ -21,9 +21,9 @@ import wearsim.cli
 from wearsim.catalogue.catalogues import rows
 from wearsim.input.schema import CaseTables
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
+from wearsim.quantities import grouped
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
-from wearsim.report.lines import grouped
 from wearsim.report.loads_table import loads_json
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ import pytest
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.export.step import step_bytes
-from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.report.scene import wheel_shapes
 
 pytestmark = pytest.mark.slow
 

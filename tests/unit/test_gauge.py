@@ -11,9 +11,9 @@ from shapely import affinity
 
 from wearsim.case.load_case import load_case
 from wearsim.export.gauge import gauge
-from wearsim.export.wheel_shapes import wheel_shapes
 from wearsim.geometry.wheel import worn_gap, worn_space
 from wearsim.mechanisms.strand.drive import StrandDrive
+from wearsim.report.scene import wheel_shapes
 
 CASES = Path(__file__).parents[2] / "cases"
 WRAP = """\

@@ -18,9 +18,13 @@ MODULES = {name_of(path): path for path in ROOT.rglob("*.py")}
 
 
 def imports_of(source):
-    """Modules of wearsim that a text imports, wherever in it."""
+    """Modules of wearsim that a text imports when it runs, wherever in it."""
     found = set()
-    for node in ast.walk(ast.parse(source)):
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            node.body = []
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -47,6 +51,6 @@ def test_no_circles():
 
 def test_imports_are_found_everywhere():
     source = "if TYPE_CHECKING:\n import wearsim.errors\ndef f():\n from wearsim import extras, load_case\n"
-    assert imports_of(source) == {"wearsim", "wearsim.errors", "wearsim.extras"}
+    assert imports_of(source) == {"wearsim", "wearsim.extras"}
     assert circle_of({"a": {"b"}, "b": {"c"}, "c": {"a"}}) is not None
     assert circle_of({"a": {"b", "c"}, "b": {"c"}}) is None

@@ -16,8 +16,7 @@ from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
-from wearsim.export.formats import wheel_points
-from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.export.wheel_drawing import wheel_points
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.kind import MECHANISMS
 from wearsim.input.messages import Faults
@@ -28,6 +27,7 @@ from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
 from wearsim.report.loads_table import loads_json
+from wearsim.report.scene import wheel_shapes
 from wearsim.runner.scatter import Scatter
 from wearsim.runner.shard import COLUMNS
 from wearsim.study.calibrate.model import calibrate

@@ -13,19 +13,22 @@ import shapely
 
 import wearsim
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
+from wearsim.geometry.scene import Circle, Label, Scene, line
+from wearsim.mechanisms.gear_pair.scene import gear_scene
+from wearsim.mechanisms.strand.scene import strand_scene
+from wearsim.mechanisms.wrap.scene import roller_places, wrap_scene
+from wearsim.quantities import grouped
 from wearsim.report.answer import answer, ending, limit_state
 from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
 from wearsim.report.html import page_content as page
 from wearsim.report.html import writer
-from wearsim.report.html.chain_sketch import roller_places, strand_sketch, wrap_sketch
-from wearsim.report.html.gear_sketch import gear_sketch
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
 from wearsim.report.html.run_charts import along_chart, history_chart
+from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.html.writer import page_names, save_report
-from wearsim.report.lines import grouped
 from wearsim.result import LimitState, WearResult
 
 STRAND = {
@@ -50,14 +53,8 @@ GEARS = {
 }
 
 
-def points(path):
-    """Points of SVG path data, y upwards again."""
-    pairs = re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", path)
-    return np.array([(float(x), -float(y)) for x, y in pairs])
-
-
-def strokes(sketch, role):
-    return [stroke.path for stroke in sketch.strokes if stroke.role == role]
+def drawn(scene, role):
+    return [shape for shape in scene.shapes if shape.role == role]
 
 
 @pytest.mark.parametrize("teeth", [(19, 57), (57, 19), (20, 20)])
@@ -77,8 +74,8 @@ def test_rollers_sit_in_the_gaps_of_the_drawn_wheel(role):
     tables = {**WRAP, "sprocket": {**WRAP["sprocket"], "role": role}}
     drive = wearsim.load_case(tables).drive
     layout = drive.layout
-    (outline,) = strokes(wrap_sketch(drive), "worn")
-    wheel = shapely.Polygon(points(outline))
+    (outline,) = drawn(wrap_scene(drive), "worn")
+    wheel = shapely.Polygon(outline.vertices)
     assert wheel.is_valid
     clear = shapely.distance(shapely.points(roller_places(layout)), wheel)
     assert clear.min() > 0.5 * drive.chain.roller_diameter - 0.05
@@ -90,8 +87,8 @@ def test_rollers_sit_in_the_gaps_of_the_drawn_wheel(role):
 def test_the_roller_of_a_strand_touches_the_drawn_flank():
     """The conjugate flank: touched by the roller one pitch before the pole line, cut by none."""
     drive = wearsim.load_case(STRAND).drive
-    (outline,) = strokes(strand_sketch(drive, 1), "worn")
-    wheel = shapely.Polygon(points(outline))
+    (outline,) = drawn(strand_scene(drive, 1), "worn")
+    wheel = shapely.Polygon(outline.vertices)
     pitch, height = drive.chain.pitch, drive.tooth.strand.height
     clear = [
         shapely.Point(place * pitch, height).distance(wheel) - drive.tooth.strand.roller_radius
@@ -103,13 +100,39 @@ def test_the_roller_of_a_strand_touches_the_drawn_flank():
 
 
 def test_circles_of_gears_are_to_scale():
-    sketch = gear_sketch(wearsim.load_case(GEARS).drive)
-    radii = [float(re.search(r"a([\d.]+) ", path)[1]) for path in strokes(sketch, "pitch")]
-    assert radii == [28.5, 91.5]
-    (contact,) = strokes(sketch, "contact")
-    first, *_, last = points(contact)
+    scene = gear_scene(wearsim.load_case(GEARS).drive)
+    assert [circle.radius for circle in drawn(scene, "pitch")] == [28.5, 91.5]
+    (contact,) = drawn(scene, "contact")
+    first, *_, last = contact.vertices
     (lean,) = np.degrees(np.arctan2([abs(last[0] - first[0])], [abs(last[1] - first[1])]))
     assert lean == pytest.approx(20.0, abs=0.1)  # the pressure angle to the common tangent
+
+
+def test_a_sketch_is_its_scene_with_y_downwards():
+    """Lines of one role that follow one another are one path; text is escaped."""
+    shapes = (
+        line("chain", [(0, 0), (10, 5.5)]),
+        line("chain", [(1, 1), (2, 2), (3, 1)], closed=True),
+        Circle("roller", (0.0, 0.0), 5.0),
+        Label("text", "a < b", (1.0, 2.0), 3.0),
+    )
+    text = sketch(Scene((-5.0, -5.0, 15.0, 12.0), shapes, 'What "one" sees', ("a & b",)))
+    assert 'viewBox="-5.00 -7.00 15.00 12.00"' in text
+    assert '<path class="chain" d="M0 0L10 -5.5M1 -1L2 -2L3 -1Z"/>' in text
+    assert '<path class="roller" d="M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0"/>' in text
+    assert '<text x="1.00" y="-2.00" font-size="3.00">a &lt; b</text>' in text
+    assert 'aria-label="What &#34;one&#34; sees"' in text and "<li>a &amp; b</li>" in text
+    assert sketch(None) == ""
+
+
+def test_the_bar_of_a_sketch_is_as_long_as_it_says():
+    scene = Scene((0.0, 0.0, 240.0, 100.0), ()).with_scale()
+    *_, bar = drawn(scene, "scale")
+    (label,) = drawn(scene, "text")
+    assert label.text == "50 mm"
+    assert np.ptp(bar.vertices, axis=0).tolist() == [50.0, 0.0]
+    left, bottom, width, height = scene.box
+    assert left < 0.0 and bottom < bar.vertices[0, 1] and (left + width, bottom + height) > (240.0, 100.0)
 
 
 @pytest.fixture(scope="module")

@@ -12,15 +12,22 @@ import shapely
 from shapely.affinity import rotate
 
 from wearsim.errors import GeometryError
+from wearsim.geometry.blank import tooth_space
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.profile import Profile
 from wearsim.geometry.tooth import Tooth, cut_depth, sweep_path
+from wearsim.geometry.wheel import ring
 
 STRAND = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
 
 
 def tooth(relief: float = 0.254, nodes: int = 201) -> Tooth:
     return Tooth(STRAND, evolute_flank(STRAND, 4.0, 30.67, nodes).profile, 20, relief)
+
+
+def wheel_of(shape: Tooth) -> shapely.Polygon:
+    (chain,) = ring((tooth_space(shape),) * shape.teeth)
+    return shapely.Polygon(chain.outline.polygon(1e-6))
 
 
 def radial_tooth(half_gap_angle: float, teeth: int = 20) -> Tooth:
@@ -79,11 +86,9 @@ def test_relief_thins_the_tooth_by_less_than_its_width_across() -> None:
 
 
 @pytest.mark.parametrize("relief", [0.0, 0.254])
-def test_polygons_are_valid(relief: float) -> None:
+def test_wheels_are_valid(relief: float) -> None:
     shape = tooth(relief)
-    assert shape.polygon().is_valid
-    assert shape.polygon().area > 0.0
-    wheel = shape.wheel()
+    wheel = wheel_of(shape)
     assert wheel.is_valid
     assert wheel.is_simple
     assert wheel.contains(shapely.Point(0.0, 0.0))
@@ -92,7 +97,7 @@ def test_polygons_are_valid(relief: float) -> None:
 def test_area_of_the_wheel_is_that_of_its_rings() -> None:
     """Solid up to the lowest seat point; above, the polygon's share of thin circles."""
     shape = tooth()
-    wheel = shape.wheel()
+    wheel = wheel_of(shape)
     seat_radius = float(np.hypot(*shape.seat.T).min())
     assert wheel.bounds[2] <= shape.tip_radius + 1e-9
     radii = np.linspace(seat_radius, shape.tip_radius, 141)
@@ -111,7 +116,7 @@ def test_area_of_the_wheel_is_that_of_its_rings() -> None:
 
 
 def test_wheel_has_the_symmetry_of_its_teeth() -> None:
-    wheel = tooth().wheel()
+    wheel = wheel_of(tooth())
     turned = rotate(wheel, 360.0 / 20, origin=(0.0, 0.0))
     assert wheel.symmetric_difference(turned).area < 1e-9 * wheel.area
     off = rotate(wheel, 180.0 / 20, origin=(0.0, 0.0))
@@ -122,15 +127,23 @@ def test_twenty_teeth_stand_on_the_root_disc() -> None:
     shape = tooth()
     seat_radius = float(np.hypot(*shape.seat.T).min())
     ring = shapely.Point(0.0, 0.0).buffer(seat_radius + 0.5, quad_segs=500)
-    teeth = shape.wheel().difference(ring)
+    teeth = wheel_of(shape).difference(ring)
     assert len(teeth.geoms) == 20
 
 
 def test_flank_and_seat_bound_the_wheel() -> None:
     shape = tooth()
-    boundary = shape.wheel().exterior
-    for points in (np.column_stack([shape.flank.x, shape.flank.y]), shape.seat):
-        assert float(shapely.distance(shapely.points(points), boundary).max()) < 1e-9
+    boundary = wheel_of(shape).exterior
+    flank = np.column_stack([shape.flank.x, shape.flank.y])
+    assert float(shapely.distance(shapely.points(flank), boundary).max()) < 1e-9
+    _, root = tooth_space(shape).right
+    (bulge,), (start, end) = root.bulges, root.vertices
+    # The centre lies off the middle of the chord by (1 - b^2)/(4 b) of its length, to the left.
+    way = end - start
+    centre = 0.5 * (start + end) + (1.0 - bulge**2) / (4.0 * bulge) * way[::-1] * (-1.0, 1.0)
+    radius = math.hypot(*(start - centre))
+    np.testing.assert_allclose(np.hypot(*(shape.seat - centre).T), radius, atol=1e-9)
+    np.testing.assert_allclose([start, end], shape.seat[[-1, 0]], atol=1e-9)
 
 
 def test_seat_clears_the_roller() -> None:
@@ -145,7 +158,7 @@ def test_seat_clears_the_roller() -> None:
 def test_roller_never_enters_the_wheel() -> None:
     """A polygon of the roller, carried along its way in and out, overlaps by nothing."""
     shape = tooth()
-    wheel = shape.wheel()
+    wheel = wheel_of(shape)
     path = STRAND.roller_path(np.linspace(-45.0, 45.0, 181))
     roller = shapely.buffer(shapely.points(path), 7.94 - 2e-3, quad_segs=64)
     assert float(shapely.area(shapely.intersection(roller, wheel)).max()) < 1e-6
@@ -180,5 +193,5 @@ def test_seat_that_cannot_clear_is_refused() -> None:
 
 
 def test_teeth_that_overlap_are_refused() -> None:
-    with pytest.raises(GeometryError, match="wheel: the outline must not cross itself"):
-        Tooth(STRAND, tooth().flank, 40, 0.254).wheel()
+    with pytest.raises(GeometryError, match="outline: it must not cross itself"):
+        wheel_of(Tooth(STRAND, tooth().flank, 40, 0.254))

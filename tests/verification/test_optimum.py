@@ -6,16 +6,19 @@ lightest sprocket that lives for L* has b = b0 L*/L0, and one that keeps to p* h
 b = b0 (p0/p*)^2. Where the flank changes too, L0 and m0 of a flank come from one plain run.
 """
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 import tomlkit
 from scipy.optimize import minimize_scalar
 
 import wearsim
+from wearsim.geometry.outline import turned
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.result import Life
 from wearsim.runner.run_study import run_study
@@ -181,7 +184,11 @@ def test_pressure_and_mass_are_those_of_the_case() -> None:
     assert new_peak_pressure(case) == wearsim.simulate(case).initial_peak_pressure
     mirrored = case_of(back_flank="mirrored")
     assert isinstance(mirrored.drive, StrandDrive)
-    plate = 7850e-9 * WIDTH * mirrored.drive.tooth.wheel().area
+    tooth, radius = mirrored.drive.tooth, mirrored.drive.tooth.tip_radius
+    gaps = [turned(tooth.gap, -n * math.tau / tooth.teeth) for n in range(tooth.teeth)]
+    tip = tooth.tip_land / radius
+    over_chords = 0.5 * tooth.teeth * radius**2 * (tip - math.sin(tip))
+    plate = 7850e-9 * WIDTH * (shapely.Polygon(np.concatenate(gaps)).area + over_chords)
     assert blank_mass(mirrored) == pytest.approx(plate, rel=1e-4)
     cast = wearsim.load_case({**CASE, "material": {"sprocket": {"name": "grey cast iron"}}})
     assert blank_mass(cast) == pytest.approx(blank_mass(case) * 7200.0 / 7850.0)

@@ -12,6 +12,8 @@ from wearsim.contact.engagement import Contact, Mechanism
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
 from wearsim.fatigue.endurance import EnduredHours
 from wearsim.geometry.profile import Vector
+from wearsim.geometry.scene import Scene, Stroke
+from wearsim.geometry.wheel import WheelShape
 
 
 @dataclass(frozen=True)
@@ -78,9 +80,7 @@ class Drive:
 
     def teeth_in_words(self, case: "Case") -> str:
         """Return the number of teeth and, if there is one, the chain."""
-        given = case.inputs["chain"]
-        chain = given.get("designation") or f"of {given['pitch_mm']:g} mm pitch"
-        return f"{case.inputs['sprocket']['teeth']} teeth, chain {chain}"
+        return f"{case.inputs['sprocket']['teeth']} teeth"
 
     def blank_area(self) -> float | None:
         """Return the area of the whole wheel [mm2]; None where its outline is not known."""
@@ -89,6 +89,22 @@ class Drive:
     def profile_columns(self) -> dict[str, Vector]:
         """Return the flank as the columns of a table; empty where there is none."""
         return {}
+
+    def scene(self, engaged_every: int) -> Scene | None:
+        """Return the drive to scale; None where no more than a flank is known."""
+        return None
+
+    def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
+        """Return the wheels, worn as in the columns of a flank if given; none where unknown."""
+        return ()
+
+    def body(self) -> tuple[Stroke, ...]:
+        """Return the steel around the new flank, as far as it is known."""
+        return ()
+
+    def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str] | None:
+        """Return the radius [mm] and the name of what touches the flank at a node; None if it is flat."""
+        return None
 
     def mechanism(self, case: "Case") -> Mechanism:
         """Return what loads every point of the flank once a cycle."""

@@ -69,6 +69,11 @@ class Chain:
     transverse_pitch: float = 0.0  # distance of the strands [mm], 0 where it is not known
 
     @property
+    def in_words(self) -> str:
+        """Designation, or the pitch of a chain without one."""
+        return self.designation or f"of {self.pitch:g} mm pitch"
+
+    @property
     def face_width(self) -> float:
         """Width of the standard tooth under all strands [mm] (ISO 606 rim width b_f1)."""
         wide = self.pitch > 12.7

@@ -12,7 +12,7 @@ from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.export.wheel_states import State
+    from wearsim.geometry.wheel import State
     from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv", "step")
@@ -88,7 +88,7 @@ def export(
 
 def _check_shapes(case: "Case", kind: str | None) -> None:
     """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
-    from wearsim.export.wheel_shapes import wheel_shapes
+    from wearsim.report.scene import wheel_shapes
 
     shapes = wheel_shapes(case, None)
     if kind == "step" and not all(shape.new[0].rooted for shape in shapes):

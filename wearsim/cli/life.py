@@ -192,7 +192,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
             content["grid"] = grid_json(grid)
         print_json(content, path, result.warnings)
     else:
-        from wearsim.report.answer import answer
+        from wearsim.report.answer import answer, grid_text
 
         click.echo(answer(result, str(path)))
         if grid is not None:

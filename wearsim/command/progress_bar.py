@@ -15,7 +15,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.runner.run_study import Told
 
 

@@ -8,7 +8,8 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from wearsim.files import mark, write_file
-from wearsim.report.figures import literal, picture_bytes
+from wearsim.report.figures import picture_bytes
+from wearsim.report.lines import literal
 
 _KINDS = ("png", "svg")
 

@@ -1,22 +1,19 @@
 """Wheels of a case or run in the formats of CAD."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
-from wearsim.export.wheel_drawing import CHORD_TOLERANCE, drawing_box, wheel_drawing
-from wearsim.export.wheel_shapes import wheel_shapes
-from wearsim.export.wheel_states import State, WheelShape
-from wearsim.geometry.outline import along_ways
-from wearsim.geometry.wheel import Chain
-from wearsim.report.lines import grouped
+from wearsim.export.printed_page import drawing_bytes
+from wearsim.export.wheel_drawing import wheel_points, wheel_scene
+from wearsim.geometry.wheel import State, WheelShape
+from wearsim.quantities import grouped
+from wearsim.report.scene import wheel_shapes
 from wearsim.result import WearResult
 
 if TYPE_CHECKING:
-    import pandas as pd
+    pass
 
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
@@ -28,15 +25,8 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
         from wearsim.export.step import step_bytes
 
         return step_bytes(shapes, states)
-    note = wheel_note(case, result, shapes, states)
-    drawing = wheel_drawing(shapes, states, note)
-    if form == "svg":
-        from wearsim.export.printed_page import svg_text
-
-        return svg_text(drawing, drawing_box(shapes, note)).encode()
-    from wearsim.export.dxf_writer import dxf_text
-
-    return dxf_text(drawing).encode()
+    scene, layers = wheel_scene(shapes, states, wheel_note(case, result, shapes, states))
+    return drawing_bytes(scene, layers, form)
 
 
 def wheel_note(
@@ -76,29 +66,3 @@ def _greatest_sagitta(shapes: Sequence[WheelShape]) -> float:
         ),
         default=0.0,
     )
-
-
-def wheel_points(shapes: Sequence[WheelShape], states: Sequence[State]) -> "pd.DataFrame":
-    """Return the outlines of wheels by points."""
-    import pandas as pd
-
-    tables = [
-        pd.DataFrame(_chain_points(chain)).assign(wheel=shape.name, state=state)
-        for shape in shapes
-        for state in states
-        for chain in shape.chains(state)
-    ]
-    return pd.concat(tables)[["wheel", "state", "tooth", "stretch", "x_mm", "y_mm"]]
-
-
-def _chain_points(chain: Chain) -> dict[str, Any]:
-    rows, numbers, names = [], [], []
-    for stretch, tooth in zip(chain.stretches, chain.teeth, strict=True):
-        points, _ = along_ways(stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, CHORD_TOLERANCE)
-        if not chain.closed and stretch is chain.stretches[-1]:
-            points = np.concatenate([points, stretch.vertices[-1:]])
-        rows.append(points)
-        numbers += [tooth] * len(points)
-        names += [stretch.part] * len(points)
-    x, y = np.concatenate(rows).T
-    return {"tooth": numbers, "stretch": names, "x_mm": x, "y_mm": y}

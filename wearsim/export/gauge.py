@@ -13,11 +13,10 @@ import numpy as np
 import shapely
 from shapely.geometry.polygon import orient
 
-from wearsim.export.wheel_states import WheelShape
 from wearsim.geometry.outline import along_ways, turned
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.stretch import Stretch, angle_between, arc_about_axis, line
-from wearsim.geometry.wheel import Chain
+from wearsim.geometry.wheel import Chain, WheelShape
 
 _HEAD = 0.5
 _LEAST_HEAD = 20.0

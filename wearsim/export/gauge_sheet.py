@@ -2,25 +2,21 @@
 
 import math
 import textwrap
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.export.dxf_writer import add_polyline, new_drawing
 from wearsim.export.gauge import Gauge, gauge
-from wearsim.export.wheel_drawing import add_text
-from wearsim.export.wheel_shapes import wheel_shapes
+from wearsim.export.printed_page import drawing_bytes
+from wearsim.geometry.scene import Label, Scene, Shape, line
 from wearsim.geometry.stretch import arc_about_axis
 from wearsim.geometry.wheel import Chain
+from wearsim.quantities import grouped
 from wearsim.report.flank_view import flanks
-from wearsim.report.lines import grouped
+from wearsim.report.scene import wheel_shapes
 from wearsim.result import Life, WearResult
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing
 
 BAR = 50.0
 SQUARE = 10.0
@@ -36,11 +32,11 @@ _COARSE = 0.5
 """Depth of a limit [mm] below which paper is too coarse for it."""
 
 _LAYERS = {
-    "GAUGE": (7, 13, "Continuous"),
-    "NEW": (8, 9, "DASHED"),
-    "PITCH_CIRCLE": (8, 9, "DASHDOT"),
-    "CHECK": (7, 25, "Continuous"),
-    "NOTES": (7, 13, "Continuous"),
+    "gauge": (7, 13, "Continuous"),
+    "new": (8, 9, "DASHED"),
+    "pitch_circle": (8, 9, "DASHDOT"),
+    "check": (7, 25, "Continuous"),
+    "notes": (7, 13, "Continuous"),
 }
 
 
@@ -57,36 +53,26 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
             f"{grouped(result.hours_run)} h: lower the limit, or give one under [stop]"
         )
         raise CaseError([Fault(message, "stop", case.name)])
-    drawing, (width, height) = sheet_drawing(case, result)
-    if form == "dxf":
-        from wearsim.export.dxf_writer import dxf_text
-
-        return dxf_text(drawing).encode()
-    from wearsim.export.printed_page import pdf_bytes, svg_text
-
-    if form == "svg":
-        return svg_text(drawing, (0.0, 0.0, width, height)).encode()
-    return pdf_bytes(drawing, (0.0, 0.0, width, height), f"Gauge: {case.title}")
+    return drawing_bytes(_sheet_scene(case, result), _LAYERS, form, f"Gauge: {case.title}")
 
 
-def sheet_drawing(case: Case, result: WearResult) -> "tuple[Drawing, tuple[float, float]]":
-    """Return the sheet as a drawing, its lower left corner at (0, 0), and its size."""
+def _sheet_scene(case: Case, result: WearResult) -> Scene:
+    """The sheet, its lower left corner at (0, 0)."""
     gauges = [gauge(shape) for shape in wheel_shapes(case, result)]
-    text = _text(case, result, gauges)
-    width, height, lines = _sheet(gauges, text)
-    drawing = new_drawing()
-    for name, (color, weight, kind) in _LAYERS.items():
-        drawing.layers.add(name, color=color, lineweight=weight, linetype=kind)
+    width, height, rows = _sheet(gauges, _text(case, result, gauges[0].clearance))
+    drawn: list[Shape] = []
     top = height - _MARGIN
     for one in gauges:
-        left, _, wide, tall = one.box
-        _add_gauge(drawing, one, (0.5 * (width - wide) - left, top - one.box[1] - tall))
+        left, bottom, wide, tall = one.box
+        drawn += _placed(one, (0.5 * (width - wide) - left, top - bottom - tall))
         top -= tall + 12.0
-    base = _MARGIN + _LINE * len(lines)
-    for number, words in enumerate(lines, 1):
-        add_text(drawing, words, (_MARGIN, base - _LINE * number), _TEXT)
-    _add_check(drawing, (_MARGIN, base + 8.0))
-    return drawing, (width, height)
+    base = _MARGIN + _LINE * len(rows)
+    drawn += [_label(words, _MARGIN, base - _LINE * number) for number, words in enumerate(rows, 1)]
+    return Scene((0.0, 0.0, width, height), (*drawn, *_check(_MARGIN, base + 8.0)))
+
+
+def _label(text: str, x: float, y: float) -> Label:
+    return Label("notes", text, (x, y), _TEXT)
 
 
 def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str]]:
@@ -105,19 +91,18 @@ def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str
     )
 
 
-def _add_gauge(drawing: "Drawing", one: Gauge, shift: tuple[float, float]) -> None:
-    outline = one.outline.moved(shift)
-    add_polyline(drawing, "GAUGE", outline.vertices, outline.bulges, closed=True)
-    for chain in (*one.new, _pitch_arc(one)):
-        there = chain.moved(shift)
-        layer = "NEW" if chain in one.new else "PITCH_CIRCLE"
-        add_polyline(drawing, layer, there.vertices, there.bulges, closed=False)
+def _placed(one: Gauge, shift: tuple[float, float]) -> list[Shape]:
     left, bottom, wide, tall = one.box
-    x, top = shift[0] + left, shift[1] + bottom + tall - 1.0
-    add_text(drawing, "W", (x + 4.0, top - 5.0), _TEXT)
-    add_text(drawing, "U", (x + wide - 7.0, top - 5.0), _TEXT)
-    if one.name != "sprocket":
-        add_text(drawing, one.name, (x + wide + 5.0, top - 5.0), _TEXT)
+    x, y = shift[0] + left, shift[1] + bottom + tall - 6.0
+    name = [] if one.name == "sprocket" else [_label(one.name, x + wide + 5.0, y)]
+    return [
+        one.outline.moved(shift).stroke("gauge"),
+        *(chain.moved(shift).stroke("new") for chain in one.new),
+        _pitch_arc(one).moved(shift).stroke("pitch_circle"),
+        _label("W", x + 4.0, y),
+        _label("U", x + wide - 7.0, y),
+        *name,
+    ]
 
 
 def _pitch_arc(one: Gauge) -> Chain:
@@ -128,23 +113,20 @@ def _pitch_arc(one: Gauge) -> Chain:
     return Chain(arc_about_axis("pitch_circle", ends[0], ends[1]), (1,), False)
 
 
-def _add_check(drawing: "Drawing", place: tuple[float, float]) -> None:
+def _check(x: float, y: float) -> list[Shape]:
     """Bar of 50 mm with a tick every 10 mm, and a square of 10 mm."""
-    x, y = place
-    space, ink = drawing.modelspace(), {"layer": "CHECK"}
-    space.add_line((x, y), (x + BAR, y), dxfattribs=ink)
-    for tick in range(6):
-        high = 5.0 if tick in (0, 5) else 3.0
-        space.add_line((x + 10.0 * tick, y), (x + 10.0 * tick, y + high), dxfattribs=ink)
-    add_text(drawing, f"{BAR:g} mm", (x + BAR + 3.0, y), _TEXT)
-    left = x + BAR + 25.0
-    corners = [(left, y), (left + SQUARE, y), (left + SQUARE, y + SQUARE), (left, y + SQUARE)]
-    space.add_lwpolyline(corners, close=True, dxfattribs=ink)
-    add_text(drawing, f"{SQUARE:g} x {SQUARE:g} mm", (left + SQUARE + 3.0, y), _TEXT)
+    ticks = [(x + 10.0 * tick, 5.0 if tick in (0, 5) else 3.0) for tick in range(6)]
+    left, right = x + BAR + 25.0, x + BAR + 25.0 + SQUARE
+    return [
+        line("check", [(x, y), (x + BAR, y)]),
+        *(line("check", [(place, y), (place, y + high)]) for place, high in ticks),
+        _label(f"{BAR:g} mm", x + BAR + 3.0, y),
+        line("check", [(left, y), (right, y), (right, y + SQUARE), (left, y + SQUARE)], closed=True),
+        _label(f"{SQUARE:g} x {SQUARE:g} mm", right + 3.0, y),
+    ]
 
 
-def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
-    what = case.drive.teeth_in_words(case)
+def _text(case: Case, result: WearResult, clearance: float) -> list[str]:
     depth = float(flanks(result, -1)["depth_mm"].max())
     coarse = (
         f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
@@ -152,9 +134,9 @@ def _text(case: Case, result: WearResult, gauges: list[Gauge]) -> list[str]:
         else ""
     )
     return [
-        f"Go/no-go gauge of wear: {case.title} (case {case.name}; {what})",
+        f"Go/no-go gauge of wear: {case.title} (case {case.name}; {case.drive.teeth_in_words(case)})",
         f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge is "
-        f"as wide as such a gap; elsewhere it keeps {gauges[0].clearance:.2g} mm off the new teeth.",
+        f"as wide as such a gap; elsewhere it keeps {clearance:.2g} mm off the new teeth.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
         "by 10 mm, else do not use this sheet.",
         f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",

@@ -1,14 +1,14 @@
-"""Drawings on paper: SVG and PDF of the same drawing, 1 mm of it 1 mm of the page."""
+"""Drawings as files: DXF, and on paper SVG and PDF of the same, 1 mm of it 1 mm of the page."""
 
 import io
 from typing import TYPE_CHECKING
 
+from wearsim.export.dxf_writer import Layers, dxf_drawing
+from wearsim.geometry.scene import Box, Scene
+
 if TYPE_CHECKING:
     from ezdxf.addons.drawing.config import Configuration
     from ezdxf.document import Drawing
-
-Box = tuple[float, float, float, float]
-"""Left, bottom, width and height of what is shown of a drawing [mm]."""
 
 _UNITS_PER_MM = 1e4
 """Of the coordinates of an SVG file, which are whole numbers: steps of 0.1 um."""
@@ -18,7 +18,19 @@ _THINNEST = 0.1
 """Line in a PDF [points]."""
 
 
-def svg_text(drawing: "Drawing", box: Box) -> str:
+def drawing_bytes(scene: Scene, layers: Layers, form: str, title: str = "") -> bytes:
+    """Return a drawing as the content of a file: ``dxf``, ``svg`` or ``pdf``."""
+    drawing = dxf_drawing(scene.shapes, layers)
+    if form == "dxf":
+        stream = io.StringIO()
+        drawing.write(stream)
+        return stream.getvalue().encode()
+    if form == "svg":
+        return _svg_text(drawing, scene.box).encode()
+    return _pdf_bytes(drawing, scene.box, title)
+
+
+def _svg_text(drawing: "Drawing", box: Box) -> str:
     """Return a drawing as SVG in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
@@ -36,7 +48,7 @@ def svg_text(drawing: "Drawing", box: Box) -> str:
     )
 
 
-def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
+def _pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
     """Return a drawing as a PDF page in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.matplotlib import MatplotlibBackend

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.export.wheel_states import State, WheelShape
 from wearsim.geometry.profile import Vector
 from wearsim.geometry.stretch import Stretch
-from wearsim.geometry.wheel import Chain
+from wearsim.geometry.wheel import Chain, State, WheelShape
 
 if TYPE_CHECKING:
     from build123d import Edge, Solid

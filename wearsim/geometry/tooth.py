@@ -1,4 +1,4 @@
-"""The whole tooth and wheel around a working flank, and the room the roller needs."""
+"""The whole tooth around a working flank, and the room the roller needs."""
 
 import math
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ import shapely
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.forms.evolute import Strand
+from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Profile, Vector
 
 CUT_TOLERANCE = 1e-3
@@ -109,7 +110,7 @@ class Tooth:
             sweep_path(self.strand, self.tip_radius, 1.0), sweep_path(self.strand, self.tip_radius, -1.0)
         )
         pitch_angle = 2.0 * math.pi / self.teeth
-        outline = np.concatenate([_turned(self.gap, i * pitch_angle) for i in (1, 0, -1)])
+        outline = np.concatenate([turned(self.gap, i * pitch_angle) for i in (1, 0, -1)])
         return cut_depth(outline, path, self.strand.roller_radius)
 
     def thickness(self, radius: "float | Vector") -> Vector:
@@ -149,30 +150,6 @@ class Tooth:
         angle = float(self._angle(radius)) - float(worn - new)
         return 2.0 * radius * math.sin(0.5 * angle)
 
-    def polygon(self) -> shapely.Polygon:
-        """Return one tooth, cut off at the circle through the bottoms of the seats."""
-        angle = 2.0 * math.pi / self.teeth
-        gap, lowest = self.gap, int(np.hypot(*self.gap.T).argmin())
-        right = gap[: lowest + 1][::-1]
-        left = _turned(gap, angle)[lowest:][::-1]
-        return shapely.Polygon(np.concatenate([right, self._tip(right[-1], left[0]), left]))
-
-    def wheel(self) -> shapely.Polygon:
-        """Return the outline of the whole wheel, without a bore."""
-        angle = 2.0 * math.pi / self.teeth
-        pieces = []
-        for i in range(self.teeth):
-            gap = _turned(self.gap, -i * angle)
-            following = _turned(self.gap[:1], -(i + 1) * angle)
-            pieces += [gap, self._tip(gap[-1], following[0])]
-        outline = shapely.Polygon(np.concatenate(pieces))
-        if not outline.is_valid:
-            raise GeometryError(
-                f"wheel: the outline must not cross itself: {shapely.is_valid_reason(outline)}: "
-                "use more teeth or a smaller contact range"
-            )
-        return outline
-
     def _angle(self, radius: "float | Vector") -> Vector:
         """Angle that the tooth takes up on a circle [rad]."""
         working = np.interp(radius, _radii(self.flank), np.arctan2(-self.flank.x, self.flank.y))
@@ -180,22 +157,9 @@ class Tooth:
         behind = np.interp(radius, _radii(back), np.arctan2(-back.x, back.y))
         return np.asarray(2.0 * math.pi / self.teeth - working - behind)
 
-    def _tip(self, start: Vector, end: Vector) -> Vector:
-        angles = np.linspace(math.atan2(start[1], start[0]), math.atan2(end[1], end[0]), 9)
-        if abs(angles[-1] - angles[0]) > math.pi:
-            end_angle = angles[-1] - math.copysign(2.0 * math.pi, angles[-1] - angles[0])
-            angles = np.linspace(angles[0], end_angle, 9)
-        radii = np.linspace(math.hypot(*start), math.hypot(*end), 9)
-        return np.column_stack([radii * np.cos(angles), radii * np.sin(angles)])[1:-1]
-
 
 def _radii(flank: Profile) -> Vector:
     return np.hypot(flank.x, flank.y)
-
-
-def _turned(points: Vector, angle: float) -> Vector:
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.asarray(points @ np.array([[cosine, sine], [-sine, cosine]]))
 
 
 def _arc_through(start: tuple[float, float], middle: tuple[float, float], end: tuple[float, float]) -> Vector:

@@ -8,12 +8,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
+import shapely
 
-from wearsim.geometry.outline import Outline
+from wearsim.geometry.outline import Outline, along_ways
 from wearsim.geometry.profile import Vector
+from wearsim.geometry.scene import Stroke
 from wearsim.geometry.stretch import APART, Stretch, along_points, arc_about_axis, line
+
+State = Literal["new", "worn"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +69,10 @@ class Chain:
     def bulges(self) -> Vector:
         """Bulges of all ways."""
         return np.concatenate([stretch.bulges for stretch in self.stretches])
+
+    def stroke(self, role: str) -> Stroke:
+        """Return the chain as it is drawn."""
+        return Stroke(role, self.vertices, self.bulges.tolist(), self.closed)
 
     def moved(self, centre: tuple[float, float]) -> "Chain":
         """Return the chain about another centre."""
@@ -181,3 +190,47 @@ def _placed(space: Space, angle: float) -> Space:
         tuple(part.turned(angle) for part in space.left),
         space.rooted,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class WheelShape:
+    """A wheel, new and worn."""
+
+    name: str  # `sprocket`, `pinion` or `wheel`
+    # new, worn: spaces between the teeth, counterclockwise; no worn ones without a run
+    new: tuple[Space, ...]
+    worn: tuple[Space, ...]
+    # radius of the circle that rolls, or through the centres of the rollers [mm]
+    pitch_radius: float
+    width: float  # of the face [mm]
+    notes: tuple[str, ...]  # what the outline takes for granted
+    turn: float = 0.0  # angle by which the first space is turned from +y counterclockwise [rad]
+    centre: tuple[float, float] = (0.0, 0.0)  # where the axis lies [mm]
+    most_worn: int = 0  # index of a space that is worn most
+
+    def chains(self, state: State) -> tuple[Chain, ...]:
+        """Return the outline in one state, where it lies in the drawing."""
+        spaces = self.new if state == "new" else self.worn
+        return tuple(chain.moved(self.centre) for chain in ring(spaces, self.turn))
+
+    def sketched(self, role: str, fineness: float = 5e-3) -> Stroke:
+        """Return the new outline by a few chords, which deviate by a part of the pitch."""
+        (chain,) = self.chains("new")
+        tolerance = fineness * math.tau * self.pitch_radius / len(self.new)
+        ends = np.roll(chain.vertices, -1, axis=0)
+        points, _ = along_ways(chain.vertices, ends, chain.bulges, 0.2 * tolerance)
+        few = shapely.LinearRing(points).simplify(tolerance)
+        return Stroke(role, shapely.get_coordinates(few)[:-1], closed=True)
+
+    @property
+    def tip_radius(self) -> float:
+        """Radius of the tips of the new teeth [mm]."""
+        space = self.new[0]
+        return math.hypot(*(space.left or space.right)[-1].vertices[-1])
+
+
+def worn_alike(every: int) -> str:
+    """Return which spaces a run wears, in words."""
+    if every > 1:
+        return f"worn alike: every {every}. gap, the only ones that ever carry a roller"
+    return "all teeth worn alike"

@@ -31,7 +31,7 @@ from wearsim.kernels.steps import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""

@@ -12,7 +12,7 @@ from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64,
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 
 CYCLES_ROWS = 10

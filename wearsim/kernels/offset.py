@@ -10,7 +10,7 @@ from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften, update_st
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""

@@ -20,7 +20,7 @@ from wearsim.kernels.tridiagonal import factorise, solve
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 WORK_ROWS = 19
 """Of the table to work in; its first ten are those of ``flank_rate``."""

@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 
 @kernel(CONTACT)

@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.geometry.profile import Vector
 
 _TABLES = types.Array(float64, 3, "C")
 _TOLERANCE = 1e-9

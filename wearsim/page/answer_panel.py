@@ -70,7 +70,7 @@ class AnswerPanel:
         self._pictures = pictures
         self._show_charts(self._teeth, pictures.tooth)
         self._show_charts(self._charts, pictures.charts)
-        self._sketch.show(pictures.sketch)
+        self._sketch.show(pictures.scene)
         self._fill_margins(pictures.margins)
         for place in (self._tooth, self._margins, self._charts):
             place.set_visibility(True)

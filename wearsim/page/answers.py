@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, WearsimError
+from wearsim.geometry.scene import Scene
 from wearsim.input.document import CaseText, retitled
 from wearsim.page.file import CaseFile
 from wearsim.page.source import tables_of
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.drive_view import drive_sketch
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart
-from wearsim.report.html.sketch import Sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import WearResult
 from wearsim.simulation import simulate
@@ -34,7 +33,7 @@ class Pictures:
 
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # depth, pressure and sliding along the flank, and wear over time
-    sketch: Sketch | None  # the drive to scale, where it is known
+    scene: Scene | None  # the drive to scale, where it is known
     margins: list[Margin]  # how near every limit is
 
 
@@ -84,7 +83,7 @@ def pictures(case: Case, result: WearResult) -> Pictures:
     return Pictures(
         tooth_charts(result),
         [along_chart([result], label), history_chart([result], label)],
-        drive_sketch(case),
+        case.drive.scene(case.engaged_every),
         margins(result, case),
     )
 

@@ -1,15 +1,13 @@
 """A chart on the page, with the slider that enlarges a depth."""
 
-from functools import cache
 from importlib import resources
-from typing import Any
 
-from jinja2 import Environment, PackageLoader
 from nicegui import ui
 
+from wearsim.geometry.scene import Scene
 from wearsim.page.chart_colours import Palette, figure
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.sketch import Sketch
+from wearsim.report.html.sketch import sketch
 
 
 class ChartView:
@@ -74,13 +72,10 @@ class SketchView:
             ui.label("Drive, to scale").classes("ws-caption").props("role=heading aria-level=3")
             self._drawing = ui.html("", sanitize=False)
 
-    def show(self, sketch: Sketch | None) -> None:
+    def show(self, scene: Scene | None) -> None:
         """Show a drive, or nothing."""
-        self._place.set_visibility(sketch is not None)
-        if sketch is not None:
-            # The template escapes every text.
-            parts: Any = _parts().get_template("parts.html.j2").module
-            self._drawing.content = str(parts.sketch(sketch))
+        self._place.set_visibility(scene is not None)
+        self._drawing.content = str(sketch(scene))  # every text escaped
 
 
 def style(palettes: tuple[Palette, Palette]) -> str:
@@ -90,8 +85,3 @@ def style(palettes: tuple[Palette, Palette]) -> str:
     sketches = [line for line in reports.splitlines() if line.startswith((".sketch", ".notes"))]
     own = resources.files("wearsim.page").joinpath("style.css").read_text("utf-8")
     return "\n".join([f":root {{{named[0]}}} .body--dark {{{named[1]}}}", *sketches, own])
-
-
-@cache
-def _parts() -> Environment:
-    return Environment(loader=PackageLoader("wearsim.report.html"), autoescape=True)

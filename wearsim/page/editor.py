@@ -22,7 +22,7 @@ from wearsim.page.saving import Keeper
 from wearsim.page.source import shown_values, tables_of, with_table, with_value, without_table
 from wearsim.page.threads import in_thread
 from wearsim.report.answer import headline
-from wearsim.report.html.drive_view import tooth_load_chart
+from wearsim.report.html.run_charts import tooth_load_chart
 from wearsim.result import WearResult
 
 Found = TypeVar("Found")

@@ -8,7 +8,7 @@ from nicegui import ui
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
 from wearsim.export.formats import export
-from wearsim.export.wheel_states import State
+from wearsim.geometry.wheel import State
 from wearsim.page.dialogs import ask_export, ask_name, choose
 from wearsim.page.file import CaseFile, named_beside, read_file
 from wearsim.page.threads import in_thread

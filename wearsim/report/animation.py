@@ -9,10 +9,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from wearsim.quantities import grouped
 from wearsim.report.animation_file import encoded
 from wearsim.report.animation_panels import Moving, depth_panel, elongation_panel, flank_panel
 from wearsim.report.answer import ending, hours
-from wearsim.report.lines import grouped
 from wearsim.report.worn_flank import worn_flanks
 from wearsim.result import WearResult
 

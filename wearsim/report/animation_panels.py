@@ -6,16 +6,25 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle, Polygon
 
 from wearsim.geometry.profile import Vector
-from wearsim.report.flank_view import outline
-from wearsim.report.lines import grouped
-from wearsim.report.worn_flank import WornFlank, mate
+from wearsim.geometry.scene import Circle
+from wearsim.quantities import grouped
+from wearsim.report.figures import LOOKS, draw_flank
+from wearsim.report.scene import around_flank
+from wearsim.report.worn_flank import WornFlank
 from wearsim.result import Life, WearResult
 
 _AROUND = 0.22
 """Room around the flank, as a fraction of its extent."""
+
+_LOOKS = {
+    **LOOKS,
+    "mate": {"color": "0.6"},
+    "new": {"color": "black", "linewidth": 1.4, "linestyle": "--"},
+    "worn": {"color": "tab:red", "linewidth": 2.0},
+}
+"""How the roles of lines look where they differ from a still figure."""
 
 _FAR = 4.0
 """A limit of more than so many times what a run comes to is left out."""
@@ -33,42 +42,35 @@ def flank_panel(
     panel: Axes, result: WearResult, flank: WornFlank, points: tuple[Vector, Vector, Vector], time: Vector
 ) -> Moving:
     """Draw the new flank; the worn one moves."""
-    x, y = flank.enlarged(*points[:2])
-    depth = points[2]
-    if flank.name != "wheel":
-        panel.fill(*outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
-        centre, radius, name = mate(result, flank)
-        circle = Circle(centre, abs(radius), fill=False, color="0.6", label=name)
-        panel.add_patch(circle)
-    panel.plot(flank.x[0], flank.y[0], "--", color="black", linewidth=1.4, label="new")
-    between = Polygon(np.zeros((1, 2)), color="tab:red", alpha=0.3, linewidth=0)
-    panel.add_patch(between)
-    label = f"worn, depth x {flank.factor}"
-    (worn,) = panel.plot(x[-1], y[-1], color="tab:red", linewidth=2.0, label=label)
-    (deepest,) = panel.plot([], [], "o", color="tab:red", markersize=5)
-    _frame(panel, flank, x[-1], y[-1])
+    frames = list(zip(*points, strict=True))
+    still = () if flank.name == "wheel" else around_flank(result, flank)
+    last = flank.strokes(*frames[-1])
+    labels = {"new": "new", "worn": f"worn, depth x {flank.factor}"}
+    labels |= {shape.role: shape.name for shape in still if isinstance(shape, Circle)}
+    artists = draw_flank(panel, (*still, *last), _LOOKS, labels)
+    _frame(panel, flank, last[2].vertices)
     title = panel.set_title("", fontsize=10)
     lead = "" if flank.name == "tooth" else f"{flank.name}, "
+    between, _, worn, deepest = artists[len(still) :]
 
     def _show(frame: int) -> None:
-        deep = float(depth[frame].max())
-        place = np.flatnonzero(depth[frame] == deep)[: deep > 0.0]
-        back = np.column_stack([flank.x[0], flank.y[0]])[::-1]
-        between.set_xy(np.vstack([np.column_stack([x[frame], y[frame]]), back]))
-        worn.set_data(x[frame], y[frame])
-        deepest.set_data(x[frame, place], y[frame, place])
-        title.set_text(f"{lead}{grouped(time[frame])} h: {deep:.3g} mm deep")
+        off, _, now, deep = flank.strokes(*frames[frame])
+        between.set_xy(off.vertices)
+        worn.set_data(*now.vertices.T)
+        deepest.set_data(*deep.vertices.T)
+        title.set_text(f"{lead}{grouped(time[frame])} h: {float(points[2][frame].max()):.3g} mm deep")
 
     return Moving([between, worn, deepest, title], _show)
 
 
-def _frame(panel: Axes, flank: WornFlank, x: Vector, y: Vector) -> None:
+def _frame(panel: Axes, flank: WornFlank, worn: Vector) -> None:
     """Fix what is seen: the flank, new and at its end, with room around it."""
-    room = _AROUND * flank.extent
-    low = min(flank.x[0].min(), x.min()), min(flank.y[0].min(), y.min())
-    high = max(flank.x[0].max(), x.max()), max(flank.y[0].max(), y.max())
-    panel.set_xlim(low[0] - room, high[0] + room, auto=True)
-    panel.set_ylim(low[1] - room, high[1] + room, auto=True)
+    points, room = np.concatenate([np.column_stack([flank.x[0], flank.y[0]]), worn]), _AROUND * flank.extent
+    low, high = points.min(axis=0) - room, points.max(axis=0) + room
+    panel.set_xlim(low[0], high[0], auto=True)
+    panel.set_ylim(low[1], high[1], auto=True)
+    # Data as far as the wheel's axis: the aspect then widens the frame and never narrows it.
+    panel.update_datalim([(0.0, 0.0)])
     panel.set_aspect("equal", "datalim")
     panel.set_xlabel("x, mm")
     panel.set_ylabel("y, mm")

@@ -1,15 +1,19 @@
-"""The answer on screen."""
+"""The answer on screen, and the study of three grids that can stand below it."""
 
 import math
 import shlex
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import Finding
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.quantities import grouped
+from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_measures
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 from wearsim.wear.accuracy import LEAST_ORDER, MOST_ORDER, GridStudy
+
+if TYPE_CHECKING:
+    from wearsim.wear.accuracy import GridStudy
 
 BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
 OVERLOADED = "Overloaded:"
@@ -266,7 +270,7 @@ def _worst(result: WearResult) -> str:
     return f"{place}; peak pressure {pressures}"
 
 
-def grid_json(grid: GridStudy) -> dict[str, Any]:
+def grid_json(grid: "GridStudy") -> dict[str, Any]:
     """Return a study of three grids as ``wearsim life --verify-grid --json`` prints it."""
     return {
         "nodes": list(grid.points),
@@ -278,7 +282,7 @@ def grid_json(grid: GridStudy) -> dict[str, Any]:
     }
 
 
-def grid_text(grid: GridStudy) -> str:
+def grid_text(grid: "GridStudy") -> str:
     """Return a study of three grids as ``wearsim life --verify-grid`` prints it."""
     nodes = ", ".join(map(str, grid.points))
     values = ", ".join(f"{value:.7g}" for value in grid.values)

@@ -1,24 +1,44 @@
 """Figures of worn flanks; matplotlib without pyplot, so nothing is global."""
 
+import base64
 import io
-import math
+import re
 import textwrap
-from collections.abc import Container
+from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib import patches
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.patches import Circle
 
-from wearsim.report.flank_view import at_life, life_time, outline, snapshot
-from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
+from wearsim.geometry.scene import Circle, Stroke
+from wearsim.report.flank_view import at_life, life_time, snapshot
+from wearsim.report.lines import literal
+from wearsim.report.scene import around_flank
+from wearsim.report.worn_flank import flanks_of_life
 from wearsim.result import Life, WearResult
 
 FIGURES = ("flanks", "along_flank", "depth_over_hours")
 """Stems of the figures of a comparison."""
+
+Look = Mapping[str, Any]
+
+LOOKS: Mapping[str, Look] = {
+    "body": {"facecolor": "0.92", "edgecolor": "0.6", "linewidth": 1.0},
+    "mate": {"color": "grey", "linestyle": "--"},
+    "between": {"color": "tab:red", "alpha": 0.3, "linewidth": 0},
+    "new": {"color": "black", "linewidth": 1.8},
+    "worn": {"color": "tab:red", "linewidth": 1.8},
+    "deepest": {"color": "tab:red", "linestyle": "none", "marker": "o", "markersize": 5},
+}
+"""How the roles of lines look in a picture of a flank."""
+
+_PATH = re.compile(r'(?<=\sd=")[^"]*')
 
 _LEGEND = 0.24
 """Part of the height of the same picture that is left free for the legend."""
@@ -45,6 +65,31 @@ def picture_bytes(figure: Figure, kind: str) -> bytes:
     return target.getvalue()
 
 
+def picture(figure: Figure) -> str:
+    """Return a figure inside a page, as a data URI, the same for the same figure."""
+    drawn = io.BytesIO()
+    with mpl.rc_context({"svg.hashsalt": "wearsim", "svg.fonttype": "none"}):
+        _lay_out(figure)
+        figure.savefig(drawn, format="svg", metadata={"Date": None})
+    lean = _PATH.sub(_two_decimals, drawn.getvalue().decode("utf-8"))
+    return "data:image/svg+xml;base64," + base64.b64encode(lean.encode("utf-8")).decode("ascii")
+
+
+def _lay_out(figure: Figure) -> None:
+    """Place the panels as savefig would, which draws all of them once more to do so."""
+    FigureCanvasSVG(figure)
+    figure.dpi = 72  # of SVG
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+    figure.set_layout_engine(None)
+
+
+def _two_decimals(path: re.Match[str]) -> str:
+    """Points to a hundredth of a point, which is finer than any print."""
+    return re.sub(r"(\.\d\d)\d+", r"\1", path[0])
+
+
 def flanks_figure(results: list[WearResult]) -> Figure:
     """Return the flanks new and at the end of their lives, the depth enlarged, with the roller."""
     columns = min(3, len(results))
@@ -61,22 +106,26 @@ def flanks_figure(results: list[WearResult]) -> Figure:
 
 def _draw_flank(panel: Axes, result: WearResult) -> None:
     flank = flanks_of_life(result)[0]
-    new, extent, deepest = flank.new, flank.extent, flank.deepest
-    x, y = flank.enlarged(flank.x[-1], flank.y[-1])
-    panel.fill(*outline(result), facecolor="0.92", edgecolor="0.6", linewidth=1.0)
-    radius, centre_x, centre_y = _draw_mate(panel, result, flank)
-    between = np.append(new.x, x[::-1]), np.append(new.y, y[::-1])
-    panel.fill(*between, color="tab:red", alpha=0.3, linewidth=0)
-    panel.plot(new.x, new.y, color="black", linewidth=1.8, label="new flank")
-    panel.plot(x, y, color="tab:red", linewidth=1.8, label=f"worn, depth x {flank.factor}")
-    label = f"deepest, {flank.depth[-1].max():.3g} mm"
-    panel.plot(x[deepest], y[deepest], "o", color="tab:red", markersize=5, label=label)
-    reach = 1.6 * extent
-    left = new.x.min() - (0.2 if "sprocket" in result.parts else 0.7) * extent
-    right = max(new.x.max(), min(centre_x + radius, new.x.max() + reach)) + 0.2 * extent
-    low = min(new.y.min(), y.min(), max(centre_y - radius, new.y.min() - reach))
-    top = max(new.y.max(), min(centre_y + radius, new.y.max() + reach)) + 0.1 * extent
-    side, middle = max(right - left, (top - low) / (1.0 - _LEGEND)), 0.5 * (left + right)
+    extent, depth, still = flank.extent, flank.depth[-1], around_flank(result, flank)
+    shapes = flank.strokes(flank.x[-1], flank.y[-1], depth)
+    labels = {
+        "new": "new flank",
+        "worn": f"worn, depth x {flank.factor}",
+        "deepest": f"deepest, {depth.max():.3g} mm",
+    }
+    draw_flank(panel, (*still, *shapes), LOOKS, labels)
+    _, new, worn, _ = (shape.vertices for shape in shapes)
+    (mate,) = (shape for shape in still if isinstance(shape, Circle))
+    touched = new[flank.deepest]
+    x, y = touched + min(1.0, extent / mate.radius) * (mate.centre - touched)
+    panel.text(x, y, mate.name, color="grey", ha="center", va="center", clip_on=True)
+    start, end, reach = new.min(axis=0), new.max(axis=0), 1.6 * extent
+    low, high = np.subtract(mate.centre, mate.radius), np.add(mate.centre, mate.radius)
+    left = start[0] - (0.2 if "sprocket" in result.parts else 0.7) * extent
+    right = max(end[0], min(high[0], end[0] + reach)) + 0.2 * extent
+    bottom = min(start[1], worn[:, 1].min(), max(low[1], start[1] - reach))
+    top = max(end[1], min(high[1], end[1] + reach)) + 0.1 * extent
+    side, middle = max(right - left, (top - bottom) / (1.0 - _LEGEND)), 0.5 * (left + right)
     panel.set_xlim(middle - 0.5 * side, middle + 0.5 * side)
     panel.set_ylim(top - side, top)
     panel.set_aspect("equal", "box")
@@ -88,15 +137,20 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     panel.legend(loc="lower center", frameon=False, fontsize=8)
 
 
-def _draw_mate(panel: Axes, result: WearResult, flank: WornFlank) -> tuple[float, float, float]:
-    """Draw the circle that touches the new flank where it wears most; return its radius and centre."""
-    centre, radius, name = mate(result, flank)
-    new, deepest = flank.new, flank.deepest
-    panel.add_patch(Circle(centre, abs(radius), fill=False, color="grey", linestyle="--"))
-    way = math.copysign(min(abs(radius), flank.extent), radius)
-    place = (new.x[deepest] + way * new.normal_x[deepest], new.y[deepest] + way * new.normal_y[deepest])
-    panel.text(*place, name, color="grey", ha="center", va="center", clip_on=True)
-    return abs(radius), *centre
+def draw_flank(
+    panel: Axes, shapes: Iterable[Stroke | Circle], looks: Mapping[str, Look], labels: Mapping[str, str]
+) -> list[Any]:
+    """Draw lines and circles as their roles look, and return what was drawn."""
+    drawn: list[Any] = []
+    for shape in shapes:
+        look = {**looks[shape.role], "label": labels.get(shape.role)}
+        if isinstance(shape, Circle):
+            drawn.append(panel.add_patch(patches.Circle(shape.centre, shape.radius, fill=False, **look)))
+        elif shape.closed:
+            drawn += panel.fill(*shape.vertices.T, **look)
+        else:
+            drawn += panel.plot(*shape.vertices.T, **look)
+    return drawn
 
 
 def along_flank_figure(results: list[WearResult]) -> Figure:
@@ -157,14 +211,3 @@ def depth_figure(results: list[WearResult]) -> Figure:
     panels[0].set_title(title, fontsize=9, loc="left")
     panels[0].legend(frameon=False, fontsize=8)
     return figure
-
-
-def literal(text: str) -> str:
-    r"""Return a text that a figure shows as it is.
-
-    Examples
-    --------
-    >>> print(literal("3 $ an hour"))
-    3 \$ an hour
-    """
-    return text.replace("$", r"\$")

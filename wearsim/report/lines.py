@@ -1,4 +1,4 @@
-"""Numbers and lines as texts for the screen show them."""
+"""Lines of text as the screen and figures show them."""
 
 import re
 import textwrap
@@ -8,22 +8,6 @@ _WIDTH = 100
 _LABEL = 13
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
-
-
-def grouped(value: float, digits: int = 4) -> str:
-    """Return a number with few digits and thousands set apart, as one reads it aloud.
-
-    Examples
-    --------
-    >>> grouped(15149.24)
-    '15 150'
-    >>> grouped(0.012341)
-    '0.01234'
-    """
-    rounded = float(f"{value:.{digits}g}")
-    if abs(rounded) >= 10 ** (digits - 1):
-        return f"{rounded:,.0f}".replace(",", " ")
-    return f"{rounded:.{digits}g}"
 
 
 def row(label: str, text: str) -> str:
@@ -79,3 +63,14 @@ def kinds(texts: Iterable[str]) -> list[tuple[str, int]]:
         first, count = found.get(kind, (text, 0))
         found[kind] = first, count + 1
     return sorted(found.values(), key=lambda entry: -entry[1])
+
+
+def literal(text: str) -> str:
+    r"""Return a text that a figure shows as it is.
+
+    Examples
+    --------
+    >>> print(literal("3 $ an hour"))
+    3 \$ an hour
+    """
+    return text.replace("$", r"\$")

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
+from wearsim.quantities import grouped
 from wearsim.report.answer import jumping
-from wearsim.report.lines import grouped
 
 _COLUMNS = (
     "tension_N",

@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.chain.selection import Finding
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 
 _WIDTH = 100
 

@@ -6,8 +6,14 @@ from functools import cached_property
 import numpy as np
 
 from wearsim.geometry.profile import Profile, Vector
-from wearsim.report.flank_view import enlargement, snapshot, touching_circle
+from wearsim.geometry.scene import Stroke
+from wearsim.report.flank_view import snapshot
 from wearsim.result import WearResult
+
+_LARGEST_SHOWN = 0.12
+"""Depth in the picture of a flank, as a fraction of the flank's extent."""
+
+_ROUND = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,10 +66,17 @@ class WornFlank:
         )
         return WornFlank(self.name, np.append(self.cycles[before], end), x, y, depth)
 
-    def enlarged(self, x: Vector, y: Vector) -> tuple[Vector, Vector]:
-        """Return points with their distance from the new flank enlarged."""
-        new_x, new_y = self.x[0], self.y[0]
-        return new_x + self.factor * (x - new_x), new_y + self.factor * (y - new_y)
+    def strokes(self, x: Vector, y: Vector, depth: Vector) -> tuple[Stroke, Stroke, Stroke, Stroke]:
+        """Return what is worn off at a time, the new flank, the worn one and its deepest point, enlarged."""
+        new = np.column_stack([self.x[0], self.y[0]])
+        worn = new + self.factor * (np.column_stack([x, y]) - new)
+        deepest = worn[[depth.argmax()]] if depth.any() else worn[:0]
+        return (
+            Stroke("between", np.concatenate([new, worn[::-1]]), closed=True),
+            Stroke("new", new),
+            Stroke("worn", worn),
+            Stroke("deepest", deepest),
+        )
 
 
 def flanks_of_life(result: WearResult) -> list[WornFlank]:
@@ -89,11 +102,12 @@ def worn_flanks(result: WearResult) -> list[WornFlank]:
     return [_flank("tooth", "")]
 
 
-def mate(result: WearResult, flank: WornFlank) -> tuple[tuple[float, float], float, str]:
-    """Return the circle that touches the new flank where it wears most."""
-    new, deepest = flank.new, flank.deepest
-    place = float(snapshot(result, -1)["arc_length_mm"][deepest])
-    radius, name = touching_circle(result, place)
-    x = new.x[deepest] + radius * new.normal_x[deepest]
-    y = new.y[deepest] + radius * new.normal_y[deepest]
-    return (float(x), float(y)), radius, name
+def enlargement(depth: float, extent: float) -> int:
+    """Return a round factor that makes a depth visible beside a flank.
+
+    Examples
+    --------
+    >>> enlargement(0.1, 20.0)  # 20 * 0.1 = 2.0 <= 0.12 * 20 = 2.4
+    20
+    """
+    return max(n for n in _ROUND if n == 1 or n * depth <= _LARGEST_SHOWN * extent)

@@ -8,7 +8,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from wearsim.geometry.outline import turned
 from wearsim.handbook.convex_concave.model import Layout
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 
 _TOLERANCE = 1e-3
 _PITCHES_SHOWN = 1.8

@@ -8,7 +8,8 @@ from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.face_load.face_slices import equivalent_misalignment
 from wearsim.handbook.face_load.face_wear import FaceState, RunningIn
 from wearsim.handbook.face_load.model import FaceLoad
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.quantities import grouped
+from wearsim.report.lines import numbered, row
 
 if TYPE_CHECKING:
     import pandas as pd

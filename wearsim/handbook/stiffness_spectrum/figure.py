@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from wearsim.handbook.stiffness_spectrum.contact_number import StepFunction
 from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 
 _COLOURS = {
     "mesh": ("black", "tooth frequency"),

@@ -8,7 +8,8 @@ from wearsim.command.calculation_sheet import Sheet
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics
 from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.quantities import grouped
+from wearsim.report.lines import numbered, row
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from wearsim.fatigue.endurance import Endurance
 from wearsim.handbook.strength.model import PairStrength, Stresses, shown_hours
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 
 _COLOURS = {"pinion": "tab:blue", "wheel": "tab:orange"}
 

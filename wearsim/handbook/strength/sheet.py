@@ -10,7 +10,8 @@ from wearsim.command.calculation_sheet import Sheet
 from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life, shown_hours
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.quantities import grouped
+from wearsim.report.lines import numbered, row
 
 if TYPE_CHECKING:
     import pandas as pd

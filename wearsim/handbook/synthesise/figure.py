@@ -14,7 +14,7 @@ from wearsim.geometry.gear.line_of_action import LineOfAction
 from wearsim.geometry.gear.plane_gearing import Family, PitchCircles
 from wearsim.geometry.profile import Vector
 from wearsim.handbook.synthesise.model import MeshField, Phase
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 
 _RADII = (2.0, 5.0, 10.0, 20.0, 50.0)
 _SLIDING = (-10.0, -5.0, -2.0, -1.0, -0.5, 0.0, 0.2, 0.4, 0.6, 0.8)

@@ -1,7 +1,7 @@
 """A pinion and a wheel: their wear, and contact fatigue until pitting is to be expected."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,9 @@ from wearsim.contact.hertz import peak_pressure
 from wearsim.fatigue.contact_fatigue import fatigue_life
 from wearsim.fatigue.endurance import EnduredHours, cycles_per_hour
 from wearsim.geometry.gear.mesh import ToothPair
+from wearsim.geometry.profile import Vector
+from wearsim.geometry.scene import Scene
+from wearsim.geometry.wheel import WheelShape
 from wearsim.kernels.gear_rows import MATE_DEPTH
 
 
@@ -36,6 +39,24 @@ class GearDrive(Drive):
     def teeth_in_words(self, case: Case) -> str:
         """Return the numbers of teeth."""
         return f"{self.pair.teeth[0]} and {self.pair.teeth[1]} teeth"
+
+    def scene(self, engaged_every: int) -> Scene:
+        """Return both gears."""
+        from wearsim.mechanisms.gear_pair.scene import gear_scene
+
+        return gear_scene(self)
+
+    def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
+        """Return pinion and wheel, new and worn."""
+        from wearsim.mechanisms.gear_pair.scene import gear_wheels
+
+        return gear_wheels(self, last)
+
+    def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
+        """Return the wheel's flank where it meets the pinion's."""
+        mesh = self.pair.mesh(self.points)
+        curvature = float(np.interp(last["path_mm"][node], mesh.pole_distance, mesh.curvature[1]))
+        return 1.0 / curvature, "wheel"
 
     def mechanism(self, case: Case) -> Mechanism:
         """Return both flanks, in the cycles of the pinion."""

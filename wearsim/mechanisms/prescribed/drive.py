@@ -1,5 +1,6 @@
 """A flank whose load and sliding come from a table."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from wearsim.case.model import Case, Drive
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Kind, Mechanism
+from wearsim.geometry.profile import Vector
 from wearsim.input.csv_tables import PrescribedTable
 
 
@@ -17,6 +19,10 @@ class PrescribedDrive(Drive):
     table: PrescribedTable
     slip_fraction: float  # scales its sliding
     chain: Chain  # whose roller touches it
+
+    def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
+        """Return the roller."""
+        return 0.5 * self.chain.roller_diameter, "roller"
 
     def mechanism(self, case: Case) -> Mechanism:
         """Return the rows of the table as a contact."""

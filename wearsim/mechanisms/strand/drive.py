@@ -1,5 +1,6 @@
 """A sprocket on a straight strand: the tooth, its load, and what the rest of wearsim asks of it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,12 @@ from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space
 from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.tooth import Tooth
+from wearsim.geometry.wheel import WheelShape
+
+_FINE = 2e-4
+"""Deviation of the wheel's outline around a flank, as a part of the pitch."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +105,30 @@ class StrandDrive(Drive):
             "evolute_x_mm": evolute[:, 0],
             "evolute_y_mm": evolute[:, 1],
         }
+
+    def teeth_in_words(self, case: Case) -> str:
+        """Return the number of teeth and the chain."""
+        return f"{super().teeth_in_words(case)}, chain {self.chain.in_words}"
+
+    def scene(self, engaged_every: int) -> Scene:
+        """Return the sprocket on its strand."""
+        from wearsim.mechanisms.strand.scene import strand_scene
+
+        return strand_scene(self, engaged_every)
+
+    def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
+        """Return the sprocket, new and worn."""
+        from wearsim.mechanisms.strand.scene import strand_wheel
+
+        return (strand_wheel(self, engaged_every, last),)
+
+    def body(self) -> tuple[Stroke, ...]:
+        """Return the whole sprocket where its flank is an evolute profile."""
+        return (self.wheels(1)[0].sketched("body", _FINE),) if self.evolute else ()
+
+    def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
+        """Return the roller."""
+        return 0.5 * self.chain.roller_diameter, "roller"
 
     def mechanism(self, case: Case) -> Mechanism:
         """Return the rollers of the heaviest block on the flank."""

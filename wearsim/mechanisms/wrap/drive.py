@@ -18,6 +18,8 @@ from wearsim.geometry.blank import blank_area, gap_space
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.profile import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, roller_path
+from wearsim.geometry.scene import Scene, Stroke
+from wearsim.geometry.wheel import WheelShape
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
 from wearsim.mechanisms.wrap.chain_rating import (
     drive_notes,
@@ -126,6 +128,32 @@ class WrapDrive(Drive):
     def blank_area(self) -> float:
         """Return the area of the whole wheel [mm2]."""
         return blank_area(gap_space(self.outline, self.gap), self.gaps)
+
+    def teeth_in_words(self, case: Case) -> str:
+        """Return the number of teeth and the chain."""
+        return f"{super().teeth_in_words(case)}, chain {self.chain.in_words}"
+
+    def scene(self, engaged_every: int) -> Scene:
+        """Return both sprockets and the chain."""
+        from wearsim.mechanisms.wrap.scene import wrap_scene
+
+        return wrap_scene(self)
+
+    def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
+        """Return the sprocket that wears, new and worn."""
+        from wearsim.mechanisms.wrap.scene import wrap_wheel
+
+        return (wrap_wheel(self, engaged_every, last),)
+
+    def body(self) -> tuple[Stroke, ...]:
+        """Return half of the teeth on both sides of the gap."""
+        from wearsim.mechanisms.wrap.scene import beside_gap
+
+        return (beside_gap(self),)
+
+    def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
+        """Return the roller."""
+        return 0.5 * self.chain.roller_diameter, "roller"
 
     def profile_columns(self) -> dict[str, Vector]:
         """Points of the whole gap from its right tip to its left one; no radius where it is straight."""

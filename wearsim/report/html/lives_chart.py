@@ -4,9 +4,9 @@ import html
 import math
 from collections.abc import Sequence
 
+from wearsim.quantities import grouped
 from wearsim.report.answer import hours, limit_text
 from wearsim.report.html.charts import Chart, Values, panels, rounded, series
-from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.quantities import grouped
 from wearsim.report.answer import JUMPING, limit_name, limit_state, slack_needed
-from wearsim.report.lines import grouped
 from wearsim.result import WearResult
 
 

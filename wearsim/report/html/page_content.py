@@ -3,23 +3,24 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from markupsafe import Markup
+
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
+from wearsim.quantities import grouped
 from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
 from wearsim.report.comparison import comparison_cells, differing_limits
-from wearsim.report.figures import comparison_figures
+from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.drive_view import drive_sketch, tooth_load_chart
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import Margin, margins
-from wearsim.report.html.picture import picture
-from wearsim.report.html.run_charts import along_chart, history_chart
-from wearsim.report.html.sketch import Sketch
+from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
+from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
-from wearsim.report.lines import grouped, told_apart
+from wearsim.report.lines import told_apart
 from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.result import Life, WearResult
 
@@ -48,7 +49,7 @@ class DrivePage:
     ratings: list[list[str]]
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # all others
-    sketch: Sketch | None  # the drive; None where nothing is known of it
+    sketch: Markup  # the drive; empty where nothing is known of it
     pictures: dict[str, str]  # still pictures as data URIs, by the stems that charts name
     inputs: list[Input]  # every key
     sources: list[tuple[str, str]]  # of the catalogue's numbers
@@ -99,7 +100,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         ratings=rating_cells(result.ratings),
         tooth=tooth,
         charts=charts,
-        sketch=None if brief else drive_sketch(case),
+        sketch=Markup() if brief else sketch(case.drive.scene(case.engaged_every)),
         pictures={stem: picture(figure) for stem, figure in figures.items()},
         inputs=[] if brief else input_table(result),
         sources=[] if brief else catalogue_sources(result),

@@ -1,16 +1,15 @@
 """Charts of a run, or of several: loads, wear along the flank, wear over time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wearsim.case.model import Case
+from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
 from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, rounded, series
-from wearsim.report.lines import grouped
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
@@ -158,8 +157,17 @@ def _history_values(result: WearResult) -> Values:
     return _sampled(shown)
 
 
-def loads_chart(new: ToothLoads, grown: ToothLoads) -> Chart:
-    """Return the normal forces on the teeth of a wrap."""
+def tooth_load_chart(case: Case) -> Chart | None:
+    """Return what the teeth of a wrap carry, under a new chain and one at its limit."""
+    if not case.drive.rests:
+        return None
+    from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
+
+    limit = 0.01 * case.inputs["stop"]["elongation_percent"]
+    return _loads_chart(tooth_loads(case), tooth_loads(case, limit))
+
+
+def _loads_chart(new: "ToothLoads", grown: "ToothLoads") -> Chart:
     figure = panels(1)
     rows = []
     for found, label, role in (

@@ -5,10 +5,12 @@ import math
 import numpy as np
 
 from wearsim.geometry.profile import Vector
-from wearsim.report.flank_view import life_time, outline
+from wearsim.geometry.scene import Circle, Stroke
+from wearsim.quantities import grouped
+from wearsim.report.flank_view import life_time
 from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
-from wearsim.report.lines import grouped
-from wearsim.report.worn_flank import WornFlank, flanks_of_life, mate
+from wearsim.report.scene import around_flank
+from wearsim.report.worn_flank import WornFlank, flanks_of_life
 from wearsim.result import WearResult
 
 _AROUND = 0.22
@@ -18,7 +20,7 @@ _AROUND = 0.22
 def tooth_charts(result: WearResult) -> list[Chart]:
     """Return the flank worn to the end of the life, of gears those of both wheels."""
     flanks = flanks_of_life(result)
-    around = [*_body(result), _mate(result, flanks[0])]
+    around = [_trace(shape) for shape in around_flank(result, flanks[0])]
     return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
 
 
@@ -74,18 +76,13 @@ def _flanks(depth: Vector) -> list[Trace]:
     ]
 
 
-def _body(result: WearResult) -> list[Trace]:
-    """The new wheel, or the teeth beside a gap; nothing where only the flank is known."""
-    x, y = outline(result)
-    if not x.size:
-        return []
-    body = silent(curve(x, y, "outline", "body", "mm"), 1)
-    return [{**body, "fill": "toself", "showlegend": False}]
-
-
-def _mate(result: WearResult, flank: WornFlank) -> Trace:
-    """The circle that touches the new flank where it wears most."""
-    (x, y), radius, name = mate(result, flank)
-    angle = np.linspace(0.0, math.tau, 91)
-    circle_x, circle_y = x + radius * np.cos(angle), y + radius * np.sin(angle)
-    return silent(curve(circle_x, circle_y, name, "mate", "mm", "dash"), 1.2)
+def _trace(shape: Stroke | Circle) -> Trace:
+    """The steel around the new flank, filled, or the circle that touches it."""
+    if isinstance(shape, Circle):
+        angle = np.linspace(0.0, math.tau, 91)
+        middle_x, middle_y = shape.centre
+        points = middle_x + shape.radius * np.cos(angle), middle_y + shape.radius * np.sin(angle)
+        return silent(curve(*points, shape.name, shape.role, "mm", "dash"), 1.2)
+    x, y = np.concatenate([shape.vertices, shape.vertices[:1]]).T
+    body = silent(curve(x, y, "outline", shape.role, "mm"), 1)
+    return {**body, "fill": "toself", "showlegend": False}

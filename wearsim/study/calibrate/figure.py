@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import norm
 
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 from wearsim.study.calibrate.calibration import Calibration
 from wearsim.study.calibrate.observe import Shown
 from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE

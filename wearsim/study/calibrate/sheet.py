@@ -9,8 +9,9 @@ import pandas as pd
 
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
+from wearsim.quantities import grouped
 from wearsim.report.figures import save_figure
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.report.lines import numbered, row
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, Part, Value
 from wearsim.study.calibrate.least_squares import Interval

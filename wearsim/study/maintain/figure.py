@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wearsim.report.figures import literal
+from wearsim.report.lines import literal
 from wearsim.result import Life
 from wearsim.study.maintain.model import MaintenancePlan, Policy
 

@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.files import new_folder
+from wearsim.quantities import grouped
 from wearsim.report.answer import hours
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.report.lines import numbered, row
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.study.maintain.model import MaintenancePlan, Policy
 from wearsim.study.maintain.tooth_count import ToothCount

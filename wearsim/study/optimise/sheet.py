@@ -8,7 +8,8 @@ from typing import Any
 import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.report.lines import grouped, kinds
+from wearsim.quantities import grouped
+from wearsim.report.lines import kinds
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.figure import optimise_figures

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
+from wearsim.quantities import grouped
 from wearsim.report.answer import hours, service_text
-from wearsim.report.lines import grouped, numbered, row
+from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_keys
 from wearsim.result import Life, life_keys
 from wearsim.study.remaining.model import RemainingLife

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from wearsim.case.model import Case
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.study.sensitivity.model import HIGH, LOW, Effect, SensitivityStudy
 
 _NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"

@@ -69,8 +69,8 @@ def _setting(key: str, value: float, start: float) -> str:
 
 
 def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool) -> None:
+    from wearsim.quantities import grouped
     from wearsim.report.answer import answer
-    from wearsim.report.lines import grouped
     from wearsim.report.service import life_json
 
     result = solved.trial.result

@@ -12,9 +12,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from wearsim.quantities import quantities
-from wearsim.report.figures import literal
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped, quantities
+from wearsim.report.lines import literal
 from wearsim.study.sweep.model import Sweep
 
 _MOST_CURVES = 10

@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.study.sweep.figure import sweep_figures
 from wearsim.study.sweep.model import Sweep
 

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
-from wearsim.report.lines import grouped
+from wearsim.quantities import grouped
 from wearsim.study.uncertainty.cross_check import Bounded, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Percentile

@@ -1,19 +1,21 @@
-"""Pinion and wheel of a gear pair, new and worn, as outlines for CAD."""
+"""A gear pair as it is drawn: pinion and wheel new and worn, and both to scale."""
 
 import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.export.wheel_states import WheelShape
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_function
 from wearsim.geometry.outline import turned
 from wearsim.geometry.profile import Vector
+from wearsim.geometry.scene import Circle, Label, Scene, around, letter_height, line, turn_arrow
 from wearsim.geometry.stretch import Stretch, along_points, up_to
-from wearsim.geometry.wheel import Space, worn_space
-from wearsim.mechanisms.gear_pair.drive import GearDrive
-from wearsim.report.flank_view import flanks
-from wearsim.result import WearResult
+from wearsim.geometry.wheel import Space, WheelShape, worn_space
+
+if TYPE_CHECKING:
+    from wearsim.mechanisms.gear_pair.drive import GearDrive
 
 _FLANKS_ONLY = (
     "flanks from where contact starts to the tip: the case tells no root, so the outline is open",
@@ -26,10 +28,14 @@ _ROOTED = (
 )
 
 
-def gear_shapes(drive: GearDrive, result: WearResult | None) -> tuple[WheelShape, WheelShape]:
-    """Return pinion and wheel at their centre distance, in contact in the pole."""
+def gear_wheels(
+    drive: "GearDrive", last: Mapping[str, Vector] | None = None
+) -> tuple[WheelShape, WheelShape]:
+    """Return pinion and wheel at their centre distance, in contact in the pole.
+
+    They are worn to the last snapshot of a run where there is one.
+    """
     mesh, circles = drive.pair.mesh(drive.points), drive.pair.circles
-    worn = flanks(result, -1) if result is not None else None
     shapes = []
     for gear, flank in enumerate((mesh.flank, mesh.mate)):
         points = np.column_stack([flank.x, flank.y])
@@ -39,8 +45,8 @@ def gear_shapes(drive: GearDrive, result: WearResult | None) -> tuple[WheelShape
         fresh = turned(points, turn)
         new = _space(drive, gear, fresh)
         gone: tuple[Space, ...] = ()
-        if worn is not None:
-            gone = (_worn(new, fresh, turned(_worn_points(worn, gear), turn)),) * count
+        if last is not None:
+            gone = (_worn(new, fresh, turned(_worn_points(last, gear), turn)),) * count
         pole = _angle_at(fresh, radius)
         shapes.append(
             WheelShape(
@@ -57,14 +63,14 @@ def gear_shapes(drive: GearDrive, result: WearResult | None) -> tuple[WheelShape
     return shapes[0], shapes[1]
 
 
-def _worn_points(last: dict[str, Vector], gear: int) -> Vector:
+def _worn_points(last: Mapping[str, Vector], gear: int) -> Vector:
     """Points of the worn flank from root to tip."""
     if gear == 0:
         return np.column_stack([last["x_mm"], last["y_mm"]])
     return np.column_stack([last["wheel_x_mm"], last["wheel_y_mm"]])[::-1]
 
 
-def _tooth_centre(drive: GearDrive, gear: int) -> float:
+def _tooth_centre(drive: "GearDrive", gear: int) -> float:
     """Polar angle of the centre line of the tooth, in the frame of the flank's points."""
     pair, count = drive.pair, drive.pair.teeth[gear]
     if isinstance(pair, InvolutePair):
@@ -80,7 +86,7 @@ def _angle_at(points: Vector, radius: float) -> float:
     return float(np.interp(radius, np.hypot(*points.T), angle))
 
 
-def _space(drive: GearDrive, gear: int, points: Vector) -> Space:
+def _space(drive: "GearDrive", gear: int, points: Vector) -> Space:
     """Space whose left side is a flank by its points, with a root where the tool makes one."""
     flank = along_points("flank", points)
     if isinstance(drive.pair, InvolutePair):
@@ -108,3 +114,44 @@ def _worn(new: Space, fresh: Vector, points: Vector) -> Space:
     root, flank = new.left
     below = up_to(flank, fresh[0])
     return worn_space(Space(new.right, (root, below, along_points("flank", fresh))), points)
+
+
+def gear_scene(drive: "GearDrive") -> Scene:
+    """Return pitch and tip circles of both gears, and the path of contact."""
+    circles, mesh = drive.pair.circles, drive.pair.mesh(drive.points)
+    middle, (pinion, wheel) = circles.centre_distance, drive.pair.teeth
+    centres = ((0.0, 0.0), (middle, 0.0))
+    radii = (circles.pinion_radius, circles.wheel_radius)
+    tips = [math.hypot(side.x[-1], side.y[-1]) for side in (mesh.flank, mesh.mate)]
+    angle = np.arccos(mesh.lever / radii[0])
+    along, across = mesh.pole_distance * np.cos(angle), mesh.pole_distance * np.sin(angle)
+    box = around(zip(centres, tips, strict=True))
+    names = (f"pinion {pinion}", f"wheel {wheel}")
+    return Scene(
+        box,
+        (
+            Circle("worn", centres[0], tips[0]),
+            Circle("tip", centres[1], tips[1]),
+            *(Circle("pitch", centre, radius) for centre, radius in zip(centres, radii, strict=True)),
+            line("contact", np.column_stack([radii[0] + across, -along])[::4]),
+            *(
+                stroke
+                for centre, sense in zip(centres, (1, -1), strict=True)
+                for stroke in turn_arrow(centre, 0.3 * radii[0], sense)
+            ),
+            *(
+                Label("text", name, (x, y - 0.55 * radii[0]), letter_height(box))
+                for name, (x, y) in zip(names, centres, strict=True)
+            ),
+        ),
+        f"Tip and pitch circles of a pinion of {pinion} teeth and a wheel of {wheel} teeth to scale, "
+        f"{middle:.1f} mm apart, with the path of contact through the pole.",
+        (
+            f"pinion {pinion} teeth, wheel {wheel} teeth, centre distance {middle:.2f} mm",
+            f"pitch circles {2 * radii[0]:.2f} and {2 * radii[1]:.2f} mm "
+            f"(dash-dotted), tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
+            f"thick: path of contact, contact ratio {mesh.contact_ratio:.3g}, pressure angle in the pole "
+            f"{math.degrees(drive.pair.pole_angle):.2f} degrees",
+            "a pair of gears has no wrap",
+        ),
+    ).with_scale()
