@@ -53,7 +53,7 @@ def run_cycles(
     updates: int,
     done: Vector,
 ) -> int:
-    """Wear the flank update by update in place: the source's equations (10) to (12), as they stand.
+    """Wear the flank update by update in place: physics.md (10) to (12), the source's, as they stand.
 
     Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
     worn points and moves each along its normal. It stops before an update that the

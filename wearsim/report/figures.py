@@ -115,12 +115,13 @@ def _draw_flank(panel: Axes, result: WearResult) -> None:
     }
     draw_flank(panel, (*still, *shapes), LOOKS, labels)
     _, new, worn, _ = (shape.vertices for shape in shapes)
-    (mate,) = (shape for shape in still if isinstance(shape, Circle))
     touched = new[flank.deepest]
-    x, y = touched + min(1.0, extent / mate.radius) * (mate.centre - touched)
-    panel.text(x, y, mate.name, color="grey", ha="center", va="center", clip_on=True)
+    low = high = touched
+    for mate in (shape for shape in still if isinstance(shape, Circle)):
+        x, y = touched + min(1.0, extent / mate.radius) * (mate.centre - touched)
+        panel.text(x, y, mate.name, color="grey", ha="center", va="center", clip_on=True)
+        low, high = np.subtract(mate.centre, mate.radius), np.add(mate.centre, mate.radius)
     start, end, reach = new.min(axis=0), new.max(axis=0), 1.6 * extent
-    low, high = np.subtract(mate.centre, mate.radius), np.add(mate.centre, mate.radius)
     left = start[0] - (0.2 if "sprocket" in result.parts else 0.7) * extent
     right = max(end[0], min(high[0], end[0] + reach)) + 0.2 * extent
     bottom = min(start[1], worn[:, 1].min(), max(low[1], start[1] - reach))

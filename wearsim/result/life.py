@@ -16,7 +16,7 @@ class Life:
     cycles : float
         Loading cycles of one gap.
     hours : float
-        Running time [h], equation (13) of the source: cycles over those of an hour.
+        Running time [h], physics.md (13), of the source: cycles over those of an hour.
     """
 
     cycles: float
