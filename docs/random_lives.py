@@ -19,7 +19,7 @@ import numpy as np
 import wearsim
 from wearsim.catalogue.catalogues import chains
 from wearsim.result import Life, WearResult
-from wearsim.simulation.task import task
+from wearsim.simulation.wear_task import wear_task
 from wearsim.wear import trajectory
 
 SEED, CASES = 20261121, 200
@@ -30,7 +30,7 @@ STEPS = 0.1
 ROUNDING = 1e-12
 """Relative difference of two lives that is none."""
 
-MOST_POINTS = 801
+MAX_POINTS = 801
 """Of the grid that a life is held against."""
 
 WARNINGS = ("numerical error", "the error of the grid could not be estimated")
@@ -248,14 +248,14 @@ def reason(stage: str, error: wearsim.WearsimError) -> str:
 
 def finer_points(points: int) -> int:
     four = 4 * points - 3
-    return four if four <= MOST_POINTS else 2 * points - 1
+    return four if four <= MAX_POINTS else 2 * points - 1
 
 
 def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Measured | None:
     """Draw a case and run it, with tighter steps, and with these on four times the points.
 
     Twice the points are too few: a flank refined by itself may be better than those. Where four
-    times are more than ``MOST_POINTS`` it is twice: histories of more take gigabytes.
+    times are more than ``MAX_POINTS`` it is twice: histories of more take gigabytes.
     """
     stage = "the case itself"
     try:
@@ -268,7 +268,9 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
             tighter = replace(case.run, life_tolerance=0.1 * drawn.tolerance)
             stage = "with a tenth of the tolerance"
             contact = case.drive.mechanism(case).contact
-            loose, tight = (task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter))
+            loose, tight = (
+                wear_task(replace(case, run=run), contact).run()[0] for run in (case.run, tighter)
+            )
             stage = "with that on four times the points"
             finer = wearsim.load_case(drawn.tables(finer_points(drawn.points)))
             fine = wearsim.simulate(replace(finer, run=tighter))

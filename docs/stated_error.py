@@ -31,10 +31,10 @@ from random_lives import add_limit, add_range, draw, log_uniform, random_wear, u
 
 import wearsim
 from wearsim.catalogue.catalogues import chains
-from wearsim.geometry.profile import Profile
-from wearsim.simulation.task import task
+from wearsim.geometry.profile_points import Profile
+from wearsim.simulation.wear_task import wear_task
 from wearsim.simulation.wrap_life import wrap_problem
-from wearsim.wear.implicit_steps import run_dwelling
+from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.trajectory import Trajectory
 
 SEED = 20261122
@@ -185,7 +185,7 @@ def points_life(case: wearsim.Case, flank: Profile | None = None, points: int = 
     if points:
         mechanism = replace(mechanism, points=points)
     tight = replace(case, run=replace(case.run, life_tolerance=min(1e-4, case.run.life_tolerance)))
-    run, _ = task(tight, mechanism.contact).run()
+    run, _ = wear_task(tight, mechanism.contact).run()
     if run.met is None:
         raise wearsim.ConvergenceError("no life")
     return float(run.cycles[-1])
@@ -199,7 +199,7 @@ def steps_life(case: wearsim.Case, level: int) -> Trajectory:
     """Wear a wrap by steps that are halved so many times."""
     contact = case.drive.contact(case)
     law, limits, horizon = wrap_problem(case, contact)
-    run = run_dwelling(contact.thinned(), law, limits, horizon, level)
+    run = run_resting(contact.with_fewer_phases(), law, limits, horizon, level)
     if run.met is None:
         raise wearsim.ConvergenceError("no life")
     return run

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.input.messages import known_keys
+from wearsim.input.faults import known_keys
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = {"validated": "validation_page", "measured": "measured_page"}

@@ -16,7 +16,7 @@ _PUBLIC = {
     "WearsimError": "wearsim.errors",
     "load_case": "wearsim.case.load_case",
     "simulate": "wearsim.simulation",
-    "simulate_many": "wearsim.simulation.simulate_many",
+    "simulate_many": "wearsim.simulation.batch_lives",
 }
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.simulation import simulate
-    from wearsim.simulation.simulate_many import simulate_many
+    from wearsim.simulation.batch_lives import simulate_many
 
 __all__ = [
     "Case",

@@ -11,12 +11,12 @@ from wearsim._version import __version__
 
 
 @cache
-def facts() -> dict[str, Any]:
+def citation_facts() -> dict[str, Any]:
     """Return what is known of wearsim and its sources.
 
     Examples
     --------
-    >>> facts()["title"], len(facts()["references"]) > 1
+    >>> citation_facts()["title"], len(citation_facts()["references"]) > 1
     ('wearsim', True)
     """
     text = files("wearsim").joinpath("citation.toml").read_text("utf-8")
@@ -25,7 +25,7 @@ def facts() -> dict[str, Any]:
 
 def cff() -> str:
     """Return the Citation File Format 1.2.0, the content of ``CITATION.cff``."""
-    known = facts()
+    known = citation_facts()
     lines = ["cff-version: 1.2.0", "type: software"]
     lines += [
         f"{key}: {_quoted(known[key])}" for key in ("message", "title", "abstract", "version", "license")
@@ -64,7 +64,7 @@ def _cff_authors(known: dict[str, Any], indent: str) -> list[str]:
 
 def bibtex() -> str:
     """Return entries for BibTeX."""
-    known = facts()
+    known = citation_facts()
     own = {
         "author": _bibtex_authors(known),
         "title": _bibtex_text(known["title"]),
@@ -120,7 +120,7 @@ def _bibtex_authors(known: dict[str, Any]) -> str:
 
 def apa(version: str = __version__) -> str:
     """Return the references in the style of the APA."""
-    known = facts()
+    known = citation_facts()
     own = (
         f"{_apa_authors(known)} ({known['year']}). {known['title']} (Version {version}) [Computer software]."
     )
@@ -151,9 +151,9 @@ def _apa_authors(known: dict[str, Any]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])}, & {names[-1]}"
 
 
-def text() -> str:
+def citation_text() -> str:
     """Return what to cite in plain words, with what each source is used for."""
-    known = facts()
+    known = citation_facts()
     own, *sources = apa().splitlines()
     lines = [known["message"], "", f"  {own}", "", "Sources of the equations:"]
     for reference, source in zip(known["references"], sources, strict=True):

@@ -37,24 +37,12 @@ class LimitNotReachedError(WearsimError, ValueError):
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing wrong with an input.
+    """One thing wrong with an input."""
 
-    Attributes
-    ----------
-    message : str
-        What must hold, what was found and what to do.
-    key : str
-        Dotted key, empty where the fault is of a whole file.
-    file : str
-        File the key stands in, or ``--set`` for an override.
-    line : int
-        Line of the key, 0 where there is none.
-    """
-
-    message: str
-    key: str = ""
-    file: str = ""
-    line: int = 0
+    message: str  # what must hold, what was found and what to do
+    key: str = ""  # dotted key, empty where the fault is of a whole file
+    file: str = ""  # file the key stands in, or `--set` for an override
+    line: int = 0  # line of the key, 0 where there is none
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}" if self.line else self.file

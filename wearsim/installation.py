@@ -27,7 +27,7 @@ _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-sta
 
 
 @dataclass(frozen=True)
-class Finding:
+class InstallationCheck:
     """One thing that was looked at."""
 
     name: str  # what it is
@@ -36,12 +36,12 @@ class Finding:
     advice: str = ""  # what to do, empty where there is nothing to do
 
 
-def findings(case: Path | None) -> list[Finding]:
+def installation_checks(case: Path | None) -> list[InstallationCheck]:
     """Look at everything that wearsim needs or can use."""
     return [
-        Finding("wearsim", "ok", f"{__version__} in {Path(__file__).parent}"),
+        InstallationCheck("wearsim", "ok", f"{__version__} in {Path(__file__).parent}"),
         _python(),
-        Finding("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
+        InstallationCheck("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
         *(_version(known) for known in libraries() if not known.extra),
         _guarded("cache of kernels", _cache),
         _guarded("self-test", lambda: _self_test(case)),
@@ -53,37 +53,37 @@ def findings(case: Path | None) -> list[Finding]:
     ]
 
 
-def _guarded(name: str, look: Callable[[], Finding]) -> Finding:
+def _guarded(name: str, look: Callable[[], InstallationCheck]) -> InstallationCheck:
     """Make a finding of whatever goes wrong while looking: a broken library raises anything."""
     try:
         return look()
     except Exception as error:
         text = f"{type(error).__name__}: {error}".splitlines()[0]
-        return Finding(name, "failed", text, "install wearsim anew in a fresh virtual environment")
+        return InstallationCheck(name, "failed", text, "install wearsim anew in a fresh virtual environment")
 
 
-def _python() -> Finding:
+def _python() -> InstallationCheck:
     version, found = sys.version_info[:2], f"{platform.python_version()} in {sys.executable}"
     if version < LOWEST_PYTHON:
-        return Finding("Python", "failed", found, "install Python 3.11 or newer")
+        return InstallationCheck("Python", "failed", found, "install Python 3.11 or newer")
     if version > NEWEST_PYTHON:
-        return Finding("Python", "note", found, "newer than tested (3.11 to 3.13)")
-    return Finding("Python", "ok", found)
+        return InstallationCheck("Python", "note", found, "newer than tested (3.11 to 3.13)")
+    return InstallationCheck("Python", "ok", found)
 
 
-def _version(known: Library) -> Finding:
+def _version(known: Library) -> InstallationCheck:
     wanted = f"{known.lowest} to {known.newest} are tested"
     try:
         version = metadata.version(known.name)
     except metadata.PackageNotFoundError:
         advice = f"pip install '{known.name}>={known.lowest}'"
-        return Finding(known.name, "failed", "not installed", advice)
+        return InstallationCheck(known.name, "failed", "not installed", advice)
     if _numbers(version) < _numbers(known.lowest):
         advice = f"{wanted}: pip install '{known.name}>={known.lowest}'"
-        return Finding(known.name, "failed", version, advice)
+        return InstallationCheck(known.name, "failed", version, advice)
     if _numbers(version)[:2] > _numbers(known.newest)[:2]:
-        return Finding(known.name, "note", version, f"newer than tested: {wanted}")
-    return Finding(known.name, "ok", version)
+        return InstallationCheck(known.name, "note", version, f"newer than tested: {wanted}")
+    return InstallationCheck(known.name, "ok", version)
 
 
 def _numbers(version: str) -> tuple[int, ...]:
@@ -92,28 +92,28 @@ def _numbers(version: str) -> tuple[int, ...]:
     return tuple(int(part) for part in head.group().split(".")) if head else (0,)
 
 
-def _cache() -> Finding:
+def _cache() -> InstallationCheck:
     from wearsim.kernels.compiled import cache_folder
 
     name, folder = "cache of kernels", cache_folder()
     if folder is None:
         advice = "every start compiles anew: set NUMBA_CACHE_DIR to a folder that can be written"
-        return Finding(name, "failed", "no folder can be written", advice)
+        return InstallationCheck(name, "failed", "no folder can be written", advice)
     files = [path for path in folder.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
     found = f"{folder}: {len(files)} files, {size:.1f} MB"
     if folder.is_relative_to(tempfile.gettempdir()) and not os.environ.get("NUMBA_CACHE_DIR"):
         advice = "lost with the temporary folder: make the cache folder of your home writable"
-        return Finding(name, "note", found, advice)
-    return Finding(name, "ok", found)
+        return InstallationCheck(name, "note", found, advice)
+    return InstallationCheck(name, "ok", found)
 
 
-def _self_test(case: Path | None) -> Finding:
+def _self_test(case: Path | None) -> InstallationCheck:
     """Run the shipped benchmark and compare its life."""
     name = "self-test"
     if case is None:
         text = "the shipped case hertz-arc-prescribed.toml is missing"
-        return Finding(name, "failed", text, "install wearsim anew: files are missing")
+        return InstallationCheck(name, "failed", text, "install wearsim anew: files are missing")
     start = time.perf_counter()
     cycles = wearsim.simulate(wearsim.load_case(case)).cycles
     seconds = time.perf_counter() - start
@@ -121,44 +121,44 @@ def _self_test(case: Path | None) -> Finding:
     found = f"a life of {cycles:.0f} cycles in {seconds:.2g} s, {KNOWN_CYCLES:.0f} is right"
     if error > 1e-4:
         advice = "trust no result of this machine: empty the cache of kernels, install wearsim anew"
-        return Finding(name, "failed", found, advice)
-    return Finding(name, "ok", found)
+        return InstallationCheck(name, "failed", found, advice)
+    return InstallationCheck(name, "ok", found)
 
 
-def _threads() -> Finding:
+def _threads() -> InstallationCheck:
     numba = importlib.import_module("numba")
-    return Finding("threads", "ok", f"{numba.config.NUMBA_NUM_THREADS} of {os.cpu_count()} cores")
+    return InstallationCheck("threads", "ok", f"{numba.config.NUMBA_NUM_THREADS} of {os.cpu_count()} cores")
 
 
-def _temporary_folder() -> Finding:
+def _temporary_folder() -> InstallationCheck:
     advice = "set TMPDIR to a folder that can be written"
     try:
         return _writable("temporary folder", Path(tempfile.gettempdir()), advice)
     except OSError as error:
-        return Finding("temporary folder", "failed", str(error), advice)
+        return InstallationCheck("temporary folder", "failed", str(error), advice)
 
 
-def _working_folder() -> Finding:
+def _working_folder() -> InstallationCheck:
     advice = "go to a folder that can be written, or name one by --out"
     try:
         return _writable("working folder", Path.cwd(), advice)
     except OSError as error:
-        return Finding("working folder", "failed", str(error), advice)
+        return InstallationCheck("working folder", "failed", str(error), advice)
 
 
-def _writable(name: str, folder: Path, advice: str) -> Finding:
+def _writable(name: str, folder: Path, advice: str) -> InstallationCheck:
     try:
         with tempfile.TemporaryFile(dir=folder) as file:
             file.write(bytes(4096))
             file.flush()
     except OSError as error:
-        return Finding(name, "failed", f"{folder}: {error.strerror or error}", advice)
-    return Finding(name, "ok", str(folder))
+        return InstallationCheck(name, "failed", f"{folder}: {error.strerror or error}", advice)
+    return InstallationCheck(name, "ok", str(folder))
 
 
-def _extras() -> Iterator[Finding]:
+def _extras() -> Iterator[InstallationCheck]:
     """Give each extra; what is not installed is only noted."""
-    extras: dict[str, list[Finding]] = {}
+    extras: dict[str, list[InstallationCheck]] = {}
     for known in libraries():
         if known.extra:
             extras.setdefault(known.extra, []).append(_version(known))
@@ -167,12 +167,12 @@ def _extras() -> Iterator[Finding]:
         fine = all(one.state == "ok" for one in found)
         missing = any(one.state == "failed" for one in found)
         advice = f"pip install 'wearsim[{extra}]'" if missing else "newer than tested"
-        yield Finding(f"extra {extra}", "ok" if fine else "note", text, "" if fine else advice)
+        yield InstallationCheck(f"extra {extra}", "ok" if fine else "note", text, "" if fine else advice)
 
 
-def _browser() -> Finding:
+def _browser() -> InstallationCheck:
     found = next((path for name in _BROWSERS if (path := shutil.which(name))), None)
     if found is None:
         advice = "install Chromium or Chrome to test pages of reports"
-        return Finding("browser", "note", "none found", advice)
-    return Finding("browser", "ok", found)
+        return InstallationCheck("browser", "note", "none found", advice)
+    return InstallationCheck("browser", "ok", found)

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from wearsim.case.load_case import load_case
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.hertz_wear import DEPTH_REACHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
-from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
@@ -34,7 +34,7 @@ def b9_contact():
     """Flank arc R 39.1 mm, 6 mm long; the modulus makes p = 0.418 sqrt(q E/rho_H) exact."""
     u = np.linspace(0.0, 1.0, 500)
     return PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=6.0 * u,
         load_per_width=100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
         slip=0.05 + 0.4 * u,
@@ -103,6 +103,6 @@ def test_solve_of_the_strand(benchmark):
     case = load_case(STRAND)
     contact = case.drive.mechanism(case).contact
     life = Solve(contact, 0.2, True).measured(benchmark) / 5e-11
-    loop = run_per_cycle(contact, archard(5e-11), (depth_criterion(0.2),), 1e9, 1000)
+    loop = run_per_cycle(contact, archard(5e-11), (depth_limit(0.2),), 1e9, 1000)
     benchmark.extra_info["life_error"] = life / float(loop.cycles[-1]) - 1.0
     assert life == pytest.approx(float(loop.cycles[-1]), rel=1e-4)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
 
 
@@ -10,6 +10,6 @@ from wearsim.wear.advance import run_advance
 def test_advance_reference_run(benchmark, reference_contact, tolerance):
     """8.1389e4 cycles to 0.2 mm: two independent programs, docs/physics.md, "Reference run"."""
     contact, law = reference_contact(201)
-    criteria = (depth_criterion(0.2),)
-    run, _ = benchmark(lambda: run_advance(contact, law, criteria, 1e9, tolerance))
+    stop_limits = (depth_limit(0.2),)
+    run, _ = benchmark(lambda: run_advance(contact, law, stop_limits, 1e9, tolerance))
     assert run.cycles[-1] == pytest.approx(8.1389e4, rel=5e-4)

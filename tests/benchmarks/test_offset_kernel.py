@@ -9,7 +9,7 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
 from wearsim.contact.hertz import contact_modulus
 from wearsim.kernels.offset import (
     AFTER,
@@ -32,7 +32,7 @@ def flank(nodes):
     """Arc of 6 mm, q = 100 (0.2 + 0.8 cos(pi u/2)) N/mm, s = 0.05 + 0.4 u mm, k = 1e-10 mm2/N."""
     u = np.linspace(0.0, 1.0, nodes)
     mechanism = PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=6.0 * u,
         load_per_width=100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
         slip=0.05 + 0.4 * u,

@@ -11,7 +11,7 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from wearsim.kernels.cycles import run_cycles
+from wearsim.kernels.per_cycle_loop import run_cycles
 
 CYCLES = 2000
 ROOTS, DIVISIONS = 3, 5

@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import wrap_equilibrium as kernels
-from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
 PITCH, RADIUS, TEETH, ROLLERS = 12.7, 3.96, 24, 12
 TOLERANCE = 1e-6
@@ -30,7 +30,7 @@ def mechanism():
         pitch_angle=2.0 * math.pi / TEETH,
         wrap_angle=math.pi,
         chain=WrapChain(PITCH, RADIUS, 0.7 * RADIUS, 5e4, False),
-        pull=Pull(1000.0, 20.0, True, 0.0, 0.0),
+        pull=StrandTensions(1000.0, 20.0, True, 0.0, 0.0),
     )
 
 
@@ -94,11 +94,11 @@ class Peer:
         way = ends[1][:2] - ends[0][:2]
         local = ends[0][:2] + t * (t - 1) ** 2 * a + t**2 * (3 - 2 * t) * way + t**2 * (t - 1) * b
         slope = (t * (3 * t - 4) + 1) * a + 6 * t * (1 - t) * way + t * (3 * t - 2) * b
-        turned = [
+        rotated = [
             np.array([self.cosine * x + self.sine * y, self.cosine * y - self.sine * x])
             for x, y in (local, slope)
         ]
-        place, direction = turned
+        place, direction = rotated
         link = np.diff(place)
         length = np.hypot(*link)
         stretch = np.maximum(length - constants[kernels.PITCH_EVEN], 0.0)

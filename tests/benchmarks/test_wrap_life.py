@@ -13,13 +13,13 @@ import pytest
 import wearsim
 from wearsim.geometry import roller_path
 from wearsim.mechanisms.wrap import contact as wrap_cycle
-from wearsim.wear import bodies
+from wearsim.wear import resting_bodies
 
 CASE = Path(__file__).parents[2] / "cases" / "a40-19t-rating.toml"
 PARTS = {
     "rollers in equilibrium": (wrap_cycle, "wrap_events"),
     "line of roller centres on the worn gap": (roller_path, "roller_locus"),
-    "pressure and wear of every roller": (bodies, "wear_events"),
+    "pressure and wear of every roller": (resting_bodies, "wear_events"),
 }
 
 

@@ -75,7 +75,7 @@ def results():
 @pytest.fixture(scope="session")
 def reports(results, tmp_path_factory):
     """Folder with the reports ``strand``, ``wrap``, ``gears`` and ``all``, pages beside their script."""
-    from wearsim.report.html.writer import save_report
+    from wearsim.report.html.page_writer import save_report
 
     folder = tmp_path_factory.mktemp("reports")
     for name, result in zip(("strand", "wrap", "gears"), results, strict=True):
@@ -88,8 +88,8 @@ def reports(results, tmp_path_factory):
 @pytest.fixture
 def watched(page):
     """A page that remembers what it asked for and what its console said."""
-    page.asked, page.said = [], []
-    page.on("request", lambda request: page.asked.append(request.url))
+    page.requested, page.said = [], []
+    page.on("request", lambda request: page.requested.append(request.url))
     page.on("console", lambda message: page.said.append(message.text))
     page.on("pageerror", lambda error: page.said.append(str(error)))
     page.on("dialog", lambda dialog: page.said.append(f"dialog {dialog.message}"))

@@ -41,7 +41,7 @@ def test_a_page_says_nothing_asks_for_nothing_and_fits(watched, reports, kind, w
     shown(watched, reports / kind)
     watched.wait_for_timeout(200)
     beside = {(reports / kind / file).as_uri() for file in ("index.html", "plotly.min.js")}
-    assert {url for url in watched.asked if not url.startswith("data:")} == beside
+    assert {url for url in watched.requested if not url.startswith("data:")} == beside
     assert watched.said == []
     assert watched.evaluate("document.documentElement.scrollWidth") <= width
     charts = watched.locator("[data-chart]")
@@ -56,7 +56,7 @@ def test_a_single_file_needs_nothing_beside_it(watched, reports, kind, tmp_path)
     alone = tmp_path / "moved.html"
     alone.write_bytes((reports / f"{kind}_alone" / "index.html").read_bytes())
     shown(watched, tmp_path, alone.name)
-    assert [url for url in watched.asked if not url.startswith("data:")] == [alone.as_uri()]
+    assert [url for url in watched.requested if not url.startswith("data:")] == [alone.as_uri()]
     assert watched.said == []
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.study.calibrate.predicted_history import Course
+from wearsim.study.calibrate.predicted_history import PredictedHistory
 
 K = "wear.specific_wear_rate_mm2_per_N"
 HEAD = "time_hours,quantity,value,error,arc_length_mm"
@@ -37,7 +37,7 @@ def table(tmp_path):
 def case(drive):
     """The test drive, which has a coefficient of 5e-11 mm2/N, and its run."""
     path = drive()
-    return path, Course(wearsim.simulate(wearsim.load_case(path)))
+    return path, PredictedHistory(wearsim.simulate(wearsim.load_case(path)))
 
 
 def depth(model, part, place, factor=1.0):

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import wearsim
-from wearsim.citation import facts
+from wearsim.citation import citation_facts
 
 ROOT = Path(__file__).parents[2]
 REFERENCE_KEYS = {
@@ -59,17 +59,17 @@ def test_cff_follows_its_rules(cli):
 
 def test_facts_agree_with_the_package():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    assert facts()["title"] == project["name"]
-    assert facts()["abstract"] == project["description"]
-    assert facts()["license"] == project["license"]
-    assert facts()["keywords"] == project["keywords"]
+    assert citation_facts()["title"] == project["name"]
+    assert citation_facts()["abstract"] == project["description"]
+    assert citation_facts()["license"] == project["license"]
+    assert citation_facts()["keywords"] == project["keywords"]
 
 
 @pytest.mark.parametrize("style", ["text", "apa", "bibtex", "cff"])
 def test_every_source_is_named(cli, style):
     done = cli("cite", "--format", style)
     assert (done.code, done.err) == (0, "")
-    for reference in facts()["references"]:
+    for reference in citation_facts()["references"]:
         assert reference["authors"][0].get("family", "") in done.out
         assert reference["title"].split(":")[0] in done.out
     assert "Andrienko" in done.out and "0.1.0" in done.out
@@ -93,7 +93,7 @@ def test_apa(cli):
 def test_bibtex_is_well_formed(cli):
     text = cli("cite", "--format", "bibtex").out
     entries = re.findall(r"^@(\w+)\{(\w+),\n((?:  \w+ = \{.*\},\n)+)\}$", text, re.MULTILINE)
-    assert len(entries) == 1 + len(facts()["references"]) == text.count("@")
+    assert len(entries) == 1 + len(citation_facts()["references"]) == text.count("@")
     assert len({key for _, key, _ in entries}) == len(entries)
     for _, _, body in entries:
         assert body.count("{") == body.count("}")

@@ -107,8 +107,8 @@ def test_files(cli, tmp_path):
         ("wheel", "head", "b"),
     }
     for _, half in flanks.groupby(["gear", "part"]):
-        pole = half[np.isclose(half.pressure_angle_deg, 20.0)]
-        assert pole.reduced_radius_mm.to_numpy() == pytest.approx([8.7215136548])
+        pitch_point = half[np.isclose(half.pressure_angle_deg, 20.0)]
+        assert pitch_point.reduced_radius_mm.to_numpy() == pytest.approx([8.7215136548])
     # Feet are longer than what the mate's tip reaches.
     assert flanks[flanks.part == "foot"].reduced_radius_mm.isna().any()
     assert flanks[flanks.part == "head"].reduced_radius_mm.notna().all()
@@ -141,8 +141,8 @@ def test_zones_of_equal_gears():
 
 def test_backlash_is_in_the_flanks():
     flanks = sheet(convex_concave__backlash_mm=0.4).tables()["flanks"]
-    pole = flanks[np.isclose(flanks.radius_mm, 38.25)]
-    assert np.arctan2(pole.x_mm, pole.y_mm).to_numpy() * 38.25 == pytest.approx(0.1)
+    pitch_point = flanks[np.isclose(flanks.radius_mm, 38.25)]
+    assert np.arctan2(pitch_point.x_mm, pitch_point.y_mm).to_numpy() * 38.25 == pytest.approx(0.1)
 
 
 FEW_TEETH = {

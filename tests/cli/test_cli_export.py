@@ -235,17 +235,17 @@ def test_gear_pair(cli, gears, tmp_path, profile):
         for layer in ("PINION_NEW", "WHEEL_NEW", "PINION_WORN", "WHEEL_WORN")
     }
     case = load_case(path)
-    pole = case.drive.pair.circles.pinion_radius
+    pitch_point = case.drive.pair.circles.pinion_radius
     for layer in ("PINION_NEW", "WHEEL_NEW"):
         lines = shapely.MultiLineString([shapely.LineString(rows[:, :2]) for rows in found[layer]])
-        assert lines.distance(shapely.Point(0.0, pole)) < 1e-3
+        assert lines.distance(shapely.Point(0.0, pitch_point)) < 1e-3
     if profile == "involute":
         assert [len(rows) for rows in found.values()] == [17, 34, 17, 34]
         assert "the case tells no root" in " ".join(texts(out))
         thick = [angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")]
-        radii = pole, case.drive.pair.circles.wheel_radius
+        radii = pitch_point, case.drive.pair.circles.wheel_radius
         widths = [angle * radius for angle, radius in zip(thick, radii, strict=True)]
-        assert sum(widths) == pytest.approx(2 * math.pi * pole / 17, rel=1e-5)
+        assert sum(widths) == pytest.approx(2 * math.pi * pitch_point / 17, rel=1e-5)
         return
     bodies = {layer: Outline(rows[0][:, :2], rows[0][:, 2]) for layer, rows in found.items()}
     solid = {layer: shapely.Polygon(body.polygon(1e-5)) for layer, body in bodies.items()}

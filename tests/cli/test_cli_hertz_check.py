@@ -20,16 +20,16 @@ PICTURES = {"hertz_check.png", "hertz_check.svg"}
 @pytest.fixture
 def solved(monkeypatch):
     """Finite elements that are quick and twice too high, and the meshes asked for."""
-    asked = []
+    requested = []
 
     def hertz_fem(contact, elements):
-        asked.append(elements)
+        requested.append(elements)
         place = np.linspace(0.0, 0.2, 8)
         pressure = np.maximum(900.0 - 9000.0 * place, 0.0)
         return FemContact(elements, 100 * elements, 0.5, place, pressure, place, 0.5 * pressure)
 
     monkeypatch.setattr(wearsim.handbook.hertz_check.hertz_fem, "hertz_fem", hertz_fem)
-    return asked
+    return requested
 
 
 def test_text(cli):

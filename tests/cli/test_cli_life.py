@@ -233,8 +233,8 @@ def test_solve_for_prints_value_life_and_slope(cli, drive, conforms):
     """On a strand the life goes with one over the speed: the same cycles take longer."""
     path = drive()
     hours = strict(cli("life", path, "--json").out)["life_hours"]
-    asked = ("--solve-for", "load.speed_rpm", "--require-hours", 1.6 * hours)
-    done = cli("life", path, "--json", *asked, "--set", "load={tension_N=3000, speed_rpm=100}")
+    requested = ("--solve-for", "load.speed_rpm", "--require-hours", 1.6 * hours)
+    done = cli("life", path, "--json", *requested, "--set", "load={tension_N=3000, speed_rpm=100}")
     assert done.code == 0
     line = strict(done.out)
     conforms(line)
@@ -243,14 +243,14 @@ def test_solve_for_prints_value_life_and_slope(cli, drive, conforms):
     assert found["life_hours"] == line["life_hours"] == pytest.approx(1.6 * hours, rel=1e-3)
     assert found["elasticity"] == pytest.approx(-1.0, rel=1e-3)
     assert found["lowest"] <= found["value"] <= found["highest"]
-    text = cli("life", path, *asked, "--set", "load={tension_N=3000, speed_rpm=100}").out
+    text = cli("life", path, *requested, "--set", "load={tension_N=3000, speed_rpm=100}").out
     assert text.startswith(f"  Solved     load.speed_rpm = {found['value']:.6g} lives ")
     assert "1 % more of it lives 1 % less" in text
 
 
 def test_solve_for_without_an_answer_is_4(cli, drive, conforms):
-    asked = ("--solve-for", "sprocket.face_width_mm", "--require-hours", 1e9)
-    done = cli("life", drive(), "--json", *asked)
+    requested = ("--solve-for", "sprocket.face_width_mm", "--require-hours", 1e9)
+    done = cli("life", drive(), "--json", *requested)
     assert done.code == 4
     line = strict(done.out)
     conforms(line)
@@ -287,8 +287,8 @@ def test_solve_for_needs_hours_and_one_case(cli, drive):
 
 def test_solve_for_saves_the_case_that_it_found(cli, drive, tmp_path):
     out = tmp_path / "out"
-    asked = ("--solve-for", "load.power_kW", "--require-hours", 100)
-    line = strict(cli("life", drive(), "--json", *asked, "--out", out).out)
+    requested = ("--solve-for", "load.power_kW", "--require-hours", 100)
+    line = strict(cli("life", drive(), "--json", *requested, "--out", out).out)
     again = strict(cli("life", "--json", out / "case.lock.toml").out)
     assert again["life_hours"] == pytest.approx(line["life_hours"], rel=1e-9)
 
@@ -323,8 +323,8 @@ def test_verify_grid_at_the_horizon(cli, drive, conforms):
 
 @pytest.mark.parametrize("option", ["--verify-grid", "--strict"])
 def test_solve_for_alone(cli, drive, option):
-    asked = ("--solve-for", "load.power_kW", "--require-hours", 100)
-    assert cli("life", drive(), *asked, option).code == 2
+    requested = ("--solve-for", "load.power_kW", "--require-hours", 100)
+    assert cli("life", drive(), *requested, option).code == 2
 
 
 FAST = {

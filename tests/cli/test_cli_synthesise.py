@@ -214,12 +214,12 @@ def test_failed_case_as_json(cli):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_line_through_the_pole_needs_the_stress_there(cli):
+def test_line_through_the_pitch_point_needs_the_stress_there(cli):
     phase = "phase=[{first_pitch_point_distance_mm = 3, last_pitch_point_distance_mm = 9}]"
-    law = "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [LEAST, 10]}"
-    done = cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "3"))
+    radius_rule = "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [LEAST, 10]}"
+    done = cli("synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "3"))
     assert done.code == 2 and "must reach from 0 to 9 as phase 1 does (got 3 to 10)" in done.err
-    assert cli("synthesise", POLE, "--set", phase, "--set", law.replace("LEAST", "0")).code == 0
+    assert cli("synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "0")).code == 0
 
 
 def test_schema(cli):

@@ -6,7 +6,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from wearsim.catalogue.catalogues import rows
+from wearsim.catalogue.catalogues import catalogue_rows
 
 
 @pytest.mark.parametrize("option", [(), ("--result",)])
@@ -81,7 +81,7 @@ def test_every_table(cli, table, words):
 
 
 def test_listed_chains_are_those_of_the_catalogue(cli):
-    assert json.loads(cli("list", "chains", "--json").out) == list(rows("chains"))
+    assert json.loads(cli("list", "chains", "--json").out) == list(catalogue_rows("chains"))
 
 
 def test_listed_cases_exist(cli):

@@ -5,7 +5,7 @@ import socket
 
 import pytest
 
-from wearsim.page import guard as listener
+from wearsim.page import request_guard as listener
 
 FOUND = importlib.util.find_spec("click")
 

@@ -11,7 +11,7 @@ import openpyxl
 import pandas as pd
 import pytest
 
-from wearsim.input.kind import MECHANISMS
+from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.quantities import quantities
 from wearsim.result import WearResult
 

@@ -16,13 +16,13 @@ from click.testing import CliRunner
 
 import wearsim
 from wearsim.case.model import Case, Drive
-from wearsim.case.shared import TOLERANCE, run_input, take_defaults, wear_input
+from wearsim.case.table_inputs import TOLERANCE, run_input, take_defaults, wear_input
 from wearsim.cli.main import wearsim_command
-from wearsim.contact.engagement import Contact, Kind
-from wearsim.geometry.profile import Profile
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.geometry.profile_points import Profile
 from wearsim.input.calculation_file import checked
-from wearsim.input.case_record import Record
-from wearsim.input.kind import MECHANISMS, MechanismEntry
+from wearsim.input.case_record import CaseRecord
+from wearsim.input.mechanism_registry import MECHANISMS, MechanismEntry
 from wearsim.input.schema import RunTable, Table, WearTable
 from wearsim.input.schema.table import CalculationTables
 from wearsim.input.units import Positive
@@ -75,8 +75,8 @@ class PinMechanism:
         # The curvature whose Hertz pressure is that of the flat face, pi p^2/(w E).
         relative = math.pi * drive.pressure**2 / (drive.line_load * MODULUS)
         constants = [drive.line_load, drive.way, drive.way * drive.speed / 60.0, relative]
-        return Contact(
-            kind=Kind.LOCAL,
+        return FlankContact(
+            kind=ContactKind.LOCAL,
             kernel=flat_contact,
             constants=np.array(constants),
             columns=np.zeros((1, 1)),
@@ -122,7 +122,7 @@ class PinDrive(Drive):
 
 def read(document):
     tables, faults = checked(document, PinTables), document.faults
-    record = Record(tables, document.folder, faults)
+    record = CaseRecord(tables, document.folder, faults)
     take_defaults(record, tables)
     wear, run, pin = wear_input(record, tables.wear), run_input(record, tables.run, TOLERANCE), tables.pin
     faults.check()

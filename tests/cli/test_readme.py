@@ -18,7 +18,7 @@ from pydantic import BaseModel
 
 import wearsim
 import wearsim.cli
-from wearsim.catalogue.catalogues import rows
+from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.input.schema import CaseTables
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import grouped
@@ -203,7 +203,7 @@ def test_input_md_has_every_key_of_the_schema_and_no_other():
 
 
 def test_input_md_has_the_wear_conditions_as_they_are():
-    for row in rows("wear_conditions"):
+    for row in catalogue_rows("wear_conditions"):
         assert "| " + " | ".join(row.values()) + " |" in INPUT
 
 

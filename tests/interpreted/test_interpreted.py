@@ -19,11 +19,11 @@ import wearsim
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
-from wearsim.kernels.cycles import run_cycles
 from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
+from wearsim.kernels.per_cycle_loop import run_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
-from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
 STRAND = {
     "format_version": 1,
@@ -108,7 +108,7 @@ def wraps():
                 pitch_angle=2.0 * np.pi / 11,
                 wrap_angle=np.pi,
                 chain=WrapChain(12.7, 4.255, 3.0, 5e4, alternating),
-                pull=Pull(1000.0, 60.0, True, friction, 1.0),
+                pull=StrandTensions(1000.0, 60.0, True, friction, 1.0),
             ),
             phase,
         )

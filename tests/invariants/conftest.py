@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Contact, Kind, Mechanism
-from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
+from wearsim.contact.engagement import ContactKind, FlankContact, Mechanism
+from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
 from wearsim.contact.synthesised_pair import SynthesisedPair
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.gear.convex_concave import ConvexConcave
@@ -15,14 +15,14 @@ from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.mesh import ToothPair
 from wearsim.geometry.gear.plane_gearing import PitchCircles
 from wearsim.geometry.measured.points import flank_from_points
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.gear_rows import SLIP
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
-from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
-from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.contact import RollerSliding, WrapBlock, WrapContact
+from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 """Contact modulus of steel on steel [MPa]."""
@@ -60,10 +60,10 @@ def points(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
 
 
 def prescribed(
-    kind: Kind, nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
+    kind: ContactKind, nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0
 ) -> Mechanism:
     u = np.linspace(0.0, 1.0, nodes)
-    path = length if kind is Kind.LOCAL else 1.0
+    path = length if kind is ContactKind.LOCAL else 1.0
     return PrescribedMechanism(
         kind=kind,
         arc_length=length * 10.0 * u,
@@ -77,11 +77,11 @@ def prescribed(
 
 
 def slip_ratio(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
-    return prescribed(Kind.TRAVELLING, nodes, length, load, slip)
+    return prescribed(ContactKind.TRAVELLING, nodes, length, load, slip)
 
 
 def sliding_distance(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) -> Mechanism:
-    return prescribed(Kind.LOCAL, nodes, length, load, slip)
+    return prescribed(ContactKind.LOCAL, nodes, length, load, slip)
 
 
 @dataclass(frozen=True)
@@ -116,14 +116,16 @@ def wrap(nodes: int, length: float = 1.0, load: float = 1.0, slip: float = 1.0) 
         pitch_angle=0.25 * np.pi,
         wrap_angle=0.225 * np.pi,
         chain=WrapChain(pitch, radius, 0.5 * radius, 5e7 / length, alternating=False),
-        pull=Pull(load * 1e6, load * 0.9e6, driver=True, friction_roller_tooth=0.0, friction_roller_bush=0.0),
+        pull=StrandTensions(
+            load * 1e6, load * 0.9e6, driver=True, friction_roller_tooth=0.0, friction_roller_bush=0.0
+        ),
     )
     return Wrapped(
         WrapContact(
             blocks=(WrapBlock(1.0, mechanism, pitch_time=0.1, wear_factor=1.0),),
             face_width=length * 10.0,
             phases=1,
-            sliding=Sliding(0.0082 * slip, 0.0082 * slip),
+            sliding=RollerSliding(0.0082 * slip, 0.0082 * slip),
             modulus=0.1 * MODULUS / length**2,
             same_link_kind=False,
             elongation_per_cycle=0.0,
@@ -137,7 +139,7 @@ class Part:
     """A mechanism with another contact."""
 
     whole: Mechanism
-    contact: Contact
+    contact: FlankContact
 
     def mate_columns(self, depth: np.ndarray) -> dict[str, np.ndarray]:
         return self.whole.mate_columns(depth)
@@ -170,7 +172,7 @@ def c14(size: float) -> ToothPair:
 
 def constant_stress(size: float) -> ToothPair:
     load = LineLoad(size * 3000.0 / 54.0, 1)
-    stress = StressLaw(np.array([0.0]), np.array([454.16]))
+    stress = StressProfile(np.array([0.0]), np.array([454.16]))
     loaded = LoadedPair(PitchCircles(135.0 * size, 1.5), MODULUS, load, stress, 0.0)
     return SynthesisedPair(loaded, (36, 54), (-7.0 * size, 7.0 * size))
 

@@ -11,9 +11,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Mechanism
-from wearsim.geometry.profile import area_between
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.geometry.profile_points import area_between
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
 
@@ -21,11 +21,11 @@ from wearsim.wear.law import power
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
 def test_order_of_convergence(smooth: Callable[..., Mechanism], exponent: float) -> None:
     law = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent)
-    first, _ = run_advance(smooth(51).contact, law, (depth_criterion(0.05),), 1e9, 1e-3)
+    first, _ = run_advance(smooth(51).contact, law, (depth_limit(0.05),), 1e9, 1e-3)
     horizon = float(first.cycles[-1])
     depths, areas = [], []
     for nodes in (51, 101, 201):
-        worn, _ = run_advance(smooth(nodes).contact, law, (depth_criterion(1.0),), horizon, 1e-6)
+        worn, _ = run_advance(smooth(nodes).contact, law, (depth_limit(1.0),), horizon, 1e-6)
         depths.append(worn.depth[-1][nodes // 2])
         areas.append(area_between(worn.x[0], worn.y[0], worn.x[-1], worn.y[-1]))
     coarse, fine = np.abs(np.diff(depths)) / depths[-1]

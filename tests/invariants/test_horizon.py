@@ -80,7 +80,7 @@ def test_what_hardly_wears_ends_after_a_million_hours():
 
 def test_a_sprocket_that_outlives_many_chains_takes_so_many_steps(monkeypatch):
     """160 steps a chain at least: 400 are over in the third, whose life is known."""
-    monkeypatch.setattr(dwelling, "_MOST_STEPS", 400)
+    monkeypatch.setattr(dwelling, "_MAX_STEPS", 400)
     result = run(WRAP, f"{RATE}=1e-13", f"{JOINT}=1e-9")
     chain, sprocket = result.parts["chain"], result.parts["sprocket"]
     assert isinstance(chain, Life) and result.life == chain

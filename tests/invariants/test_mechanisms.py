@@ -9,10 +9,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Mechanism
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import ContactError
-from wearsim.geometry.profile import area_between
+from wearsim.geometry.profile_points import area_between
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
 from wearsim.wear.per_cycle import run_per_cycle
@@ -33,10 +33,10 @@ def run(request: pytest.FixtureRequest) -> Callable[..., Trajectory]:
     ) -> Trajectory:
         # The coefficient has the unit area/force for m = 1 and changes with the unit of length.
         coefficient = factor * 1e-7 * length**2 * (length**2 / 1000.0) ** (exponent - 1.0)
-        law, criteria = power(coefficient, exponent), (depth_criterion(DEPTH * length),)
+        law, stop_limits = power(coefficient, exponent), (depth_limit(DEPTH * length),)
         if request.param == "advance":
-            return run_advance(mechanism.contact, law, criteria, 1e9, 1e-5)[0]
-        return run_per_cycle(mechanism.contact, law, criteria, 1e9, 1)
+            return run_advance(mechanism.contact, law, stop_limits, 1e9, 1e-5)[0]
+        return run_per_cycle(mechanism.contact, law, stop_limits, 1e9, 1)
 
     return wear
 
@@ -112,10 +112,10 @@ def test_grid_does_not_matter(build: Build, run: Run, exponent: float) -> None:
 
 @pytest.mark.parametrize("exponent", EXPONENTS)
 def test_methods_agree(build: Build, exponent: float) -> None:
-    law, criteria = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent), (depth_criterion(DEPTH),)
+    law, stop_limits = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent), (depth_limit(DEPTH),)
     contact = build(51).contact
-    advance, _ = run_advance(contact, law, criteria, 1e9, 1e-5)
-    per_cycle = run_per_cycle(contact, law, criteria, 1e9, 1)
+    advance, _ = run_advance(contact, law, stop_limits, 1e9, 1e-5)
+    per_cycle = run_per_cycle(contact, law, stop_limits, 1e9, 1)
     assert advance.cycles[-1] == pytest.approx(per_cycle.cycles[-1], rel=3e-4)
     np.testing.assert_allclose(advance.depth[-1], per_cycle.depth[-1], rtol=0, atol=3e-4 * DEPTH)
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.engagement import Mechanism
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
@@ -28,13 +28,13 @@ def peak(wear: Callable[[], object]) -> int:
 
 @pytest.mark.parametrize("method", ["advance", pytest.param("per_cycle", marks=pytest.mark.slow)])
 def test_ten_times_the_cycles(build: Callable[..., Mechanism], method: str) -> None:
-    contact, criteria = build(101).contact, (depth_criterion(0.05),)
+    contact, stop_limits = build(101).contact, (depth_limit(0.05),)
 
     def wear(rate: float) -> float:
         if method == "advance":
-            worn, _ = run_advance(contact, archard(rate), criteria, 1e9, 1e-3)
+            worn, _ = run_advance(contact, archard(rate), stop_limits, 1e9, 1e-3)
         else:
-            worn = run_per_cycle(contact, archard(rate), criteria, 1e9, 1)
+            worn = run_per_cycle(contact, archard(rate), stop_limits, 1e9, 1)
         cycles.append(float(worn.cycles[-1]))
         return cycles[-1]
 

@@ -9,9 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
 from wearsim.contact.hertz import contact_modulus
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
@@ -24,7 +24,7 @@ EXACT = 0.418 / math.sqrt(1.0 / (2.0 * math.pi * (1.0 - 0.3**2)))
 def test_b9_cycle_by_cycle(rows, rounded):
     u = np.linspace(0.0, 1.0, rows)
     mechanism = PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=6.0 * u,
         load_per_width=100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
         slip=0.05 + 0.4 * u,
@@ -33,5 +33,5 @@ def test_b9_cycle_by_cycle(rows, rounded):
         roller_radius=6.035,
         modulus=contact_modulus((2.1e5, 2.1e5), (0.3, 0.3)),
     )
-    run = run_per_cycle(mechanism.contact, archard(1e-10), (depth_criterion(0.5),), 1e8, 1)
+    run = run_per_cycle(mechanism.contact, archard(1e-10), (depth_limit(0.5),), 1e8, 1)
     assert run.cycles[-1] == pytest.approx(rounded * EXACT, rel=1e-7)

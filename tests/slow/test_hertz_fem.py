@@ -9,11 +9,11 @@ import pytest
 from wearsim.contact.line_stress import axis_von_mises, greatest_von_mises
 from wearsim.errors import ContactError
 from wearsim.handbook.hertz_check.hertz_fem import hertz_fem
-from wearsim.handbook.hertz_check.pole_contact import PoleContact
+from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
 
 pytestmark = pytest.mark.slow
 
-BASE = PoleContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))
+BASE = PitchPointContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))
 
 
 @pytest.fixture(scope="module")

@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.accuracy import SAFETY, depth_missed, exceeds, grid_error, grid_study
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
 from wearsim.wear.trajectory import Trajectory
 
-LIMIT = depth_criterion(0.01)
+LIMIT = depth_limit(0.01)
 
 
-def contact(points: int, ripple: float = 0.0) -> Contact:
+def contact(points: int, ripple: float = 0.0) -> FlankContact:
     arc = np.linspace(0.0, 4.0, points)
     return PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=arc,
         load_per_width=np.full(points, 200.0),
         slip=1.0 + ripple * np.cos(0.5 * np.pi * arc),
@@ -71,7 +71,7 @@ def test_study_of_a_ripple_is_of_second_order() -> None:
     """And the error of its finest grid is a third of the move, as Richardson has it."""
     law = archard(1e-9)
 
-    def run_on(grid: Contact) -> Trajectory:
+    def run_on(grid: FlankContact) -> Trajectory:
         return run_advance(grid, law, (LIMIT,), 1e12, 1e-7)[0]
 
     given = contact(81, ripple=-0.5)

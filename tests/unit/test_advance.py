@@ -9,8 +9,8 @@ import re
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import Criterion, depth_criterion
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.stop_limits import StopLimit, depth_limit
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.advance import run_advance
@@ -20,7 +20,7 @@ from wearsim.wear.trajectory import difference
 ROLLER, MODULUS, LOAD = 5.0, 1e5, 200.0
 SIGMA = math.sqrt(LOAD * MODULUS / (math.pi * ROLLER))
 STEP, DEPTH = 1e-7, 0.01
-LAW, LIMIT = archard(STEP / SIGMA), (depth_criterion(DEPTH),)
+LAW, LIMIT = archard(STEP / SIGMA), (depth_limit(DEPTH),)
 
 
 def contact(
@@ -29,8 +29,8 @@ def contact(
     path: float = 1.0,
     ripple: float = 0.0,
     curvature: float = 0.0,
-    kind: Kind = Kind.LOCAL,
-) -> Contact:
+    kind: ContactKind = ContactKind.LOCAL,
+) -> FlankContact:
     arc = np.linspace(0.0, 4.0, nodes)
     return PrescribedMechanism(
         kind=kind,
@@ -67,7 +67,7 @@ def test_limit_just_before_or_after_the_horizon(factor: float) -> None:
 
 
 def test_first_of_two_limits_ends_the_run() -> None:
-    tip = Criterion("tip", -0.0031, lambda x, y, depth: float(y[-1]) + 0.0031)
+    tip = StopLimit("tip", -0.0031, lambda x, y, depth: float(y[-1]) + 0.0031)
     run, _ = run_advance(contact(), LAW, (*LIMIT, tip), 1e9, 1e-4)
     assert run.met is tip
     assert run.cycles[-1] == pytest.approx(0.0031 / STEP, rel=1e-9)
@@ -98,7 +98,7 @@ def test_fine_grids_are_stable() -> None:
 
 
 @pytest.mark.parametrize(("given", "match"), [(contact(path=0.0), "slide"), (contact(load=0.0), "touch")])
-def test_no_slip_or_no_load_is_an_error(given: Contact, match: str) -> None:
+def test_no_slip_or_no_load_is_an_error(given: FlankContact, match: str) -> None:
     with pytest.raises(ContactError, match=f"cycle 0.*{match}"):
         run_advance(given, LAW, LIMIT, 1e9, 1e-3)
 
@@ -109,10 +109,10 @@ def test_flank_that_comes_to_conform_names_cycle_and_place() -> None:
     I = k q lambda gives w = I N (1 + 0.5 cos(pi x/2)), so 1/rho_H = 1/5 - 0.19 + w'' falls to 0
     where the cosine is 1, beside the ends x = 0 and 4, at I N = 0.01/(0.5 (pi/2)^2).
     """
-    given = contact(201, path=0.5, ripple=0.5, curvature=-0.19, kind=Kind.TRAVELLING)
+    given = contact(201, path=0.5, ripple=0.5, curvature=-0.19, kind=ContactKind.TRAVELLING)
     law = archard(STEP / (LOAD * 0.5))
     with pytest.raises(ContactError, match="conforms") as conforming:
-        run_advance(given, law, (depth_criterion(0.05),), 1e9, 1e-4)
+        run_advance(given, law, (depth_limit(0.05),), 1e9, 1e-4)
     found = re.search(r"cycle (\S+), (\S+) mm from the root", str(conforming.value))
     assert found is not None
     earliest = 0.01 / (0.5 * (0.5 * math.pi) ** 2 * STEP)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.input.messages import line_of
+from wearsim.input.faults import line_of
 
 TABLES = """\
 # comment

@@ -9,8 +9,8 @@ from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
 from wearsim.input.document import CaseText
 from wearsim.page.answers import edited_case
-from wearsim.page.file import CaseFile, new_file
-from wearsim.page.source import with_value
+from wearsim.page.case_file import CaseFile, new_file
+from wearsim.page.toml_source import with_value
 from wearsim.runner.design import Design
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.sweep.model import load_sweep

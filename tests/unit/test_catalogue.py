@@ -7,12 +7,12 @@ import pytest
 from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import (
     KG_PER_M,
+    catalogue_rows,
     chain_name,
     chains,
     materials,
     nearest,
     nearest_chain,
-    rows,
     wear_conditions,
 )
 from wearsim.errors import CaseError
@@ -71,8 +71,8 @@ def test_face_width_of_several_strands(designation, width):
 
 @pytest.mark.parametrize("table", ["chains", "materials", "wear_conditions"])
 def test_every_row_has_a_source(table):
-    assert rows(table)
-    assert all(row["source"].strip() for row in rows(table))
+    assert catalogue_rows(table)
+    assert all(row["source"].strip() for row in catalogue_rows(table))
 
 
 CITED = {
@@ -87,7 +87,7 @@ CITED = {
 
 def test_every_chain_comes_from_a_work_that_can_be_cited():
     """Standards, and the one maker's catalogue; no code and no page that only its finder knows."""
-    for row in rows("chains"):
+    for row in catalogue_rows("chains"):
         assert set(row["source"].split("; ")) <= CITED, row
         text = " ".join(row.values())
         assert not re.search(r"unsure|scribd|\b[KF]:|\bK\b|\(F\)|memory", text, re.IGNORECASE), row
@@ -95,7 +95,7 @@ def test_every_chain_comes_from_a_work_that_can_be_cited():
 
 def test_trust_names_columns_and_doubt_has_its_reason():
     levels = ["standard", "derived", "typical", "doubtful"]
-    for row in rows("chains"):
+    for row in catalogue_rows("chains"):
         first, *parts = row["trust"].split("; ")
         named = [part.partition(": ")[0] for part in parts]
         assert [first, *named] == [level for level in levels if level in (first, *named)], row
@@ -126,7 +126,7 @@ def test_case_tells_of_the_doubtful_numbers_of_its_chain():
 
 
 def test_no_name_stands_twice():
-    names = [row["designation"] for row in rows("chains")]
+    names = [row["designation"] for row in catalogue_rows("chains")]
     assert len(set(names)) == len(names) == 73
 
 
@@ -242,8 +242,8 @@ def test_wear_conditions_are_bands_around_a_typical_value():
 def test_lubricated_joints_wear_less_than_dry_and_contaminated_ones():
     """One rate tells the two states apart: 1e-9 mm2/N, the end of the boundary-lubricated range."""
     for condition in wear_conditions().values():
-        most, least = condition.joint_high, condition.joint_low
-        assert most <= 1e-9 if condition.lubricated else least >= 1e-9
+        greatest, least = condition.joint_high, condition.joint_low
+        assert greatest <= 1e-9 if condition.lubricated else least >= 1e-9
 
 
 def test_dry_joints_by_hand():

@@ -10,7 +10,7 @@ from scipy import optimize, stats
 pytest.importorskip("reliability", reason="reliability is not installed")
 
 from wearsim.study.uncertainty.cross_check import cross_check
-from wearsim.study.uncertainty.percentiles import fits
+from wearsim.study.uncertainty.percentiles import fit_distributions
 
 # Distances to failure of vehicle shock absorbers [km], 11 of 38 failed: O'Connor (1985), as in Meeker and
 # Escobar, Statistical Methods for Reliability Data (1998), table C.2. Their chapter 8 gives the maxima.
@@ -49,8 +49,8 @@ BROKEN = np.arange(38) < 11
 
 
 def by_name(lives, reached):
-    crossed = cross_check(lives, reached, fits(lives, reached))
-    assert crossed.doubts == ()
+    crossed = cross_check(lives, reached, fit_distributions(lives, reached))
+    assert crossed.differences_found == ()
     return {fit.name: fit for fit in crossed.fits}
 
 
@@ -109,15 +109,17 @@ def test_bounds_of_complete_logarithms_are_closed_forms():
 @pytest.mark.parametrize("part", ["shape", "scale"])
 @pytest.mark.parametrize(("factor", "told"), [(1.009, 0), (1.012, 1)])
 def test_parameters_that_differ_are_told(part, factor, told):
-    ours = [replace(fit, **{part: factor * getattr(fit, part)}) for fit in fits(ABSORBERS, BROKEN)]
-    doubts = cross_check(ABSORBERS, BROKEN, ours).doubts
-    assert len(doubts) == 2 * told
-    assert all(f"the {part} of the" in text and "within 1 %" in text for text in doubts)
+    ours = [
+        replace(fit, **{part: factor * getattr(fit, part)}) for fit in fit_distributions(ABSORBERS, BROKEN)
+    ]
+    differences_found = cross_check(ABSORBERS, BROKEN, ours).differences_found
+    assert len(differences_found) == 2 * told
+    assert all(f"the {part} of the" in text and "within 1 %" in text for text in differences_found)
 
 
 def test_no_fit_is_no_fault():
     lives = np.full(10, 5.0)
-    assert cross_check(lives, lives > 0.0, fits(lives, lives > 0.0)).fits == ()
+    assert cross_check(lives, lives > 0.0, fit_distributions(lives, lives > 0.0)).fits == ()
 
 
 def test_what_the_library_prints_or_raises_is_a_doubt(monkeypatch):
@@ -134,7 +136,7 @@ def test_what_the_library_prints_or_raises_is_a_doubt(monkeypatch):
 
     monkeypatch.setattr(Fitters.Fit_Weibull_2P, "__init__", complaining)
     monkeypatch.setattr(Fitters.Fit_Lognormal_2P, "__init__", failing)
-    crossed = cross_check(ABSORBERS, BROKEN, fits(ABSORBERS, BROKEN))
+    crossed = cross_check(ABSORBERS, BROKEN, fit_distributions(ABSORBERS, BROKEN))
     assert [fit.name for fit in crossed.fits] == ["weibull"]
-    assert any(text.endswith("weibull: the optimizer gave up") for text in crossed.doubts)
-    assert any("finds no lognormal fit: no maximum" in text for text in crossed.doubts)
+    assert any(text.endswith("weibull: the optimizer gave up") for text in crossed.differences_found)
+    assert any("finds no lognormal fit: no maximum" in text for text in crossed.differences_found)

@@ -8,7 +8,7 @@ import pytest
 from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import regimes
 from wearsim.errors import CaseError
-from wearsim.input.duty_log import Log, LogBlock, log_blocks, merged
+from wearsim.input.duty_log import DutyLog, LogBin, log_bins, merged
 
 HEAD = """\
 format_version = 1
@@ -220,7 +220,7 @@ def log_text(*rows, head="time_s,tension_N,speed_rpm"):
 def random_log(rows=400, seed=5):
     random = np.random.default_rng(seed)
     step = random.uniform(0.5, 1.5, rows)
-    return Log(step, random.gamma(4.0, 500.0, rows), random.uniform(40.0, 160.0, rows))
+    return DutyLog(step, random.gamma(4.0, 500.0, rows), random.uniform(40.0, 160.0, rows))
 
 
 def sums(found):
@@ -252,20 +252,20 @@ class TestLog:
         log = random_log()
         turns = log.speed * log.step / 60.0
         kept = np.array([log.step.sum(), turns.sum(), (turns * log.tension).sum()])
-        found = log_blocks(log, *bins)
+        found = log_bins(log, *bins)
         assert sums(found) == pytest.approx(kept, rel=1e-12)
         assert len(found) <= bins[0] * bins[1]
-        for most in (len(found), 12, 3, 1):
-            fewer = merged(found, most)
-            assert len(fewer) == min(most, len(found))
+        for greatest in (len(found), 12, 3, 1):
+            fewer = merged(found, greatest)
+            assert len(fewer) == min(greatest, len(found))
             assert sums(fewer) == pytest.approx(kept, rel=1e-12)
 
     def test_the_smallest_joins_the_nearest(self):
         """10 turns of 1000 N go to 1100 N, not to 3000 N."""
-        given = [LogBlock(60.0, 60.0, 1100.0), LogBlock(60.0, 60.0, 3000.0), LogBlock(10.0, 10.0, 1000.0)]
+        given = [LogBin(60.0, 60.0, 1100.0), LogBin(60.0, 60.0, 3000.0), LogBin(10.0, 10.0, 1000.0)]
         low, high = merged(given, 2)
         assert high == given[1]
-        assert low == LogBlock(70.0, 70.0, pytest.approx((66e3 + 10e3) / 70))
+        assert low == LogBin(70.0, 70.0, pytest.approx((66e3 + 10e3) / 70))
 
     def test_bins_are_the_case_s(self, case):
         rows = [f"{i},{1000 + 100 * i},{60 + i}" for i in range(12)]

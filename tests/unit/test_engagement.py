@@ -7,13 +7,13 @@ a flank of constant curvature is a circle.
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism, flank_from_curvature
 
 ARC = np.array([0.0, 0.4, 1.0, 1.5, 2.3, 3.0, 3.6, 4.4, 5.0])
 
 
-def prescribed(curvature: np.ndarray, kind: Kind = Kind.TRAVELLING) -> PrescribedMechanism:
+def prescribed(curvature: np.ndarray, kind: ContactKind = ContactKind.TRAVELLING) -> PrescribedMechanism:
     return PrescribedMechanism(
         kind=kind,
         arc_length=ARC,
@@ -26,13 +26,13 @@ def prescribed(curvature: np.ndarray, kind: Kind = Kind.TRAVELLING) -> Prescribe
     )
 
 
-def engage(contact: Contact, depth: np.ndarray):
+def engage(contact: FlankContact, depth: np.ndarray):
     worn = contact.profile.recede(depth)
     return contact.engage(np.array(worn.x), np.array(worn.y), depth)
 
 
-@pytest.mark.parametrize("kind", list(Kind))
-def test_prescribed_values_are_handed_over(kind: Kind) -> None:
+@pytest.mark.parametrize("kind", list(ContactKind))
+def test_prescribed_values_are_handed_over(kind: ContactKind) -> None:
     curvature = -0.05 + 0.01 * ARC
     found = engage(prescribed(curvature, kind).contact, np.zeros(ARC.size))
     assert found.kind is kind

@@ -44,7 +44,7 @@ def test_roller_touches_the_flank_at_one_radius() -> None:
 
 
 @pytest.mark.parametrize(("end", "start"), [(0.0, 30.0), (-1.0, 30.0), (30.0, 4.0), (4.0, 4.0)])
-def test_empty_range_or_pole_line_is_refused(end: float, start: float) -> None:
+def test_empty_range_or_pitch_point_line_is_refused(end: float, start: float) -> None:
     with pytest.raises(GeometryError, match="0 < contact_end < contact_start must hold"):
         evolute_flank(STRAND, end, start, 11)
 

@@ -11,7 +11,7 @@ import wearsim
 from wearsim.report.figures import flanks_figure
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.figure import maintenance_figure
-from wearsim.study.maintain.model import MaintenancePlan, Policy
+from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 from wearsim.study.sweep.figure import sweep_figures
 
 STRAND = {
@@ -62,9 +62,9 @@ def plan(*policies):
 @pytest.mark.parametrize("last", [Life(1e9, 60_000.0), LowerBound(1e9, 50_000.0)])
 def test_a_single_elongation_of_maintenance(last):
     """A turned sprocket whose limit was not reached has no cost."""
-    straight = Policy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
-    turned = Policy(0.01, True, 7000.0, last, 0.01, 9.0 if isinstance(last, Life) else None)
-    figure = maintenance_figure(plan(straight, turned))
+    straight = ReplacementPolicy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
+    rotated = ReplacementPolicy(0.01, True, 7000.0, last, 0.01, 9.0 if isinstance(last, Life) else None)
+    figure = maintenance_figure(plan(straight, rotated))
     figure.draw_without_rendering()
     for panel in figure.axes:
         assert panel.get_xlim()[0] == panel.get_ylim()[0] == 0.0

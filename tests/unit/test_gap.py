@@ -12,13 +12,13 @@ from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
 from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap, tooth_height_factor, tooth_width
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap, pitch_diameter, seat_height
-from wearsim.geometry.segments import Arc, Line, points_along
+from wearsim.geometry.segments import ArcSegment, LineSegment, points_along
 
 QUARTER = 0.5 * math.pi
 
 
 def test_arc_ends_and_tangents() -> None:
-    arc = Arc((1.0, 2.0), 3.0, -QUARTER, 0.0)
+    arc = ArcSegment((1.0, 2.0), 3.0, -QUARTER, 0.0)
     assert arc.start == pytest.approx((1.0, -1.0))
     assert arc.end == pytest.approx((4.0, 2.0))
     assert (arc.start_tangent, arc.end_tangent) == (0.0, QUARTER)
@@ -27,7 +27,7 @@ def test_arc_ends_and_tangents() -> None:
 
 
 def test_clockwise_arc_is_convex() -> None:
-    arc = Arc((0.0, 0.0), 2.0, math.pi, QUARTER)
+    arc = ArcSegment((0.0, 0.0), 2.0, math.pi, QUARTER)
     assert (arc.sense, arc.curvature) == (-1.0, 0.5)
     assert (arc.start_tangent, arc.end_tangent) == (QUARTER, 0.0)
     np.testing.assert_allclose(
@@ -39,12 +39,14 @@ def test_clockwise_arc_is_convex() -> None:
 
 def test_offset_arcs_keep_their_centre() -> None:
     """Into the gap, on the left of travel: concave 3 - 1, convex 2 + 1."""
-    assert Arc((1.0, 2.0), 3.0, -QUARTER, 0.0).offset(1.0) == Arc((1.0, 2.0), 2.0, -QUARTER, 0.0)
-    assert Arc((0.0, 0.0), 2.0, math.pi, QUARTER).offset(1.0).radius == 3.0
+    assert ArcSegment((1.0, 2.0), 3.0, -QUARTER, 0.0).offset(1.0) == ArcSegment(
+        (1.0, 2.0), 2.0, -QUARTER, 0.0
+    )
+    assert ArcSegment((0.0, 0.0), 2.0, math.pi, QUARTER).offset(1.0).radius == 3.0
 
 
 def test_line() -> None:
-    line = Line((1.0, 1.0), math.atan2(4.0, 3.0), 5.0)
+    line = LineSegment((1.0, 1.0), math.atan2(4.0, 3.0), 5.0)
     assert line.end == pytest.approx((4.0, 5.0))
     assert line.start_tangent == line.end_tangent == math.atan2(4.0, 3.0)
     assert line.curvature == 0.0
@@ -54,7 +56,7 @@ def test_line() -> None:
 
 
 def test_line_crossings() -> None:
-    line = Line((0.0, 3.0), 0.0, 10.0)
+    line = LineSegment((0.0, 3.0), 0.0, 10.0)
     assert line.length_to_circle(5.0) == pytest.approx(4.0)
     assert line.length_to_circle(2.0) == math.inf
     assert line.length_to_circle(20.0) == math.inf
@@ -65,7 +67,7 @@ def test_line_crossings() -> None:
 
 def test_arc_crossings() -> None:
     """Unit circle about (0, 3), from its lowest point counterclockwise to its highest."""
-    arc = Arc((0.0, 3.0), 1.0, -QUARTER, QUARTER)
+    arc = ArcSegment((0.0, 3.0), 1.0, -QUARTER, QUARTER)
     assert arc.length_to_circle(math.sqrt(10.0)) == pytest.approx(QUARTER)
     assert arc.length_to_circle(2.0) == 0.0
     assert arc.length_to_circle(4.0) == pytest.approx(math.pi)
@@ -77,7 +79,7 @@ def test_arc_crossings() -> None:
 
 def test_crossing_of_a_clockwise_arc() -> None:
     """Unit circle about (3, 3), run clockwise from its leftmost to its highest point."""
-    arc = Arc((3.0, 3.0), 1.0, math.pi, QUARTER)
+    arc = ArcSegment((3.0, 3.0), 1.0, math.pi, QUARTER)
     assert arc.length_to_circle(math.sqrt(13.0)) == 0.0
     assert arc.length_to_circle(5.0) == pytest.approx(QUARTER)
     x, y = 3.0 + math.cos(math.radians(170.0)), 3.0 + math.sin(math.radians(170.0))
@@ -86,7 +88,7 @@ def test_crossing_of_a_clockwise_arc() -> None:
 
 
 def test_points_along_a_row() -> None:
-    row = (Line((0.0, 1.0), 0.0, 2.0), Arc((2.0, 2.0), 1.0, -QUARTER, 0.0))
+    row = (LineSegment((0.0, 1.0), 0.0, 2.0), ArcSegment((2.0, 2.0), 1.0, -QUARTER, 0.0))
     way = [0.0, 1.0, 2.0, 2.0 + QUARTER]
     np.testing.assert_allclose(
         points_along(row, way), [[0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [3.0, 2.0]], atol=1e-15
@@ -105,8 +107,8 @@ def test_pitch_diameter_of_no_sprocket(pitch: float, teeth: int) -> None:
 
 def square_gap(tip: float, rise: float = 4.0) -> Gap:
     """Seat of radius 2 about (0, 10), then straight up; four teeth."""
-    seat = Arc((0.0, 10.0), 2.0, -QUARTER, 0.0)
-    return Gap((seat, Line((2.0, 10.0), QUARTER, rise)), 4, 10.0, 1.9, tip, "square")
+    seat = ArcSegment((0.0, 10.0), 2.0, -QUARTER, 0.0)
+    return Gap((seat, LineSegment((2.0, 10.0), QUARTER, rise)), 4, 10.0, 1.9, tip, "square")
 
 
 def test_gap_by_hand() -> None:
@@ -123,17 +125,17 @@ def test_gap_by_hand() -> None:
 
 
 def test_tangency_error_sees_a_step_and_a_kink() -> None:
-    seat = Arc((0.0, 10.0), 2.0, -QUARTER, 0.0)
-    step = Gap((seat, Line((2.0, 10.5), QUARTER, 4.0)), 4, 10.0, 1.9, 12.0, "step")
+    seat = ArcSegment((0.0, 10.0), 2.0, -QUARTER, 0.0)
+    step = Gap((seat, LineSegment((2.0, 10.5), QUARTER, 4.0)), 4, 10.0, 1.9, 12.0, "step")
     assert step.tangency_error == pytest.approx(0.05)
-    kink = Gap((seat, Line((2.0, 10.0), QUARTER - 0.1, 4.0)), 4, 10.0, 1.9, 12.0, "kink")
+    kink = Gap((seat, LineSegment((2.0, 10.0), QUARTER - 0.1, 4.0)), 4, 10.0, 1.9, 12.0, "kink")
     assert kink.tangency_error == pytest.approx(0.1)
 
 
 def test_pointed_tooth_is_cut_off_where_its_flanks_meet() -> None:
     """A line to the right at y = 10 meets the tooth's axis, at 45 degrees, in (10, 10)."""
-    seat = Arc((0.0, 10.0), 2.0, -QUARTER, 0.0)
-    row = (seat, Line((2.0, 10.0), 0.0, 20.0))
+    seat = ArcSegment((0.0, 10.0), 2.0, -QUARTER, 0.0)
+    row = (seat, LineSegment((2.0, 10.0), 0.0, 20.0))
     gap = Gap(row, 4, 10.0, 1.9, 15.0, "flat")
     assert gap.truncated
     assert gap.pointed_radius == gap.tip_radius == pytest.approx(math.sqrt(200.0))
@@ -182,9 +184,9 @@ def test_normals_of_an_outline_point_into_the_gap() -> None:
 def test_roller_path_by_hand() -> None:
     """A roller of radius 1.9 in the square gap: arc of radius 0.1, then up at x = 0.1."""
     arc, line = square_gap(tip=12.0).roller_path()
-    assert isinstance(arc, Arc)
+    assert isinstance(arc, ArcSegment)
     assert (arc.centre, arc.radius) == ((0.0, 10.0), pytest.approx(0.1))
-    assert isinstance(line, Line)
+    assert isinstance(line, LineSegment)
     assert line.start == pytest.approx((0.1, 10.0))
 
 

@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 import wearsim
 from wearsim.mechanisms.gear_pair.keys import GearTables
-from wearsim.simulation.simulate_many import CaseLife
+from wearsim.simulation.batch_lives import CaseLife
 
 WITHOUT_EFFECT = {
     "format_version": "1 only",

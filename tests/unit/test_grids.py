@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from wearsim.simulation.grids import Search, Settled, settle
+from wearsim.simulation.flank_grids import GridSearch, SettledLife, settle_grid
 from wearsim.wear.accuracy import SAFETY
 
 
@@ -54,13 +54,13 @@ class Run:
 
 def settled(
     lives: dict[str, float], tolerance: float, levels: int = 2, flank: Flank | None = None
-) -> tuple[Settled[Run], list[str]]:
+) -> tuple[SettledLife[Run], list[str]]:
     """Serve a search with lives by the name of the flank; one that is left out has none."""
-    search: Search[Run] = settle(flank or Flank(), tolerance, levels)  # type: ignore[arg-type]
-    asked: list[str] = []
+    search: GridSearch[Run] = settle_grid(flank or Flank(), tolerance, levels)  # type: ignore[arg-type]
+    requested: list[str] = []
     contacts: Any = next(search)
     while True:
-        asked += [contact.name for contact in contacts]
+        requested += [contact.name for contact in contacts]
         runs = [
             Run(contact.spacing, lives[contact.name]) if contact.name in lives else None
             for contact in contacts
@@ -68,7 +68,7 @@ def settled(
         try:
             contacts = search.send(runs)
         except StopIteration as end:
-            return end.value, asked
+            return end.value, requested
 
 
 LIVES = {"own": 1.02, "half": 1.04, "fine ends": 1.004, "level 1": 1.002, "level 2": 1.001}
@@ -78,23 +78,23 @@ SPACINGS = (("own", 1.0), ("half", 2.0), ("fine ends", 0.2))
 
 
 def test_points_that_are_good_enough_stay() -> None:
-    found, asked = settled(LIVES, 0.06)
-    assert asked == ["own", "half", "fine ends"]
+    found, requested = settled(LIVES, 0.06)
+    assert requested == ["own", "half", "fine ends"]
     assert found.error == pytest.approx(SAFETY * 2 * 0.02 / 1.02, rel=1e-9)
     assert found.assumptions() == () and found.warnings(0.06) == []
 
 
 def test_flank_is_refined_until_the_tolerance_holds() -> None:
-    found, asked = settled(LIVES, 0.02)
-    assert asked == ["own", "half", "fine ends", "level 1"]
+    found, requested = settled(LIVES, 0.02)
+    assert requested == ["own", "half", "fine ends", "level 1"]
     assert found.run.life == 1.002 and 0.002 < found.error <= 0.02
     assert "100, chosen for the tolerance; on the 10 of the case" in found.assumptions()[0]
     assert found.warnings(0.02) == []
 
 
 def test_what_refining_does_not_reach_is_a_warning() -> None:
-    found, asked = settled(LIVES, 1e-4)
-    assert asked[-1] == "level 2" and found.run.life == 1.001
+    found, requested = settled(LIVES, 1e-4)
+    assert requested[-1] == "level 2" and found.run.life == 1.001
     assert found.warnings(1e-4)[0].endswith(
         "exceeds the tolerance 0.0001, even with the flank refined to 200 points: use more nodes, or a "
         "larger run.life_tolerance"
@@ -109,8 +109,8 @@ def test_a_refined_flank_without_a_life_leaves_the_one_before() -> None:
 
 def test_a_refined_flank_without_a_life_is_passed_over() -> None:
     lives = {name: life for name, life in LIVES.items() if name != "level 1"}
-    found, asked = settled(lives, 1e-4)
-    assert asked[-2:] == ["level 1", "level 2"] and found.run.life == 1.001
+    found, requested = settled(lives, 1e-4)
+    assert requested[-2:] == ["level 1", "level 2"] and found.run.life == 1.001
     assert found.level == 2 and found.error == pytest.approx(
         1.75 * SAFETY * sum(abs(LIVES[name] / 1.001 - 1.0) * 0.05 / (h - 0.05) for name, h in SPACINGS),
         rel=1e-9,
@@ -123,13 +123,13 @@ def test_the_other_grids_that_have_a_life_count_twice() -> None:
 
 
 def test_without_another_life_the_error_is_unknown() -> None:
-    found, asked = settled({"own": 1.02}, 0.06)
-    assert found.error == 1.0 and asked == ["own", "half", "fine ends"]
+    found, requested = settled({"own": 1.02}, 0.06)
+    assert found.error == 1.0 and requested == ["own", "half", "fine ends"]
     assert "100 % is stated" in found.warnings(0.06)[0]
 
 
 @pytest.mark.parametrize(("levels", "flank"), [(0, Flank()), (2, Flank(levels=0))])
 def test_what_may_not_be_refined_is_not(levels: int, flank: Flank) -> None:
-    found, asked = settled(LIVES, 1e-4, levels, flank)
-    assert len(asked) == 3 and found.run.life == 1.02
+    found, requested = settled(LIVES, 1e-4, levels, flank)
+    assert len(requested) == 3 and found.run.life == 1.02
     assert "use more nodes (rows of a table)" in found.warnings(1e-4)[0]

@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
 from wearsim.kernels.hertz_wear import wear_depth
-from wearsim.wear.law import Law, archard, drozdov, mean_pressure_factor, power
+from wearsim.wear.law import WearLaw, archard, drozdov, mean_pressure_factor, power
 
 MODULUS = 115384.6153846154
 
 
 def depth(
-    law: Law, kind: Kind, load: float, slip: float, speed: float, relative: float
+    law: WearLaw, kind: ContactKind, load: float, slip: float, speed: float, relative: float
 ) -> tuple[float, float]:
     """Pressure and depth of one cycle at one point."""
     pressure, step = np.empty(1), np.empty(1)
@@ -34,34 +34,34 @@ LAWS = [
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
-def test_depth_is_the_formula(law: Law, kind: Kind) -> None:
+@pytest.mark.parametrize("kind", [ContactKind.TRAVELLING, ContactKind.LOCAL])
+def test_depth_is_the_formula(law: WearLaw, kind: ContactKind) -> None:
     """K sigma^m v^n times c_m 2a lambda, or times s."""
     q, slip, speed, relative = 120.0, 0.4, 650.0, 0.11
     sigma = math.sqrt(q * MODULUS * relative / math.pi)
     half_width = math.sqrt(4.0 * q / (math.pi * MODULUS * relative))
     m, n = law.pressure_exponent, law.speed_exponent
-    path = mean_pressure_factor(m) * 2.0 * half_width * slip if kind is Kind.TRAVELLING else slip
+    path = mean_pressure_factor(m) * 2.0 * half_width * slip if kind is ContactKind.TRAVELLING else slip
     pressure, step = depth(law, kind, q, slip, speed, relative)
     assert pressure == pytest.approx(sigma, rel=1e-14)
     assert step == pytest.approx(law.coefficient * sigma**m * speed**n * path, rel=1e-13)
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
-def test_nothing_wears_without_load_or_slip(law: Law, kind: Kind) -> None:
+@pytest.mark.parametrize("kind", [ContactKind.TRAVELLING, ContactKind.LOCAL])
+def test_nothing_wears_without_load_or_slip(law: WearLaw, kind: ContactKind) -> None:
     assert depth(law, kind, 0.0, 0.4, 650.0, 0.11) == (0.0, 0.0)
     assert depth(law, kind, 120.0, 0.0, 650.0, 0.11)[1] == 0.0
 
 
 @pytest.mark.parametrize("law", LAWS[-2:])
-def test_nothing_wears_at_rest_even_with_a_falling_speed_law(law: Law) -> None:
-    assert depth(law, Kind.TRAVELLING, 120.0, 0.4, 0.0, 0.11)[1] == 0.0
+def test_nothing_wears_at_rest_even_with_a_falling_speed_law(law: WearLaw) -> None:
+    assert depth(law, ContactKind.TRAVELLING, 120.0, 0.4, 0.0, 0.11)[1] == 0.0
 
 
 def test_drozdov_refers_pressure_to_hardness_and_speed_to_its_reference() -> None:
     law = drozdov(1e-6, 1.7, 4000.0, 250.0, 0.6)
-    sigma, step = depth(law, Kind.LOCAL, 120.0, 2.0, 900.0, 0.11)
+    sigma, step = depth(law, ContactKind.LOCAL, 120.0, 2.0, 900.0, 0.11)
     expected = 1e-6 * (sigma / 4000.0) ** 1.7 * (900.0 / 250.0) ** 0.6 * 2.0
     assert step == pytest.approx(expected, rel=1e-13)
 
@@ -73,21 +73,21 @@ def test_archard_is_the_power_law_with_exponent_one() -> None:
 @pytest.mark.parametrize(
     ("kind", "slip_exponent", "expected"),
     [
-        (Kind.TRAVELLING, 1.0, lambda m: 0.5 * (m + 1.0)),
-        (Kind.TRAVELLING, 0.0, lambda m: 0.5 * (m - 1.0)),
-        (Kind.LOCAL, 0.0, lambda m: 0.5 * m),
+        (ContactKind.TRAVELLING, 1.0, lambda m: 0.5 * (m + 1.0)),
+        (ContactKind.TRAVELLING, 0.0, lambda m: 0.5 * (m - 1.0)),
+        (ContactKind.LOCAL, 0.0, lambda m: 0.5 * m),
     ],
     ids=["strand", "slip-ratio", "sliding-distance"],
 )
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0])
-def test_diffusion_exponent(kind: Kind, slip_exponent: float, expected, m: float) -> None:
+def test_diffusion_exponent(kind: ContactKind, slip_exponent: float, expected, m: float) -> None:
     """physics.md 3: (m+1)/2 on the strand, m/2 and (m-1)/2 with a prescribed slip."""
     assert power(1e-9, m).diffusion(kind, slip_exponent) == pytest.approx(expected(m), rel=1e-15)
 
 
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0])
-@pytest.mark.parametrize("kind", [Kind.TRAVELLING, Kind.LOCAL])
-def test_diffusion_exponent_is_the_slope_of_the_depth(kind: Kind, m: float) -> None:
+@pytest.mark.parametrize("kind", [ContactKind.TRAVELLING, ContactKind.LOCAL])
+def test_diffusion_exponent_is_the_slope_of_the_depth(kind: ContactKind, m: float) -> None:
     """d(ln depth)/d(ln 1/rho_H) by a central difference at given slip."""
     step = 1e-5
     low, high = (

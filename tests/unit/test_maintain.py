@@ -8,20 +8,20 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import ChainWear
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
 from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
 from wearsim.report.service import life_json
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.task import wear_law
-from wearsim.study.maintain.model import MaintenancePlan, Policy, cost_per_1000_hours, maintain
-from wearsim.study.maintain.reversed_sprocket import turned_life
+from wearsim.simulation.wear_task import wear_law
+from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy, cost_per_1000_hours, maintain
+from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
 from wearsim.study.maintain.tooth_count import meetings_around, variant
-from wearsim.wear.bodies import Start
-from wearsim.wear.implicit_steps import run_dwelling
+from wearsim.wear.implicit_steps import run_resting
+from wearsim.wear.resting_bodies import StartState
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -75,8 +75,10 @@ def without_counts(monkeypatch):
     monkeypatch.setattr("wearsim.study.maintain.model.meetings_around", lambda case, drive: ())
 
 
-def policy(plan, percent, turned=False):
-    (found,) = (p for p in plan.policies if p.turned == turned and math.isclose(100 * p.replace_at, percent))
+def policy(plan, percent, reversed_=False):
+    (found,) = (
+        p for p in plan.policies if p.reversed_ == reversed_ and math.isclose(100 * p.replace_at, percent)
+    )
     return found
 
 
@@ -105,10 +107,10 @@ def test_cost_by_hand(prices, cost):
 )
 def test_chains_and_stops_by_hand(hours, chains, used, stops):
     """Chains of 1000 h each; the last one goes with the sprocket, in the same stop."""
-    new = Policy(0.03, False, 1000.0, Life(1.0, hours), 0.0)
+    new = ReplacementPolicy(0.03, False, 1000.0, Life(1.0, hours), 0.0)
     assert (new.chains, new.stops) == (chains, stops)
     assert new.last_chain_used == pytest.approx(used, abs=1e-9)
-    assert Policy(0.03, True, 1000.0, Life(1.0, hours), 0.0).stops == stops + 1
+    assert ReplacementPolicy(0.03, True, 1000.0, Life(1.0, hours), 0.0).stops == stops + 1
 
 
 def test_chain_lives_are_linear_in_the_elongation(plan):
@@ -135,7 +137,7 @@ def test_costs_are_those_of_the_rows(plan):
 def test_earlier_replacement_takes_more_chains_and_turning_lives_longer(plan):
     assert policy(plan, 1).chains > policy(plan, 3).chains
     for percent in (1, 3):
-        once, twice = policy(plan, percent), policy(plan, percent, turned=True)
+        once, twice = policy(plan, percent), policy(plan, percent, reversed_=True)
         assert once.hours < twice.hours < 2.2 * once.hours
         assert twice.stops == twice.chains + 1
 
@@ -219,12 +221,12 @@ def test_a_run_goes_on_from_where_another_ended():
     """Half and half is the whole, as near as steps are (first order: smaller with each level)."""
     drive = case(stop={"critical_depth_mm": 0.02})
     contact = drive.drive.contact(drive)
-    law, criteria = wear_law(drive.wear, drive.wear.coefficient), (depth_criterion(0.02),)
-    whole = run_dwelling(contact, law, criteria, 1e12, 1)
-    half = run_dwelling(contact, law, criteria, 0.5 * whole.cycles[-1], 1)
+    law, stop_limits = wear_law(drive.wear, drive.wear.coefficient), (depth_limit(0.02),)
+    whole = run_resting(contact, law, stop_limits, 1e12, 1)
+    half = run_resting(contact, law, stop_limits, 0.5 * whole.cycles[-1], 1)
     assert half.met is None
-    start = Start(half.all_depth[-1], ChainWear(float(half.elongation[-1])), int(half.chains[-1]))
-    rest = run_dwelling(contact, law, criteria, 1e12, 1, start=start)
+    start = StartState(half.all_depth[-1], ChainWear(float(half.elongation[-1])), int(half.chains[-1]))
+    rest = run_resting(contact, law, stop_limits, 1e12, 1, start=start)
     assert np.array_equal(rest.all_depth[0], half.all_depth[-1])
     assert rest.x[0] == pytest.approx(half.x[-1], abs=1e-12)
     assert half.cycles[-1] + rest.cycles[-1] == pytest.approx(whole.cycles[-1], rel=0.02)
@@ -248,7 +250,7 @@ def turned_while_new(result):
 
 def test_a_sprocket_turned_while_new_lives_as_long_as_one_that_is_not(life):
     """A symmetric gap: mirror image and original live alike when the first side is unworn."""
-    again, _ = turned_life(case(), turned_while_new(life))
+    again, _ = reversed_life(case(), turned_while_new(life))
     assert again.hours == pytest.approx(life.parts["sprocket"].hours, rel=0.05)
 
 
@@ -258,11 +260,11 @@ def test_case_depth_of_a_turned_sprocket():
     first = wearsim.simulate(deep)
     assert first.limits[1].name == "case_depth_mm"
     assert first.history_columns["max_depth_mm"][-1] == pytest.approx(0.01, rel=1e-9)
-    fresh, _ = turned_life(deep, turned_while_new(first))
+    fresh, _ = reversed_life(deep, turned_while_new(first))
     assert fresh.hours == pytest.approx(first.parts["sprocket"].hours, rel=0.05)
     shallow = case(stop={"critical_depth_mm": 0.01})
-    expected, _ = turned_life(shallow, wearsim.simulate(shallow))
-    again, _ = turned_life(deep, first)
+    expected, _ = reversed_life(shallow, wearsim.simulate(shallow))
+    again, _ = reversed_life(deep, first)
     assert again.hours == pytest.approx(expected.hours, rel=0.05)
 
 
@@ -270,7 +272,7 @@ def test_a_seat_worn_through_is_worn_for_both_flanks(life):
     worn = copy.copy(life)
     columns = {**life.flank_columns, "depth_mm": 0.04 + 0.0 * life.flank_columns["depth_mm"]}
     object.__setattr__(worn, "flank_columns", columns)
-    assert turned_life(case(), worn) == (Life(0.0, 0.0), 0.0)
+    assert reversed_life(case(), worn) == (Life(0.0, 0.0), 0.0)
 
 
 def test_page_and_text_hold_the_same_numbers(plan):

@@ -12,8 +12,8 @@ import pytest
 
 import wearsim
 from wearsim.errors import WearsimError
-from wearsim.simulation import simulate_many as many
-from wearsim.simulation.simulate_many import CaseLife, simulate_many
+from wearsim.simulation import batch_lives as many
+from wearsim.simulation.batch_lives import CaseLife, simulate_many
 
 CaseMaker = Callable[..., wearsim.Case]
 

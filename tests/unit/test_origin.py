@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from wearsim.case.input_origins import input_rows
 from wearsim.case.load_case import load_case
-from wearsim.case.origin import input_rows
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 CASE = {

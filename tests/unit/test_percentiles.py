@@ -9,7 +9,7 @@ from scipy import stats
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.runner.distributions import quantile
 from wearsim.study.uncertainty.model import METHODS, unit_samples
-from wearsim.study.uncertainty.percentiles import fits, percentile
+from wearsim.study.uncertainty.percentiles import fit_distributions, percentile
 
 ALL = np.full(1000, True)
 
@@ -33,7 +33,7 @@ def test_percentile_beyond_the_horizon_is_a_bound():
 
 def test_lognormal_fit_is_mean_and_scatter_of_the_logarithms():
     lives = np.exp(np.random.default_rng(2).normal(7.0, 0.4, 1000))
-    best = fits(lives, ALL)[0]
+    best = fit_distributions(lives, ALL)[0]
     assert best.name == "lognormal"
     assert best.shape == pytest.approx(np.log(lives).std(), rel=1e-4)
     assert best.scale == pytest.approx(math.exp(np.log(lives).mean()), rel=1e-4)
@@ -47,7 +47,7 @@ def test_weibull_fit_with_suspensions_solves_the_likelihood_equations():
     rng = np.random.default_rng(3)
     lives = np.minimum(5000.0 * rng.weibull(2.2, 400), 6000.0)
     reached = lives < 6000.0
-    (fit,) = (fit for fit in fits(lives, reached) if fit.name == "weibull")
+    (fit,) = (fit for fit in fit_distributions(lives, reached) if fit.name == "weibull")
     powers, failures = lives**fit.shape, reached.sum()
     assert powers.sum() == pytest.approx(failures * fit.scale**fit.shape, rel=1e-3)
     slope = (powers * np.log(lives)).sum() / powers.sum() - np.log(lives[reached]).mean()
@@ -55,7 +55,7 @@ def test_weibull_fit_with_suspensions_solves_the_likelihood_equations():
 
 
 def test_no_fit_of_equal_lives():
-    assert fits(np.full(1000, 5.0), ALL) == []
+    assert fit_distributions(np.full(1000, 5.0), ALL) == []
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import shapely
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.measured.points import contact_range, flank_from_points, working_side
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 
 RADIUS, CENTRE = 20.0, (11.1, 78.4)
 
@@ -61,9 +61,9 @@ def test_working_side_is_on_the_left_of_the_gap() -> None:
     left = Profile(*circle(30))
     assert working_side(left) is left
     right = Profile(-left.x, left.y)
-    turned = working_side(right)
-    np.testing.assert_array_equal(turned.x, left.x)
-    np.testing.assert_array_equal(turned.curvature, left.curvature)
+    rotated = working_side(right)
+    np.testing.assert_array_equal(rotated.x, left.x)
+    np.testing.assert_array_equal(rotated.curvature, left.curvature)
 
 
 def test_contact_range_of_a_circle() -> None:

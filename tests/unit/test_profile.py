@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, area_between
+from wearsim.geometry.profile_points import Profile, area_between
 
 
 def arc(
@@ -103,9 +103,9 @@ def test_mirrored_flank_keeps_the_gap_on_its_right() -> None:
 
 
 def test_rotated_by_a_right_angle() -> None:
-    turned = Profile([1.0, 2.0, 4.0], [0.0, 0.5, 0.5]).rotated(0.5 * np.pi)
-    np.testing.assert_allclose(turned.x, [0.0, -0.5, -0.5], atol=1e-15)
-    np.testing.assert_allclose(turned.y, [1.0, 2.0, 4.0], rtol=1e-15)
+    rotated = Profile([1.0, 2.0, 4.0], [0.0, 0.5, 0.5]).rotated(0.5 * np.pi)
+    np.testing.assert_allclose(rotated.x, [0.0, -0.5, -0.5], atol=1e-15)
+    np.testing.assert_allclose(rotated.y, [1.0, 2.0, 4.0], rtol=1e-15)
 
 
 @pytest.mark.parametrize("nodes", [31, 60, 200])

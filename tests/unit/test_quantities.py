@@ -13,13 +13,13 @@ from pydantic import BaseModel
 
 import wearsim
 from wearsim.case.load_case import load_case
-from wearsim.catalogue.catalogues import rows
+from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.export.wheel_drawing import wheel_points
 from wearsim.input.csv_tables import read_prescribed
-from wearsim.input.kind import MECHANISMS
-from wearsim.input.messages import Faults
+from wearsim.input.faults import Faults
+from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.input.schema import CaseTables
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
@@ -28,16 +28,16 @@ from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_table import profile_table
 from wearsim.report.loads_table import loads_json
 from wearsim.report.scene import wheel_shapes
-from wearsim.runner.scatter import Scatter
+from wearsim.runner.scatter import ScatteredKey
 from wearsim.runner.shard import COLUMNS
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import OPTIONAL, REQUIRED
 from wearsim.study.calibrate.sheet import readings_table, values_table
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
-from wearsim.study.optimise.trials import Candidate, Outcome
-from wearsim.study.sensitivity.model import Effect
-from wearsim.study.sensitivity.sheet import Answer, sensitivity_table
+from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
+from wearsim.study.sensitivity.model import KeyEffect
+from wearsim.study.sensitivity.sheet import SensitivityAnswer, sensitivity_table
 
 CASE = {
     "format_version": 1,
@@ -119,7 +119,7 @@ def calculation_columns(path, folder):
 
 def catalogue_columns():
     for table in ("chains", "materials", "wear_conditions", "regimes"):
-        yield from rows(table)[0]
+        yield from catalogue_rows(table)[0]
     yield from Quantity.__annotations__
     yield "file"
 
@@ -153,18 +153,18 @@ def wrapped():
 
 def study_columns():
     """Columns of the tables of studies."""
-    scatter = Scatter("load.tension_N", Distribution(distribution="lognormal", sigma_ln=1), 1.0, "")
-    effect = Effect(scatter, *[1.0] * 9)
+    scatter = ScatteredKey("load.tension_N", Distribution(distribution="lognormal", sigma_ln=1), 1.0, "")
+    effect = KeyEffect(scatter, *[1.0] * 9)
     cases = Path(__file__).parents[2] / "cases"
     readings = cases / "studies" / "16b-20t-readings.csv"
     found = calibrate(cases / "16b-20t-oiled.toml", readings)
-    answer = Answer(None, 1.0, [effect], {scatter.key: 1.0}, ())
+    answer = SensitivityAnswer(None, 1.0, [effect], {scatter.key: 1.0}, ())
     yield from (*COLUMNS, *sensitivity_table(answer))
     yield from (*REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
     measures = {"life_hours": 1.0, "mass_kg": 1.0}
     one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "", "")
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
-    yield from candidates_table(Outcome(study, one, (one,), (one,), True), [one])
+    yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one])
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 import wearsim
-from wearsim.chain.selection import Finding, RatedDrive, assess, rating_warnings, warning
+from wearsim.chain.selection import RatedDrive, RatingFinding, assess, rating_warnings, warning
 from wearsim.errors import CaseError
 
 WRAP = {
@@ -109,7 +109,7 @@ def test_warnings_are_of_what_is_outside():
 
 
 def test_lower_limit_in_words():
-    found = Finding("safety", 6.0, 7.0, "", "iwis", at_least=True)
+    found = RatingFinding("safety", 6.0, 7.0, "", "iwis", at_least=True)
     assert warning(found) == "outside a rating: safety 6, allowed at least 7 (iwis)"
 
 

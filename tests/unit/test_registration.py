@@ -5,7 +5,7 @@ import pytest
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.measured.registration import feet, register
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 
 RADIUS, CENTRE = 30.0, (25.0, 60.0)
 
@@ -84,9 +84,9 @@ def test_what_is_expected_is_not_taken_for_a_movement():
     x, y, share = worn(0.3)
     chords = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(nominal.x), np.diff(nominal.y)))])
     expected = 0.3 * np.clip((chords / RADIUS - 0.02) / 0.46, 0.0, 1.0)
-    turned = moved(x, y, 0.003, (0.0, 0.0))
-    naive = register(nominal, *turned, "turn")
-    told = register(nominal, *turned, "turn", expected)
+    rotated = moved(x, y, 0.003, (0.0, 0.0))
+    naive = register(nominal, *rotated, "turn")
+    told = register(nominal, *rotated, "turn", expected)
     assert told.turn == pytest.approx(-0.003, abs=2e-6)
     assert abs(naive.turn + 0.003) > 1e-3
     assert told.recess == pytest.approx(0.3 * share, abs=2e-4)

@@ -22,13 +22,13 @@ from wearsim.report.answer import answer, ending, limit_state
 from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
 from wearsim.report.html import page_content as page
-from wearsim.report.html import writer
+from wearsim.report.html import page_writer
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
+from wearsim.report.html.page_writer import page_names, save_report
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
-from wearsim.report.html.writer import page_names, save_report
 from wearsim.result import LimitState, WearResult
 
 STRAND = {
@@ -296,7 +296,7 @@ def test_names_of_pages_are_safe_and_different():
 
 def palette():
     """Colours of the page in the light and in the dark."""
-    text = Path(writer.__file__).with_name("style.css").read_text()
+    text = Path(page_writer.__file__).with_name("style.css").read_text()
     light, dark = re.findall(r":root \{(.*?)\}", text, re.DOTALL)[:2]
     found = [dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block)) for block in (light, dark)]
     assert found[0].keys() == found[1].keys()

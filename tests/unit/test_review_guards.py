@@ -8,9 +8,9 @@ import pytest
 
 import wearsim
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.kernels.locus import met_near, way_to
+from wearsim.kernels.roller_locus import distance_to, met_near
 from wearsim.simulation import verify_grid
-from wearsim.simulation.simulate_many import CaseLife, simulate_many
+from wearsim.simulation.batch_lives import CaseLife, simulate_many
 
 STRAND: dict[str, Any] = {
     "format_version": 1,
@@ -42,7 +42,7 @@ def test_roller_is_stopped_by_a_neck_above_its_pocket() -> None:
     x = np.concatenate([[-0.998], 1.25 * np.sin(angle), [0.998]])
     y = np.concatenate([[-0.07], -1.25 * np.cos(angle), [-0.07]])
     ray = np.array([0.0, 0.0, 0.0, 1.0])
-    ways = np.array([way_to(x, y, j, ray, 1.0) for j in range(x.size)])
+    ways = np.array([distance_to(x, y, j, ray, 1.0) for j in range(x.size)])
     assert ways.argmin() in (0, x.size - 1)
     assert met_near(x, y, 15, ray, 1.0) == -1
 
@@ -58,9 +58,9 @@ def test_nearby_search_never_differs_from_trying_all(seed: int) -> None:
         turn, start = rng.uniform(-1.0, 1.0), int(rng.integers(60))
         ray = np.array([*rng.normal(0.0, 0.3, 2), np.sin(turn), np.cos(turn)])
         found = met_near(x, y, start, ray, 1.0)
-        ways = np.array([way_to(x, y, j, ray, 1.0) for j in range(60)])
+        ways = np.array([distance_to(x, y, j, ray, 1.0) for j in range(60)])
         if found >= 0:
-            assert way_to(x, y, found, ray, 1.0) == pytest.approx(ways.min(), abs=1e-9)
+            assert distance_to(x, y, found, ray, 1.0) == pytest.approx(ways.min(), abs=1e-9)
 
 
 def test_flank_that_is_turned_over_is_refused(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import iso606_gap
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import roller_path
-from wearsim.geometry.segments import Arc
-from wearsim.kernels.locus import roller_locus
+from wearsim.geometry.segments import ArcSegment
+from wearsim.kernels.roller_locus import roller_locus
 
 FORMS = {
     "ANSI": ansi_b29_gap(12.7, 7.92, 20),
@@ -27,7 +27,7 @@ def distance_to(parts, x, y):
     """Distance of a point from a row of arcs and lines."""
     found = []
     for part in parts:
-        if isinstance(part, Arc):
+        if isinstance(part, ArcSegment):
             dx, dy = x - part.centre[0], y - part.centre[1]
             turn = (math.atan2(dy, dx) - part.first) * part.sense
             within = turn % (2.0 * math.pi) <= abs(part.last - part.first)

@@ -7,12 +7,12 @@ IV.7), second differences of quadratics, and runs of far smaller steps.
 import numpy as np
 import pytest
 
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.kernels.controlled_steps import STATE_ROWS, between
 from wearsim.kernels.hertz_wear import flank_rate
 from wearsim.kernels.rosenbrock import ERROR, GAMMA, RIGHT, STAGES, STATE, WORK_ROWS, slope_rate, wear_rows
-from wearsim.kernels.steps import STATE_ROWS, between
 from wearsim.kernels.tridiagonal import factorise, solve
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
@@ -95,10 +95,10 @@ def test_matrix_is_the_derivative_of_the_rate() -> None:
     moves = 1e-7 * np.eye(points)
     true = np.array([(rate(move) - rate(-move)) / 2e-7 for move in moves]).T
     # The place itself, which is left out, changes the load on the steep ramp at the root.
-    most = np.abs(true).max()
-    np.testing.assert_allclose(dense(rows[:3]), true, rtol=0.0, atol=5e-3 * most)
+    greatest = np.abs(true).max()
+    np.testing.assert_allclose(dense(rows[:3]), true, rtol=0.0, atol=5e-3 * greatest)
     wear_rows(start, 0.0 * work[10], diffusion, 1, rows)
-    assert np.abs(dense(rows[:3]) - true).max() > 0.05 * most
+    assert np.abs(dense(rows[:3]) - true).max() > 0.05 * greatest
 
 
 def test_order_conditions() -> None:
@@ -139,7 +139,7 @@ def test_states_between_the_steps_are_as_good_as_the_life() -> None:
     """A table whose deepest point is inside; the loose run against one of far smaller steps."""
     arc = np.linspace(0.0, 4.0, 81)
     contact = PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=arc,
         load_per_width=200.0 + 0.0 * arc,
         slip=1.0 - 0.5 * np.cos(0.5 * np.pi * arc),
@@ -148,7 +148,7 @@ def test_states_between_the_steps_are_as_good_as_the_life() -> None:
         roller_radius=5.0,
         modulus=1e5,
     ).contact
-    given = contact, archard(1e-9), (depth_criterion(0.05),), 1e15
+    given = contact, archard(1e-9), (depth_limit(0.05),), 1e15
     loose, tight = run_advance(*given, 1e-2)[0], run_advance(*given, 1e-6)[0]
     assert loose.updates < 0.2 * tight.updates
     assert loose.cycles[-1] == pytest.approx(tight.cycles[-1], rel=1e-3)

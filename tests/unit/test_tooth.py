@@ -14,9 +14,9 @@ from shapely.affinity import rotate
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import tooth_space
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.tooth import Tooth, cut_depth, sweep_path
-from wearsim.geometry.wheel import ring
+from wearsim.geometry.wheel_outline import ring
 
 STRAND = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
 
@@ -117,8 +117,8 @@ def test_area_of_the_wheel_is_that_of_its_rings() -> None:
 
 def test_wheel_has_the_symmetry_of_its_teeth() -> None:
     wheel = wheel_of(tooth())
-    turned = rotate(wheel, 360.0 / 20, origin=(0.0, 0.0))
-    assert wheel.symmetric_difference(turned).area < 1e-9 * wheel.area
+    rotated = rotate(wheel, 360.0 / 20, origin=(0.0, 0.0))
+    assert wheel.symmetric_difference(rotated).area < 1e-9 * wheel.area
     off = rotate(wheel, 180.0 / 20, origin=(0.0, 0.0))
     assert wheel.symmetric_difference(off).area > 0.01 * wheel.area
 

@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.trajectory import check_sawtooth, check_touch
@@ -18,10 +18,10 @@ NODES = 101
 ARC = np.linspace(0.0, 20.0, NODES)
 
 
-def contact(curvature: float | np.ndarray = 0.0, load: float | np.ndarray = 100.0) -> Contact:
+def contact(curvature: float | np.ndarray = 0.0, load: float | np.ndarray = 100.0) -> FlankContact:
     full = [np.array(np.broadcast_to(value, NODES), dtype=float) for value in (load, curvature)]
     return PrescribedMechanism(
-        kind=Kind.TRAVELLING,
+        kind=ContactKind.TRAVELLING,
         arc_length=ARC,
         load_per_width=full[0],
         slip=np.full(NODES, 0.5),
@@ -32,7 +32,7 @@ def contact(curvature: float | np.ndarray = 0.0, load: float | np.ndarray = 100.
     ).contact
 
 
-def touch(given: Contact, depth: np.ndarray, cycles: float) -> None:
+def touch(given: FlankContact, depth: np.ndarray, cycles: float) -> None:
     worn = given.profile.recede(depth)
     check_touch(given, np.array(worn.x), np.array(worn.y), depth, cycles)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from wearsim.errors import CaseError, OutputError
-from wearsim.page.file import named_beside, new_file, read_file
+from wearsim.page.case_file import named_beside, new_file, read_file
 
 
 def test_saved_as_typed_and_nothing_beside(tmp_path):

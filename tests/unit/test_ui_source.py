@@ -8,7 +8,7 @@ from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
 from wearsim.errors import CaseError
 from wearsim.input.document import CaseText
-from wearsim.page.source import shown_values, tables_of, with_table, with_value, without_table
+from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
 
 TEXT = """\
 # Mine.
@@ -103,7 +103,7 @@ def test_a_table_of_comments_is_kept():
 
 def test_dotted_keys_inline_tables_and_tables_out_of_order():
     text = "load.power_kW = 3\nstop = {critical_depth_mm = 1}\n[a.b]\nc = 1\n[d]\n[a.e]\nf = 2\n"
-    assert tables_of(text)["a"] == {"b": {"c": 1}, "e": {"f": 2}}
+    assert parsed_tables(text)["a"] == {"b": {"c": 1}, "e": {"f": 2}}
     for key in ("load.power_kW", "stop.critical_depth_mm", "a.b.c", "a.e.f"):
         edited = with_value(text, key, "9")
         assert shown_values(edited) == shown_values(text) | {key: "9"}
@@ -120,7 +120,7 @@ def test_tables_of_a_list_come_and_go():
 
 @pytest.mark.parametrize("text", ["[", "a = 1\na = 2", "a = [" * 3000, "a ="])
 def test_what_is_no_toml_has_no_tables(text):
-    assert tables_of(text) is None
+    assert parsed_tables(text) is None
 
 
 @pytest.mark.parametrize("broken", ["power_kW = -3", "power_kW = ", "powr_kW = 3"])

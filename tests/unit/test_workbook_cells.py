@@ -9,8 +9,8 @@ import xlsxwriter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wearsim.report.workbook.book import Book, Page, number_format
-from wearsim.report.workbook.names import clean, sheet_names
+from wearsim.report.workbook.workbook_writer import WorkbookWriter, WorksheetPage, number_format
+from wearsim.report.workbook.worksheet_names import without_forbidden, worksheet_names
 
 
 @pytest.mark.slow
@@ -18,7 +18,7 @@ from wearsim.report.workbook.names import clean, sheet_names
 @given(st.lists(st.text(max_size=40), min_size=1, max_size=8))
 def test_any_names_make_sheets(names):
     """XlsxWriter itself refuses what Excel does not take."""
-    found = sheet_names(names, taken=["Answer", "Inputs"])
+    found = worksheet_names(names, taken=["Answer", "Inputs"])
     book = xlsxwriter.Workbook(io.BytesIO(), {"in_memory": True})
     for name in ("Answer", *found, "Inputs"):
         book.add_worksheet(name)
@@ -28,23 +28,23 @@ def test_any_names_make_sheets(names):
 
 
 def test_many_equal_long_names():
-    found = sheet_names(["x" * 35] * 12)
+    found = worksheet_names(["x" * 35] * 12)
     assert found[0] == "x" * 31
     assert found[11] == f"{'x' * 26} (12)"
     assert len(set(found)) == 12
 
 
 def test_name_is_not_cut_within_a_character():
-    assert sheet_names(["a" * 30 + "\U0001f600"]) == ["a" * 30]
+    assert worksheet_names(["a" * 30 + "\U0001f600"]) == ["a" * 30]
 
 
 @pytest.mark.parametrize("text", ["\x00", "\x1f", "\ud800", "\uffff", "\x0b"])
 def test_clean_replaces_what_xml_cannot_hold(text):
-    assert clean(f"a{text}b") == "a\ufffdb"
+    assert without_forbidden(f"a{text}b") == "a\ufffdb"
 
 
 def test_clean_keeps_the_rest():
-    assert clean("ä\t\nПР \U0001f600") == "ä\t\nПР \U0001f600"
+    assert without_forbidden("ä\t\nПР \U0001f600") == "ä\t\nПР \U0001f600"
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,8 @@ def test_number_format(values, expected):
 
 
 def test_cells():
-    book = Book(xlsxwriter, "t")
-    page = Page(book, "s")
+    book = WorkbookWriter(xlsxwriter, "t")
+    page = WorksheetPage(book, "s")
     values = [1.5, 3, None, math.nan, math.inf, -math.inf, True, "=1", "", "x" * 40000]
     for row, value in enumerate(values):
         page.put(row, 0, value)

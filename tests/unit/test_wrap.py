@@ -10,10 +10,10 @@ from wearsim.errors import ContactError
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import iso606_gap
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import wrap_equilibrium as kernels
-from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
 PITCH, ROLLER = 12.7, 8.51
 FORMS = {
@@ -36,7 +36,7 @@ def wrap(form, teeth, *, slack=20.0, wrap_angle=math.pi, alternating=False, pull
         pitch_angle=2.0 * math.pi / teeth,
         wrap_angle=wrap_angle,
         chain=WrapChain(PITCH, 0.5 * ROLLER, 0.35 * ROLLER, 5e4, alternating),
-        pull=pull or Pull(1000.0, slack, True, 0.0, 0.0),
+        pull=pull or StrandTensions(1000.0, slack, True, 0.0, 0.0),
     )
 
 
@@ -168,7 +168,7 @@ def test_friction_is_the_least_of_slipping_and_rolling():
     """Radii of roller and bush 1 : 0.7; the sign is that of the driver."""
     for tooth, bush, share in ((0.1, 0.2, 0.1), (0.1, 0.1, 0.07), (0.0, 0.1, 0.0)):
         for driver, sign in ((True, 1.0), (False, -1.0)):
-            mechanism = wrap("ANSI", 20, pull=Pull(1000.0, 20.0, driver, tooth, bush))
+            mechanism = wrap("ANSI", 20, pull=StrandTensions(1000.0, 20.0, driver, tooth, bush))
             assert mechanism.friction_angle_tangent == pytest.approx(share, abs=1e-15)
             signed = mechanism.constants(0.0)[kernels.FRICTION]
             assert signed == pytest.approx(sign * share, abs=1e-15)
@@ -223,7 +223,7 @@ def test_straight_flanks_of_a_groove(elongation):
         pitch_angle=ANGLE,
         wrap_angle=math.pi,
         chain=WrapChain(PITCH, radius, 3.0, 5e4, False),
-        pull=Pull(1000.0, 60.0, True, 0.0, 0.0),
+        pull=StrandTensions(1000.0, 60.0, True, 0.0, 0.0),
     )
     loads = mechanism.loads(1.0, elongation)
     found = np.degrees(loads.pressure_angle)
@@ -244,7 +244,7 @@ def test_a_roller_over_its_tooth_is_told_from_no_equilibrium():
 
 def test_a_single_roller():
     """A wrap of less than half a pitch: T u + S v = - P n, by hand for a symmetric pull."""
-    pull = Pull(100.0, 100.0 - 1e-9, True, 0.0, 0.0)
+    pull = StrandTensions(100.0, 100.0 - 1e-9, True, 0.0, 0.0)
     mechanism = wrap("ISO min", 20, wrap_angle=0.5 * ANGLE, pull=pull)
     assert mechanism.rollers(1.0) == 1
     tight, slack = mechanism.angles(1.0)
@@ -257,7 +257,7 @@ def test_a_single_roller():
 
 
 def test_assumptions_name_the_friction():
-    pull = Pull(1000.0, 20.0, False, 0.1, 0.3)
+    pull = StrandTensions(1000.0, 20.0, False, 0.1, 0.3)
     text = " ".join(wrap("ANSI", 20, pull=pull).assumptions())
     assert "friction acts down the working flank, 0.1 of the force" in text
     assert "no friction" in " ".join(wrap("ANSI", 20).assumptions())

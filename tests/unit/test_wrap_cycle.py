@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import ChainWear
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels.wrap_cycle import engaged
-from wearsim.wear.implicit_steps import run_dwelling
+from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.law import archard
 
 CASE = {
@@ -52,7 +52,7 @@ def test_rows_are_those_of_single_solves(elongation):
     """Phases 1/8, 3/8 ... in both kinds of link: load, place of the centre, place touched."""
     of = contact()
     table = of.events(*unworn(of), ChainWear(elongation), of.memory())
-    table = table.reshape(kernels.EVENT_ROWS, 2, 4, of.most)
+    table = table.reshape(kernels.EVENT_ROWS, 2, 4, of.most_rollers)
     arc = of.arc_length
     for first in (0, 1):
         for step in range(4):
@@ -100,16 +100,18 @@ def test_way_between_phases_and_over_the_pitch():
     """Every loaded event holds half the way from the phase before and half to the next one."""
     of = contact("joint.pitch='uniform'")
     of = replace(of, sliding=replace(of.sliding, fraction=0.0, path_fraction=1.0))
-    table = of.events(*unworn(of), ChainWear(0.02), of.memory()).reshape(kernels.EVENT_ROWS, 4, of.most)
+    table = of.events(*unworn(of), ChainWear(0.02), of.memory()).reshape(
+        kernels.EVENT_ROWS, 4, of.most_rollers
+    )
     centre = table[kernels.EVENT_CENTRE_X] + 1j * table[kernels.EVENT_CENTRE_Y]
     slip, load = table[kernels.EVENT_SLIP], table[kernels.EVENT_LOAD]
     # One roller on its whole way: positions 0, 1, 2 ... in the phases 1 to 4 of each.
-    way = centre[:, : of.most - 1].T.ravel()
-    loaded = load[:, : of.most - 1].T.ravel() > 0.0
+    way = centre[:, : of.most_rollers - 1].T.ravel()
+    loaded = load[:, : of.most_rollers - 1].T.ravel() > 0.0
     steps = np.abs(np.diff(way)) * loaded[1:] * loaded[:-1]
     expected = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
-    inner = slice(0, 4 * (of.most - 2))
-    np.testing.assert_allclose(slip[:, : of.most - 1].T.ravel()[inner], expected[inner], atol=1e-12)
+    inner = slice(0, 4 * (of.most_rollers - 2))
+    np.testing.assert_allclose(slip[:, : of.most_rollers - 1].T.ravel()[inner], expected[inner], atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -159,7 +161,7 @@ def test_two_halves_of_the_duty_are_the_whole():
     of = contact()
     (block,) = of.blocks
     halves = replace(of, blocks=(replace(block, share=0.25), replace(block, share=0.75)))
-    runs = [run_dwelling(c, archard(1e-9), (depth_criterion(0.02),), 1e12, 0, 1e5) for c in (of, halves)]
+    runs = [run_resting(c, archard(1e-9), (depth_limit(0.02),), 1e12, 0, 1e5) for c in (of, halves)]
     assert runs[1].cycles[-1] == pytest.approx(runs[0].cycles[-1], rel=0.01)
 
 

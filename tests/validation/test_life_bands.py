@@ -44,7 +44,7 @@ def rate_per_coefficient(grown):
 
 
 def inside(rates, *bands):
-    return sum(any(low <= most and least <= high for low, high in bands) for least, most in rates)
+    return sum(any(low <= greatest and least <= high for low, high in bands) for least, greatest in rates)
 
 
 def test_catalogue(rates, rate_per_coefficient, measured):

@@ -23,7 +23,7 @@ import pytest
 from scipy.optimize import curve_fit
 
 import wearsim
-from wearsim.wear.running_in import CONSTANT, RunningIn
+from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 
 LOW, HIGH = 59.841, 98.1
 MATERIALS = ["PPS", "PPS_30PTFE"]
@@ -50,11 +50,11 @@ def depth_at(even_contact):
     slides through one width of contact.
     """
 
-    def run(load, slope_per_load, distances, warp=CONSTANT):
-        def result(most, **keys):
+    def run(load, slope_per_load, distances, warp=NO_RUNNING_IN):
+        def result(greatest, **keys):
             law = {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-3 * slope_per_load}
             columns = {"load_per_width_N_per_mm": load, "slip_ratio": 1.0}
-            return wearsim.simulate(even_contact(columns, law | keys, 10.0, most))
+            return wearsim.simulate(even_contact(columns, law | keys, 10.0, greatest))
 
         width = 4.0 * load / (np.pi * result(1.0).initial_peak_pressure)
         keys = {"running_in_factor": warp.factor, "running_in_distance_mm": width * warp.cycles}
@@ -83,7 +83,7 @@ def running_in(low):
 
     def depth(distance, slope, excess, length):
         warp = RunningIn(1.0 + excess, length)
-        return np.array([slope * warp.constant_cycles(float(s)) for s in distance])
+        return np.array([slope * warp.steady_cycles(float(s)) for s in distance])
 
     start = (float(low.late_slope_um_per_m.iloc[0]), 3.0, 30.0)
     bounds = ([1e-4, 0.0, 1.0], [1.0, 100.0, 500.0])

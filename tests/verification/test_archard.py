@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.engagement import Kind
+from wearsim.contact.engagement import ContactKind
 from wearsim.kernels.hertz_wear import wear_depth
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import archard
@@ -30,7 +30,9 @@ def archard_law(rate: float) -> dict[str, object]:
 def depth_per_cycle(load: np.ndarray, slip: np.ndarray, relative: np.ndarray, rate: float) -> np.ndarray:
     """Depth of one passage of a travelling contact, from the engine's kernel."""
     speed, pressure, depth = np.zeros(load.size), np.empty(load.size), np.empty(load.size)
-    wear_depth(load, slip, speed, relative, MODULUS, archard(rate).numbers(Kind.TRAVELLING), pressure, depth)
+    wear_depth(
+        load, slip, speed, relative, MODULUS, archard(rate).numbers(ContactKind.TRAVELLING), pressure, depth
+    )
     return depth
 
 

@@ -13,11 +13,11 @@ import tomlkit
 
 import wearsim
 from wearsim.errors import CaseError
-from wearsim.geometry.profile import Profile
-from wearsim.study.calibrate import interpolation as blend
+from wearsim.geometry.profile_points import Profile
+from wearsim.study.calibrate import history_interpolation as blend
 from wearsim.study.calibrate import model as calibrations
 from wearsim.study.calibrate import predicted_history as courses
-from wearsim.study.calibrate.calibration import Options
+from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import Reading
 
@@ -83,7 +83,7 @@ def readings(rows, scans=(), kind=None):
 
 def course(tables):
     """Hours of the life, and everything that can be measured at a part of it."""
-    return courses.Course(wearsim.simulate(wearsim.load_case(copy.deepcopy(tables))))
+    return courses.PredictedHistory(wearsim.simulate(wearsim.load_case(copy.deepcopy(tables))))
 
 
 class Bench:
@@ -146,7 +146,7 @@ def test_intervals_of_two_values_hold_nine_of_ten(tmp_path, once, error):
     bench = Bench(
         tmp_path, {**STRAND, "wear": {**POWER["wear"], "coefficient": 1e-9, "pressure_exponent": 1.0}}
     )
-    options, held = Options(shapes=("wear.pressure_exponent",)), np.zeros(3)
+    options, held = CalibrationOptions(shapes=("wear.pressure_exponent",)), np.zeros(3)
     for _ in range(REPEATS):
         rows = depths(truth, (1.0, 4.0, 7.0, 10.0, 13.0), (0.3, 0.6, 0.9), error, rng)
         found = calibrate(bench.case, readings(rows), (), options)
@@ -184,7 +184,7 @@ def test_intervals_from_scans_hold_nine_of_ten(tmp_path, once, freedom):
         for part in (0.4, 0.9):
             points = scan(truth, part, 0.004, rng, rng.normal(0.0, 5e-4), shift)
             scans.append((part * truth.hours, 0.004, points.x, points.y))
-        found = calibrate(bench.case, readings((), scans), (), Options(freedom=freedom))
+        found = calibrate(bench.case, readings((), scans), (), CalibrationOptions(freedom=freedom))
         held += inside(found.values[0].interval, 1e-10)
     # Binomial, 100 repeats of 0.9: beyond these bounds in one of a thousand.
     assert 0.79 * repeats <= held <= 0.98 * repeats
@@ -220,7 +220,7 @@ def test_teeth_and_chain_of_a_wrap_are_told_apart(tmp_path):
         "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
     }
     result = wearsim.simulate(wearsim.load_case(copy.deepcopy(truth)))
-    model = courses.Course(result)
+    model = courses.PredictedHistory(result)
     chain = result.parts["chain"].hours
     rows = [
         (part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 0.0005, None)
@@ -262,7 +262,7 @@ def test_slip_and_coefficient_cannot_be_told_apart_but_the_life_is_known(tmp_pat
     rows = depths(truth, (4.0, 9.0), (0.3, 0.6, 0.9), 0.001, np.random.default_rng(2))
     bench = Bench(tmp_path, STRAND)
     alone = bench.fit(rows)
-    both = bench.fit(rows, Options(shapes=("mechanism.roller_slip_fraction",)))
+    both = bench.fit(rows, CalibrationOptions(shapes=("mechanism.roller_slip_fraction",)))
     assert any(
         "cannot tell wear.specific_wear_rate_mm2_per_N and mechanism.roller_slip_fraction apart" in text
         for text in both.warnings
@@ -280,7 +280,7 @@ def test_slip_and_coefficient_cannot_be_told_apart_but_the_life_is_known(tmp_pat
 def test_exponent_needs_more_than_one_place(tmp_path):
     """One point says nothing about how wear goes with pressure; five along the flank do."""
     truth, rng = course(POWER), np.random.default_rng(4)
-    bench, options = Bench(tmp_path, POWER), Options(shapes=("wear.pressure_exponent",))
+    bench, options = Bench(tmp_path, POWER), CalibrationOptions(shapes=("wear.pressure_exponent",))
     one = bench.fit(depths(truth, (9.0,), (0.1, 0.2), 0.002, rng), options)
     assert any("wear.pressure_exponent" in text for text in one.warnings)
     places = (1.0, 4.0, 7.0, 10.0, 13.0)
@@ -293,7 +293,7 @@ def test_values_that_were_fitted_give_the_life_that_was_told(tmp_path):
     truth = course(POWER)
     bench = Bench(tmp_path, {**POWER, "wear": {**POWER["wear"], "pressure_exponent": 0.8}})
     rows = depths(truth, (1.0, 7.0, 13.0), (0.5, 0.9), 0.001, np.random.default_rng(5))
-    found = bench.fit(rows, Options(shapes=("wear.pressure_exponent",)))
+    found = bench.fit(rows, CalibrationOptions(shapes=("wear.pressure_exponent",)))
     again = wearsim.simulate(wearsim.load_case(dict(found.tables)))
     assert again.life.hours == pytest.approx(found.parts[0].life, rel=2e-3)
 
@@ -324,7 +324,7 @@ def test_told_life_is_that_of_the_case_that_was_fitted(tmp_path):
     """The joints wear three times as fast as the case says, so that the ratio must be followed."""
     truth = {**WRAP, "joint": {"specific_wear_rate_mm2_per_N": 4.5e-8}}
     result = wearsim.simulate(wearsim.load_case(copy.deepcopy(truth)))
-    model = courses.Course(result)
+    model = courses.PredictedHistory(result)
     rows = [
         (part * model.hours, "max_depth_mm", model.history("max_depth_mm", part), 1e-4, None)
         for part in (0.4, 0.8)
@@ -345,7 +345,7 @@ def test_the_answer_does_not_depend_on_the_start(tmp_path, start):
     exponent, coefficient = start
     wear = {"law": "power", "coefficient": coefficient, "pressure_exponent": exponent}
     bench = Bench(tmp_path, {**POWER, "wear": wear})
-    options = Options(shapes=("wear.pressure_exponent",), confidence=0.99)
+    options = CalibrationOptions(shapes=("wear.pressure_exponent",), confidence=0.99)
     found, known = bench.fit(rows, options), Bench(tmp_path, POWER).fit(rows, options)
     assert found.values[1].value == pytest.approx(known.values[1].value, abs=2e-3)
     assert found.parts[0].life == pytest.approx(known.parts[0].life, rel=2e-4)
@@ -362,6 +362,6 @@ def test_slip_is_searched_up_to_its_ends(tmp_path, slip):
     truth = course(STRAND)
     rows = depths(truth, (4.0, 9.0), (0.3, 0.9), 0.001, np.random.default_rng(7))
     bench = Bench(tmp_path, {**STRAND, "mechanism": {"roller_slip_fraction": slip}})
-    found = bench.fit(rows, Options(shapes=("mechanism.roller_slip_fraction",)))
+    found = bench.fit(rows, CalibrationOptions(shapes=("mechanism.roller_slip_fraction",)))
     assert found.parts[0].life == pytest.approx(truth.hours, rel=0.02)
     assert any("apart" in text for text in found.warnings)

@@ -17,7 +17,7 @@ import wearsim
 from wearsim.errors import CaseError, ContactError
 from wearsim.report.answer import answer
 from wearsim.result import WearResult
-from wearsim.wear.running_in import CONSTANT, RunningIn
+from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 
 STRAND = Path(__file__).parents[2] / "cases" / "16b-20t-oiled.toml"
 FEW = ["sprocket.nodes=61", "stop.critical_depth_mm=0.05"]
@@ -54,7 +54,7 @@ def wrap(*settings: str) -> WearResult:
 def test_running_in_is_the_integral_of_its_coefficient(factor: float, cycles: float, run: float) -> None:
     warp = RunningIn(factor, cycles)
     excess, _ = quad(lambda n: math.exp(-n / cycles), 0.0, min(run, 40 * cycles), limit=200)
-    worn = warp.constant_cycles(run)
+    worn = warp.steady_cycles(run)
     assert worn == pytest.approx(run + (factor - 1.0) * excess, rel=1e-9, abs=1e-12)
     assert warp.running_cycles(np.array([worn]))[0] == pytest.approx(run, rel=1e-9, abs=1e-12)
 
@@ -97,8 +97,8 @@ def test_running_in_does_not_follow_the_density_of_the_rows(tmp_path: Path) -> N
 
 def test_no_running_in_changes_no_digit() -> None:
     cycles = np.array([0.1, 3.7, 1e9 / 3.0])
-    np.testing.assert_array_equal(CONSTANT.running_cycles(cycles), cycles)
-    assert CONSTANT.constant_cycles(0.1) == 0.1
+    np.testing.assert_array_equal(NO_RUNNING_IN.running_cycles(cycles), cycles)
+    assert NO_RUNNING_IN.steady_cycles(0.1) == 0.1
 
 
 @pytest.mark.parametrize("life", [strand, wrap])
@@ -254,7 +254,7 @@ def test_running_in_is_undone_for_any_factor(factor: float) -> None:
     worn = np.geomspace(1e-3, 1e9, 200)
     cycles = warp.running_cycles(worn)
     assert (cycles > 0.0).all() and (np.diff(cycles) > 0.0).all()
-    back = [warp.constant_cycles(float(run)) for run in cycles]
+    back = [warp.steady_cycles(float(run)) for run in cycles]
     np.testing.assert_allclose(back, worn, rtol=1e-9)
 
 
@@ -304,14 +304,14 @@ def test_rollers_worn_through_are_refused() -> None:
 def test_part_renewed_later_runs_in_once_more() -> None:
     """The integral of its own coefficient over the cycles since it was new, by quadrature."""
     warp = RunningIn(5.0, 300.0)
-    new_at, until = (warp.constant_cycles(cycles) for cycles in (200.0, 1000.0))
+    new_at, until = (warp.steady_cycles(cycles) for cycles in (200.0, 1000.0))
     expected, _ = quad(lambda n: 1.0 + 4.0 * math.exp(-n / 300.0), 0.0, 800.0)
     worn = warp.renewed(new_at, until)
     assert worn == pytest.approx(expected, rel=1e-9)
     assert warp.until_renewed(new_at, worn) == pytest.approx(until, rel=1e-9)
     assert warp.renewed(0.0, until) == until
-    assert CONSTANT.renewed(7.0, 9.0) == 2.0
-    assert CONSTANT.until_renewed(7.0, 2.0) == 9.0
+    assert NO_RUNNING_IN.renewed(7.0, 9.0) == 2.0
+    assert NO_RUNNING_IN.until_renewed(7.0, 2.0) == 9.0
 
 
 def test_every_chain_runs_in() -> None:

@@ -14,14 +14,14 @@ from scipy.optimize import brentq, minimize_scalar
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.circle_fit import fit_circle, rack_arc
 from wearsim.geometry.gear.convex_concave import ConvexConcave
-from wearsim.geometry.gear.convex_concave_flank import Flank
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
 from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_over_pins
 
 POLE = math.radians(20.0)
 R1 = 38.25
-HEAD, FOOT = Flank(R1, 10.0, POLE, "head"), Flank(R1, 10.0, POLE, "foot")
+HEAD, FOOT = ConvexConcaveFlank(R1, 10.0, POLE, "head"), ConvexConcaveFlank(R1, 10.0, POLE, "foot")
 PAIR = ConvexConcave(4.5, 17, 34, POLE, 10.0, 10.0, 4.5)
 OTHER = ConvexConcave(3.0, 23, 41, math.radians(17.0), 7.0, 9.0, 2.7)
 
@@ -163,10 +163,10 @@ def test_roll_angle_is_the_integral_along_the_path(flank, end):
     """Dl = r cos(alpha) dphi: the contact moves along the normal by the roll of the base circle."""
 
     def rolled(a):
-        e = a - flank.pole_angle
+        e = a - flank.pitch_point_angle
         return flank.side * 2.0 * flank.arc_radius * math.cos(e) / math.cos(a) / flank.pitch_radius
 
-    found = quad(rolled, flank.pole_angle, end, epsabs=1e-14, epsrel=1e-13)[0]
+    found = quad(rolled, flank.pitch_point_angle, end, epsabs=1e-14, epsrel=1e-13)[0]
     assert flank.roll_angle(end) == pytest.approx(found, abs=1e-12)
 
 
@@ -183,8 +183,8 @@ def chebyshev(points, start, end):
 
 @flanks
 def test_curvature_by_differentiation(flank, end):
-    x, y = chebyshev(flank.points, flank.pole_angle, end)
-    alpha = np.linspace(flank.pole_angle, end, 21)[1:-1]
+    x, y = chebyshev(flank.points, flank.pitch_point_angle, end)
+    alpha = np.linspace(flank.pitch_point_angle, end, 21)[1:-1]
     speed = np.hypot(x.deriv()(alpha), y.deriv()(alpha))
     cross = x.deriv()(alpha) * y.deriv(2)(alpha) - y.deriv()(alpha) * x.deriv(2)(alpha)
     # Alpha runs from root to tip on the head, with the tooth on its right, else the other way.
@@ -197,8 +197,8 @@ def test_curvature_by_differentiation(flank, end):
 
 @flanks
 def test_rack_radius_by_differentiation(flank, end):
-    x, y = chebyshev(flank.rack_points, flank.pole_angle, end)
-    alpha = np.linspace(flank.pole_angle, end, 21)[1:-1]
+    x, y = chebyshev(flank.rack_points, flank.pitch_point_angle, end)
+    alpha = np.linspace(flank.pitch_point_angle, end, 21)[1:-1]
     speed = np.hypot(x.deriv()(alpha), y.deriv()(alpha))
     cross = x.deriv()(alpha) * y.deriv(2)(alpha) - y.deriv()(alpha) * x.deriv(2)(alpha)
     assert flank.rack_radius(alpha) == pytest.approx(speed**3 / np.abs(cross), rel=1e-9)
@@ -207,14 +207,14 @@ def test_rack_radius_by_differentiation(flank, end):
 def test_rack_does_not_depend_on_the_teeth():
     alpha = np.linspace(POLE, math.radians(40.0), 11)
     for part in ("head", "foot"):
-        small, large = (Flank(r, 10.0, POLE, part) for r in (20.0, 2e6))
+        small, large = (ConvexConcaveFlank(r, 10.0, POLE, part) for r in (20.0, 2e6))
         assert small.rack_points(alpha) == pytest.approx(large.rack_points(alpha), abs=0)
         # A wheel of many teeth has the rack's curvature.
         assert abs(large.curvature_radius(alpha)) == pytest.approx(small.rack_radius(alpha), rel=1e-4)
 
 
 @pytest.mark.parametrize(("mate", "rho"), [(17, 6.5411352411), (34, 8.7215136548), (51, 9.8117028617)])
-def test_reduced_radius_in_the_pole_is_the_same_on_both_sides(validated, mate, rho):
+def test_reduced_radius_in_the_pitch_point_is_the_same_on_both_sides(validated, mate, rho):
     pair = ConvexConcave(4.5, 17, mate, POLE, 10.0, 10.0, 4.5)
     # For 51 teeth the reference prints 9.8117026617: the closed form below has another digit.
     found = [float(zone.reduced_radius(POLE)) for zone in pair.zones]
@@ -239,14 +239,14 @@ def test_contact_ratio(validated):
     involute = InvolutePair((17, 34), 4.5, POLE, (0.0, 0.0), (42.75, 81.0))
     quantity, found = "contact ratio of the involute pair", involute.contact_ratio
     validated(quantity, found, 1.5976848350, 5e-11, source, **how)
-    assert involute.reduced_radius(involute.pole) == pytest.approx(8.7215136548, abs=5e-11)
+    assert involute.reduced_radius(involute.pitch_point) == pytest.approx(8.7215136548, abs=5e-11)
 
 
 def test_involute_path_ends_at_the_base_circle():
     """Ten teeth of 20 deg are undercut: the path ends where it touches the pinion's base circle."""
     few = InvolutePair((10, 60), 1.0, POLE, (0.0, 0.0), (6.0, 31.0))
     assert few.approach == pytest.approx(5.0 * math.sin(POLE), abs=1e-13)
-    assert few.reduced_radius(few.pole - few.approach) == pytest.approx(0.0, abs=1e-13)
+    assert few.reduced_radius(few.pitch_point - few.approach) == pytest.approx(0.0, abs=1e-13)
 
 
 def test_arc_for_the_rack_as_in_the_reference(validated):
@@ -308,7 +308,10 @@ def test_roller_touches_both_flanks(gear, ratio):
     assert rest == pytest.approx(centre, abs=1e-10)
     nearest = [
         minimize_scalar(
-            lambda a, f=f: away(f, a), bounds=(f.pole_angle, end), method="bounded", options={"xatol": 1e-9}
+            lambda a, f=f: away(f, a),
+            bounds=(f.pitch_point_angle, end),
+            method="bounded",
+            options={"xatol": 1e-9},
         ).fun
         for f, end in gear.flanks()
     ]
@@ -345,7 +348,7 @@ def test_sign_conditions():
 
 
 @pytest.mark.parametrize(("number", "teeth", "arc"), [(2, 17, "foot_arc"), (4, 34, "head_arc")])
-def test_foot_is_hollow_in_the_pole_below_half_the_base_radius(number, teeth, arc):
+def test_foot_is_hollow_in_the_pitch_point_below_half_the_base_radius(number, teeth, arc):
     """Below r cos(alpha_C) / 2: the reference says r / 2, but between the two the foot is convex."""
     r = 2.25 * teeth
     limit = 0.5 * r * math.cos(POLE)
@@ -365,7 +368,7 @@ def test_foot_is_hollow_in_the_pole_below_half_the_base_radius(number, teeth, ar
 
 
 def test_straight_angle_is_where_the_curvature_changes_sign():
-    flank = Flank(R1, 17.0, POLE, "foot")
+    flank = ConvexConcaveFlank(R1, 17.0, POLE, "foot")
     at = flank.straight_angle
     assert at > POLE
     assert flank.curvature(at) == pytest.approx(0.0, abs=1e-14)
@@ -375,7 +378,7 @@ def test_straight_angle_is_where_the_curvature_changes_sign():
 
 def test_undercut_is_where_the_foot_turns_back():
     """Dr/dalpha = 0, by the distance itself; beyond it the sense of the flank is the other one."""
-    flank = Flank(12.0, 60.0, POLE, "foot")
+    flank = ConvexConcaveFlank(12.0, 60.0, POLE, "foot")
     found = minimize_scalar(
         lambda a: float(flank.radius(a)), bounds=(POLE, 1.2), method="bounded", options={"xatol": 1e-10}
     )
@@ -401,7 +404,7 @@ def test_wheel_is_the_envelope_of_the_pinion(validated, pair, which):
     rotations, the contact by the vanishing determinant of both.
     """
     zone = pair.zones[which]
-    x, y = chebyshev(zone.pinion.points, zone.pinion.pole_angle, zone.end)
+    x, y = chebyshev(zone.pinion.points, zone.pinion.pitch_point_angle, zone.end)
     r1, r2 = 0.5 * pair.module * pair.pinion_teeth, 0.5 * pair.module * pair.wheel_teeth
 
     def on_wheel(a, phi):
@@ -418,7 +421,7 @@ def test_wheel_is_the_envelope_of_the_pinion(validated, pair, which):
         return along[0] * moved[1] - along[1] * moved[0]
 
     points = []
-    for alpha in np.linspace(zone.pinion.pole_angle, zone.end, 12)[1:-1]:
+    for alpha in np.linspace(zone.pinion.pitch_point_angle, zone.end, 12)[1:-1]:
         guess = float(zone.pinion.roll_angle(alpha))
         phi = brentq(lambda p, a=alpha: determinant(a, p), guess - 0.02, guess + 0.02, xtol=1e-14)
         touching = on_wheel(alpha, phi)

@@ -15,7 +15,7 @@ from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import ConvexConcave
 from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
 from wearsim.geometry.gear.convex_concave_outline import gear_outline, root_radius, tip_overlap
-from wearsim.geometry.outline import Outline, turned
+from wearsim.geometry.outline import Outline, rotated
 
 POLE = math.radians(20.0)
 PAIR = ConvexConcave(4.5, 17, 34, POLE, 10.0, 10.0, 4.5)
@@ -44,8 +44,8 @@ def test_outline_is_a_gear(pair, root, clearance):
         assert radii.max() == pytest.approx(gear.tip_radius, abs=1e-10)
         assert radii.min() == pytest.approx(root_radius(gear, clearance, root), abs=1e-10)
         pitch, middle = 2.0 * math.pi / gear.teeth, 0.5 * math.pi / gear.teeth
-        mirrored = turned(turned(outline.vertices, middle) * (-1.0, 1.0), -middle)
-        for alike in (turned(outline.vertices, pitch), mirrored):
+        mirrored = rotated(rotated(outline.vertices, middle) * (-1.0, 1.0), -middle)
+        for alike in (rotated(outline.vertices, pitch), mirrored):
             assert cKDTree(outline.vertices).query(alike)[0].max() < 1e-10
 
 
@@ -55,7 +55,7 @@ def test_flanks_lie_on_the_outline(pair, root, clearance):
     for gear, points in zip((pair.pinion, pair.wheel), polygons(pair, root, clearance), strict=True):
         edge = shapely.LinearRing(points)
         for flank, end in gear.flanks():
-            on = turned(flank.points(np.linspace(POLE, end, 61)), -gear.turn)
+            on = rotated(flank.points(np.linspace(POLE, end, 61)), -gear.turn)
             assert shapely.distance(shapely.points(on), edge).max() < 2.0 * FINE
 
 
@@ -83,8 +83,8 @@ def test_gears_run_free(pair, root, clearance):
     r1, r2 = pair.pinion.pitch_radius, pair.wheel.pitch_radius
     window = shapely.box(-12.0, r1 - 8.0, 12.0, r1 + 8.0)
     for phi in np.linspace(0.0, 2.0 * math.pi / pair.pinion_teeth, 7):
-        one = shapely.Polygon(turned(pinion, pair.pinion.turn + phi)) & window
-        other = -turned(wheel, pair.wheel.turn - phi * r1 / r2) + (0.0, r1 + r2)
+        one = shapely.Polygon(rotated(pinion, pair.pinion.turn + phi)) & window
+        other = -rotated(wheel, pair.wheel.turn - phi * r1 / r2) + (0.0, r1 + r2)
         common = one & (shapely.Polygon(other) & window)
         # Chords overlap by their tolerance along the contact.
         assert common.area < 2e-3
@@ -98,11 +98,11 @@ def test_backlash_is_what_the_wheel_can_turn():
     turn = LOOSE.wheel.turn
     window = shapely.box(-12.0, r1 - 8.0, 12.0, r1 + 8.0)
     for phi in np.linspace(0.0, 2.0 * math.pi / LOOSE.pinion_teeth, 5):
-        one = shapely.Polygon(turned(pinion, LOOSE.pinion.turn + phi)) & window
+        one = shapely.Polygon(rotated(pinion, LOOSE.pinion.turn + phi)) & window
 
         def overlap(part, one=one, phi=phi):
             angle = turn - phi * r1 / r2 - part * 0.2 / r2
-            other = -turned(wheel, angle) + (0.0, r1 + r2)
+            other = -rotated(wheel, angle) + (0.0, r1 + r2)
             return (one & (shapely.Polygon(other) & window)).area
 
         assert overlap(0.99) == 0.0

@@ -37,9 +37,9 @@ def test_depth_beyond_the_neck_is_refused() -> None:
 @pytest.mark.parametrize("degrees", [1.0, -2.0, 90.0])
 def test_turned_points_are_turned_back(tmp_path: Path, degrees: float) -> None:
     flank = wearsim.load_case(CASE).drive.profile
-    turned = flank.rotated(np.radians(degrees))
+    rotated = flank.rotated(np.radians(degrees))
     lives = []
-    for name, points in (("straight", flank), ("turned", turned)):
+    for name, points in (("straight", flank), ("turned", rotated)):
         file = tmp_path / f"{name}.csv"
         np.savetxt(file, np.c_[points.x, points.y], delimiter=",", header="x_mm,y_mm", comments="")
         sprocket = {"teeth": 20, "profile": "points", "points_file": str(file), "evolute_offset_mm": 5.5}

@@ -13,7 +13,7 @@ import pytest
 from wearsim.chain.chain_length import belt_centre, belt_links, even_links, handbook_centre, handbook_links
 from wearsim.chain.drive_layout import (
     DriveLayout,
-    Meetings,
+    ToothMeetings,
     layout_with_centre,
     layout_with_links,
     polygon_effect,
@@ -120,9 +120,9 @@ def test_whole_links_stay() -> None:
 def test_wrap_of_case_a(validated: Callable[..., None]) -> None:
     """167.6 degrees at 25 pitches; both wraps make a full turn, 17 * 167.61/360 pitches engaged."""
     layout = DriveLayout(44.45, 17, 34, 76, 25 * 44.45)
-    found, source = math.degrees(layout.wrap_1), "Shigley, example 17-5"
+    found, source = math.degrees(layout.wrap_angle_1), "Shigley, example 17-5"
     validated("wrap of drive A", found, 167.6, 0.05, source, "deg", absolute=True)
-    assert layout.wrap_1 + layout.wrap_2 == pytest.approx(2 * math.pi, rel=1e-15)
+    assert layout.wrap_angle_1 + layout.wrap_angle_2 == pytest.approx(2 * math.pi, rel=1e-15)
     assert layout.engaged_1 == pytest.approx(17 * 167.6097 / 360, rel=1e-6)
     assert layout.engaged_2 == pytest.approx(34 * (360 - 167.6097) / 360, rel=1e-6)
 
@@ -138,7 +138,7 @@ def test_span_and_arcs_make_the_chain() -> None:
 
 def test_driver_may_be_the_larger_sprocket() -> None:
     down, up = layout_with_links(12.7, 19, 57, 120), layout_with_links(12.7, 57, 19, 120)
-    assert up.wrap_1 == pytest.approx(down.wrap_2, rel=1e-15)
+    assert up.wrap_angle_1 == pytest.approx(down.wrap_angle_2, rel=1e-15)
     assert (down.ratio, up.ratio) == (3.0, pytest.approx(1 / 3))
 
 
@@ -180,7 +180,7 @@ def test_meetings_by_counting(teeth: int, links: int) -> None:
     while (engagement % teeth, engagement % links) not in pairs:
         pairs.add((engagement % teeth, engagement % links))
         engagement += 1
-    found = Meetings(teeth, links)
+    found = ToothMeetings(teeth, links)
     assert found.rollers_per_tooth == len({roller for tooth, roller in pairs if tooth == 0})
     assert found.teeth_per_roller == len({tooth for tooth, roller in pairs if roller == 0})
     assert found.rollers_per_tooth * teeth == engagement
@@ -257,7 +257,7 @@ def test_chain_must_reach_but_may_sag() -> None:
     """Case D: 769 mm by the formula, installed at 767 mm."""
     taut = layout_with_links(25.4, 27, 51, 100)
     assert round(taut.centre_distance) == 769
-    assert DriveLayout(25.4, 27, 51, 100, 767.0).wrap_1 < taut.wrap_1
+    assert DriveLayout(25.4, 27, 51, 100, 767.0).wrap_angle_1 < taut.wrap_angle_1
     with pytest.raises(GeometryError, match=r"needs 100\.111 links, are 100: use 102"):
         DriveLayout(25.4, 27, 51, 100, 770.0)
 

@@ -94,7 +94,7 @@ MAXIMUM = Arcs(
 FORMS = [pytest.param(MINIMUM, id="min"), pytest.param(MAXIMUM, id="max")]
 
 
-def turned(point: np.ndarray, angle: float) -> tuple[float, float]:
+def rotated(point: np.ndarray, angle: float) -> tuple[float, float]:
     cosine, sine = math.cos(angle), math.sin(angle)
     return (float(cosine * point[0] - sine * point[1]), float(sine * point[0] + cosine * point[1]))
 
@@ -107,7 +107,7 @@ def wheel_arcs(form: Arcs) -> list[tuple[tuple[float, float], float, float, floa
     for i in range(TEETH):
         angle = 2.0 * math.pi * i / TEETH
         for centre, radius, start, end in [*form.arcs(), land]:
-            arcs.append((turned(centre, angle), radius, start + angle, end + angle))
+            arcs.append((rotated(centre, angle), radius, start + angle, end + angle))
     return arcs
 
 
@@ -165,7 +165,7 @@ def test_one_gap_of_loose_pieces_half_of_them_reversed(
 ) -> None:
     """Splines through exact points in place of two arcs, one of them run the other way."""
     drawing = ezdxf.new(units=4)
-    right, seat, left = ((turned(c, turn), r, s + turn, e + turn) for c, r, s, e in form.arcs())
+    right, seat, left = ((rotated(c, turn), r, s + turn, e + turn) for c, r, s, e in form.arcs())
     add_arcs(drawing, [seat])
     for ((x, y), radius, start, end), way in ((left, 1), (right, -1)):
         at = np.linspace(start, end, 60)[::way]
@@ -197,7 +197,7 @@ def with_chords(drawing: Drawing, form: Arcs, tolerance: float, turn: float) -> 
         at = np.linspace(start, end, count + 1)[::way]
         rows.append(centre + radius * np.column_stack([np.cos(at), np.sin(at)]))
     vertices = np.concatenate([rows[0], rows[1][1:], rows[2][1:]])
-    drawing.modelspace().add_lwpolyline([turned(vertex, turn) for vertex in vertices])
+    drawing.modelspace().add_lwpolyline([rotated(vertex, turn) for vertex in vertices])
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -219,7 +219,7 @@ def test_polyline_of_chords_is_read_as_the_curve(
 @pytest.mark.parametrize("loose", [False, True], ids=["polyline", "lines"])
 def test_even_chords_of_a_whole_wheel(form: Arcs, loose: bool, save: Callable[[Drawing], Path]) -> None:
     """Chords of 0.3 mm, up to 3e-3 mm inside the arcs."""
-    vertices = [turned(point, 2.0 * math.pi * i / TEETH) for i in range(TEETH) for point in form.points(0.3)]
+    vertices = [rotated(point, 2.0 * math.pi * i / TEETH) for i in range(TEETH) for point in form.points(0.3)]
     drawing = ezdxf.new(units=4)
     if loose:
         for a, b in zip(vertices, vertices[1:] + vertices[:1], strict=True):

@@ -26,7 +26,7 @@ DRIVES = [
 ]
 
 
-def turned(points: np.ndarray, psi: np.ndarray) -> np.ndarray:
+def rotated(points: np.ndarray, psi: np.ndarray) -> np.ndarray:
     """Points of the fixed frame in a sprocket that has turned psi clockwise back to 0."""
     x, y = points.T
     return np.column_stack([x * np.cos(psi) + y * np.sin(psi), y * np.cos(psi) - x * np.sin(psi)])
@@ -34,9 +34,9 @@ def turned(points: np.ndarray, psi: np.ndarray) -> np.ndarray:
 
 def conjugate_flank(R: float, r: float, h: float, x: np.ndarray) -> np.ndarray:
     centre = np.column_stack([-x, np.full_like(x, R - h)])
-    to_pole = np.column_stack([x, np.full_like(x, h)])
-    normal = to_pole / np.linalg.norm(to_pole, axis=1)[:, None]
-    return turned(centre - r * normal, x / R)
+    to_pitch_point = np.column_stack([x, np.full_like(x, h)])
+    normal = to_pitch_point / np.linalg.norm(to_pitch_point, axis=1)[:, None]
+    return rotated(centre - r * normal, x / R)
 
 
 def flank_radius(R: float, r: float, h: float, x: np.ndarray) -> np.ndarray:
@@ -87,7 +87,7 @@ def test_sliding_speed_identity(R: float, r: float, h: float, end: float, start:
     """With omega = 1: v_t = rho_t (1 + R h/l^2), v_s = l + r, and v_s = v_t - r R h/l^2."""
     strand = Strand(R, r, h)
     x = np.linspace(end, start, 101)
-    l = strand.pole_distance(x)
+    l = strand.pitch_point_distance(x)
     np.testing.assert_allclose(l, np.sqrt(x**2 + h**2), rtol=1e-15)
     v_t = strand.flank_radius(x) * (1.0 + R * h / l**2)
     np.testing.assert_allclose(v_t - r * R * h / l**2, l + r, rtol=1e-12)
@@ -100,23 +100,23 @@ def test_speed_of_the_contact_point(R: float, r: float, h: float, end: float, st
     way = conjugate_flank(R, r, h, x + step) - conjugate_flank(R, r, h, x - step)
     speed = np.linalg.norm(way, axis=1) / (2.0 * step / R)
     strand = Strand(R, r, h)
-    l = strand.pole_distance(x)
+    l = strand.pitch_point_distance(x)
     np.testing.assert_allclose(strand.flank_radius(x) * (1.0 + R * h / l**2), speed, rtol=1e-7)
 
 
 @pytest.mark.parametrize(("R", "r", "h", "end", "start"), DRIVES)
-def test_evolute_lies_on_the_line_from_roller_to_pole(
+def test_evolute_lies_on_the_line_from_roller_to_pitch_point(
     R: float, r: float, h: float, end: float, start: float
 ) -> None:
     """On the line C-P at the distance l/(1 + l^2/(R h)) from P, on the roller's side."""
     x = np.linspace(end, start, 51)
     l = np.sqrt(x**2 + h**2)
-    pole = np.array([0.0, R])
+    pitch_point = np.array([0.0, R])
     roller = np.column_stack([-x, np.full_like(x, R - h)])
-    along = (roller - pole) / l[:, None]
-    fixed = pole + along * (l / (1.0 + l**2 / (R * h)))[:, None]
+    along = (roller - pitch_point) / l[:, None]
+    fixed = pitch_point + along * (l / (1.0 + l**2 / (R * h)))[:, None]
     np.testing.assert_allclose(
-        Strand(R, r, h).evolute_points(x), turned(fixed, x / R), rtol=0.0, atol=1e-12 * R
+        Strand(R, r, h).evolute_points(x), rotated(fixed, x / R), rtol=0.0, atol=1e-12 * R
     )
 
 

@@ -14,7 +14,7 @@ from wearsim.handbook.face_load.face_slices import (
     WideMesh,
     equivalent_misalignment,
     linear_face_load_factor,
-    moments,
+    load_moments,
     self_aligned_gap,
     slice_loads,
 )
@@ -349,11 +349,11 @@ def test_moments_of_an_aligned_pinion():
     """Their mean vanishes; with friction each is at most what friction holds."""
     here = mesh()
     gaps, share = gap_kinds(here.position, gap_of(3.0), gap_of(2.0), "wheel", gap_of(0.7))
-    carried = moments(here, slice_loads(here, self_aligned_gap(here, gaps, share, None)))
+    carried = load_moments(here, slice_loads(here, self_aligned_gap(here, gaps, share, None)))
     assert abs(share @ carried) < 1e-9 * here.force * WIDTH
     assert np.abs(carried).max() > 0.05 * here.force * WIDTH
     held = here.force * 15.0
-    carried = moments(here, slice_loads(here, self_aligned_gap(here, gaps, share, 15.0)))
+    carried = load_moments(here, slice_loads(here, self_aligned_gap(here, gaps, share, 15.0)))
     assert np.abs(carried).max() == pytest.approx(held, rel=1e-9)
     assert (np.abs(carried) <= held * (1 + 1e-9)).all()
 

@@ -79,7 +79,7 @@ def test_contact_ratio_proposes_a_start(ratio: float) -> None:
     wearsim.load_case(tables)
 
 
-def test_contact_end_before_the_pole_line_proposes_a_value() -> None:
+def test_contact_end_before_the_pitch_point_line_proposes_a_value() -> None:
     strand = Strand(25.4 * 20 / (2.0 * np.pi), 7.94, 5.5)
     ((_, message),) = evolute_limits(strand, -1.0, 26.0, 25.4)
     assert message.startswith("contact_end must be above 0")

@@ -14,18 +14,18 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.hertz import contact_modulus, peak_pressure
-from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
+from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.contact.synthesised_pair import SynthesisedPair
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.convex_concave import ConvexConcave
 from wearsim.geometry.gear.involute import InvolutePair
-from wearsim.geometry.gear.line_of_action import involute
 from wearsim.geometry.gear.mesh import Mesh, ToothPair, mesh_on
+from wearsim.geometry.gear.path_of_contact import involute
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.geometry.profile import Profile
-from wearsim.kernels.gear_pair import turned
+from wearsim.geometry.profile_points import Profile
+from wearsim.kernels.gear_pair import turned_by_depth
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
@@ -39,7 +39,7 @@ UNEQUAL = ConvexConcave(4.5, 23, 31, math.radians(22.0), 9.0, 12.0, 4.5)
 
 
 def prescribed(stress: float = 454.1608627, reach: float = 7.0) -> SynthesisedPair:
-    law = StressLaw(np.array([0.0]), np.array([stress]))
+    law = StressProfile(np.array([0.0]), np.array([stress]))
     loaded = LoadedPair(PitchCircles(135.0, 1.5), STEEL, LineLoad(TORQUE / 54.0, 1), law, 0.0)
     return SynthesisedPair(loaded, (36, 54), (-reach, reach))
 
@@ -61,7 +61,7 @@ def mesh_of(name: str, points: int = 401) -> Mesh:
 def test_a_straight_line_of_action_is_the_involute() -> None:
     """All that a mesh holds, the gaps of the corners of the tips included."""
     exact = C14.mesh(401)
-    found = mesh_on(involute(C14.circles, C14.working_angle, exact.pole_distance), C14.teeth)
+    found = mesh_on(involute(C14.circles, C14.working_angle, exact.pitch_point_distance), C14.teeth)
     for what in ("pole_distance", "lever", "rolling", "curvature", "arc", "levers"):
         np.testing.assert_allclose(getattr(found, what), getattr(exact, what), rtol=0, atol=1e-10)
     both = np.isfinite(exact.gaps) & np.isfinite(found.gaps)
@@ -83,7 +83,7 @@ def test_flanks_touch_on_the_line_of_action(name: str) -> None:
         wheel = rotated(mesh.mate, -1 - k, turn / circles.gear_ratio)
         wheel[1] += circles.wheel_radius
         np.testing.assert_allclose(pinion, wheel, rtol=0, atol=1e-8)
-        assert math.hypot(*pinion) == pytest.approx(abs(mesh.pole_distance[k]), abs=1e-8)
+        assert math.hypot(*pinion) == pytest.approx(abs(mesh.pitch_point_distance[k]), abs=1e-8)
 
 
 def rotated(flank: Profile, index: int, angle: float) -> np.ndarray:
@@ -96,16 +96,16 @@ def test_rolling_and_curvature_are_those_of_the_points(name: str) -> None:
     """Arcs between neighbouring contacts over the turn; circles through three points."""
     mesh = mesh_of(name, 4001)
     per_turn = mesh.pitch * PAIRS[name].teeth[0] / math.tau
-    near_pole = np.abs(mesh.pole_distance) < 0.02
+    near_pitch_point = np.abs(mesh.pitch_point_distance) < 0.02
     turn = np.diff(mesh.place) / per_turn
     for k, flank in enumerate((mesh.flank, mesh.mate)):
         chord = np.hypot(np.diff(flank.x), np.diff(flank.y))[:: 1 - 2 * k]
         middle = 0.5 * (mesh.rolling[k, 1:] + mesh.rolling[k, :-1])
-        off_pole = np.sign(mesh.place[1:]) == np.sign(mesh.place[:-1])  # curvatures jump there
-        np.testing.assert_allclose((chord / turn)[off_pole], middle[off_pole], rtol=2e-5)
+        off_pitch_point = np.sign(mesh.place[1:]) == np.sign(mesh.place[:-1])  # curvatures jump there
+        np.testing.assert_allclose((chord / turn)[off_pitch_point], middle[off_pitch_point], rtol=2e-5)
         np.testing.assert_allclose(mesh.arc[k, -1], chord.sum(), rtol=1e-6)
         curvature = flank.curvature[:: 1 - 2 * k]
-        off = np.abs(curvature - mesh.curvature[k])[~near_pole][1:-1]
+        off = np.abs(curvature - mesh.curvature[k])[~near_pitch_point][1:-1]
         assert off.max() < 2e-4 * np.abs(mesh.curvature[k]).max()
 
 
@@ -115,11 +115,11 @@ def test_sliding_is_the_difference_of_both_ways(name: str) -> None:
     pair = PAIRS[name]
     of = GearPairMechanism(pair, 400.0 * pair.circles.pinion_radius, 10.0, STEEL, 1.0, 0.0, 2001)
     mesh = of.mesh
-    run, _ = run_advance(of.contact, archard(1e-10), (depth_criterion(0.02),), 1e12, 1e-4)
+    run, _ = run_advance(of.contact, archard(1e-10), (depth_limit(0.02),), 1e12, 1e-4)
     way = np.diff(mesh.arc, axis=1)
     depth, cycles = run.depth[-1], run.cycles[-1]
     load = 400.0 * pair.circles.pinion_radius * of.share / mesh.lever
-    middle = np.abs(mesh.pole_distance[1:]) > 0.02  # the slip has a kink in the pole
+    middle = np.abs(mesh.pitch_point_distance[1:]) > 0.02  # the slip has a kink in the pole
     slip = np.abs(1.0 - way[1] / way[0])
     expected = 1e-10 * 0.5 * (load[1:] + load[:-1]) * slip * cycles
     np.testing.assert_allclose(
@@ -141,7 +141,7 @@ def test_turn_of_springs_is_that_of_the_balance() -> None:
         def over(turn: float, g: np.ndarray = gaps, w: np.ndarray = levers, t: float = torque) -> float:
             return float((w * np.maximum(0.0, turn * w - g)).sum() - t)
 
-        found = turned(torque, *np.column_stack([gaps, levers]).ravel())
+        found = turned_by_depth(torque, *np.column_stack([gaps, levers]).ravel())
         assert found == pytest.approx(brentq(over, 0.0, 10.0, xtol=1e-16), rel=1e-9)
 
 
@@ -202,9 +202,9 @@ def test_constant_stress_lives_longer(validated: Callable[..., None]) -> None:
     names = "constant-stress-36t-mild", "involute-36t-mild"
     cases = {name: wearsim.load_case(CASES / f"{name}.toml") for name in names}
     one, other = (cases[name].drive.pair for name in names)
-    assert one.pole_angle == pytest.approx(other.pole_angle, abs=1e-8)
-    assert one.mesh(11).pole_distance[[0, -1]] == pytest.approx([-7.0, 7.0])
-    assert other.mesh(11).pole_distance[[0, -1]] == pytest.approx([-7.0, 7.0], abs=1e-6)
+    assert one.pitch_point_angle == pytest.approx(other.pitch_point_angle, abs=1e-8)
+    assert one.mesh(11).pitch_point_distance[[0, -1]] == pytest.approx([-7.0, 7.0])
+    assert other.mesh(11).pitch_point_distance[[0, -1]] == pytest.approx([-7.0, 7.0], abs=1e-6)
     lives = {
         sharing: [
             wearsim.simulate(

@@ -14,8 +14,8 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.hertz import contact_modulus, half_width, peak_pressure
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
@@ -32,7 +32,7 @@ SHIPPED = Path(__file__).parents[2] / "cases" / "fzg-c14-16t-mild.toml"
 PLACES = {
     "A": C14.path_start,
     "B": C14.path_end - C14.base_pitch,
-    "C": C14.pole,
+    "C": C14.pitch_point,
     "D": C14.path_start + C14.base_pitch,
     "E": C14.path_end,
 }
@@ -65,7 +65,7 @@ def test_geometry_of_c14(validated: Callable[..., None]) -> None:
     assert C14.base_pitch == pytest.approx(13.2846, abs=5e-5)
     assert C14.line_length == pytest.approx(34.9254, abs=5e-5)
     validated("contact ratio of C14", C14.contact_ratio, 1.4625, 5e-5, source, **how)
-    assert C14.pole - C14.path_start == pytest.approx(9.676, abs=5e-4)
+    assert C14.pitch_point - C14.path_start == pytest.approx(9.676, abs=5e-4)
     assert pytest.approx(422.29, abs=5e-3) == LINE_LOAD
 
 
@@ -97,7 +97,7 @@ def test_initial_wear_per_mesh(validated: Callable[..., None], name: str) -> Non
 def test_rigid_flanks_wear_at_a_constant_rate() -> None:
     """Archard: h = k q |1 - v2/v1| N at every point, whatever the flanks look like."""
     of = mechanism()
-    run, _ = run_advance(of.contact, archard(RATE), (depth_criterion(0.02),), 1e12, 1e-4)
+    run, _ = run_advance(of.contact, archard(RATE), (depth_limit(0.02),), 1e12, 1e-4)
     ratio = (C14.line_length - of.place) / (C14.ratio * of.place)
     expected = RATE * LINE_LOAD * of.share * np.abs(1.0 - ratio) * run.cycles[-1]
     np.testing.assert_allclose(run.depth[-1], expected, rtol=1e-6)
@@ -200,8 +200,8 @@ def test_driving_and_driven_gear_change_places() -> None:
     swapped = InvolutePair((24, 16), 4.5, C14.pressure_angle, (0.1715, 0.1817), (59.272, 41.318))
     other = GearPairMechanism(swapped, 1.5 * TORQUE, 10.0 / 1.5, MODULUS, 1.0, 14000.0, 401)
     law = archard(RATE)
-    first, _ = run_advance(one.contact, law, (depth_criterion(1.0),), 1e6, 1e-5)
-    second, _ = run_advance(other.contact, law, (depth_criterion(1.0),), 1e6 / 1.5, 1e-5)
+    first, _ = run_advance(one.contact, law, (depth_limit(1.0),), 1e6, 1e-5)
+    second, _ = run_advance(other.contact, law, (depth_limit(1.0),), 1e6 / 1.5, 1e-5)
     wheel = one.mate_columns(first.depth)["wheel_depth_mm"][-401:]
     np.testing.assert_allclose(second.depth[-1][::-1], wheel, rtol=1e-4, atol=1e-7)
     pinion = other.mate_columns(second.depth)["wheel_depth_mm"][-401:]
@@ -217,7 +217,7 @@ def test_power_law_follows_the_curvature_of_both_flanks() -> None:
     """m = 3, worn for a short time: dh/dN = K c_m p^2 (4/pi) q slip with the new curvature."""
     of = mechanism(points=101)
     law = power(1e-16, 3.0)
-    run, _ = run_advance(of.contact, law, (depth_criterion(1.0),), 1.0, 1e-4)
+    run, _ = run_advance(of.contact, law, (depth_limit(1.0),), 1.0, 1e-4)
     load = LINE_LOAD * of.share
     p0 = np.sqrt(load * of.curvature * MODULUS / math.pi)
     # Mean of (1 - (x/a)^2)^(3/2) over the width is 3 pi/16.
@@ -230,7 +230,7 @@ def test_power_law_follows_the_curvature_of_both_flanks() -> None:
 @pytest.mark.parametrize("stiffness", [0.0, 14000.0])
 def test_lives_converge_with_the_points(stiffness: float) -> None:
     """Kinks at the pole and where a pair takes over: to 2e-3 from 101 points on."""
-    law, limit = power(RATE / 1000.0, 2.0), (depth_criterion(0.02),)
+    law, limit = power(RATE / 1000.0, 2.0), (depth_limit(0.02),)
     lives = []
     for points in (101, 201, 401):
         run, _ = run_advance(mechanism(stiffness, points).contact, law, limit, 1e12, 1e-4)
@@ -283,10 +283,10 @@ def test_contact_fatigue_beside_the_wear() -> None:
     loaded = ["load.torque_N_m=350", "wear.specific_wear_rate_mm2_per_N=1e-12"]
     first = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, loaded)).warnings)
     assert "contact fatigue of the pinion comes before the wear" in first
-    most = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
-    assert "more than the pinion endures for any time" in " ".join(most.warnings)
-    assert set(most.parts.values()) == {wearsim.Life(0.0, 0.0)}
-    assert most.governing == "pinion_fatigue"
+    greatest = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
+    assert "more than the pinion endures for any time" in " ".join(greatest.warnings)
+    assert set(greatest.parts.values()) == {wearsim.Life(0.0, 0.0)}
+    assert greatest.governing == "pinion_fatigue"
 
 
 def test_fatigue_that_never_comes_is_a_bound() -> None:

@@ -11,11 +11,11 @@ from wearsim.contact import hertz
 from wearsim.errors import GeometryError
 from wearsim.handbook.hertz_check.hertz_fem import _pressure
 from wearsim.handbook.hertz_check.model import difference, hertz_check, stresses_at, whole_stresses
-from wearsim.handbook.hertz_check.pole_contact import PoleContact, share_for, single_changes
+from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact, share_for, single_changes
 from wearsim.handbook.hertz_check.published import load_hertz_check
 
 CASE = Path(__file__).parents[2] / "cases" / "sizing" / "hertz-check-36-54.toml"
-BASE = PoleContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))
+BASE = PitchPointContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))
 PRINTED = replace(BASE, torque=600e3, gear_ratio=5.0)
 
 

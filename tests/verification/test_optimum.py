@@ -18,7 +18,7 @@ import tomlkit
 from scipy.optimize import minimize_scalar
 
 import wearsim
-from wearsim.geometry.outline import turned
+from wearsim.geometry.outline import rotated
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.result import Life
 from wearsim.runner.run_study import run_study
@@ -185,7 +185,7 @@ def test_pressure_and_mass_are_those_of_the_case() -> None:
     mirrored = case_of(back_flank="mirrored")
     assert isinstance(mirrored.drive, StrandDrive)
     tooth, radius = mirrored.drive.tooth, mirrored.drive.tooth.tip_radius
-    gaps = [turned(tooth.gap, -n * math.tau / tooth.teeth) for n in range(tooth.teeth)]
+    gaps = [rotated(tooth.gap, -n * math.tau / tooth.teeth) for n in range(tooth.teeth)]
     tip = tooth.tip_land / radius
     over_chords = 0.5 * tooth.teeth * radius**2 * (tip - math.sin(tip))
     plate = 7850e-9 * WIDTH * (shapely.Polygon(np.concatenate(gaps)).area + over_chords)

@@ -16,8 +16,8 @@ from scipy.optimize import newton
 from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.line_of_action import involute
-from wearsim.geometry.gear.line_synthesis import Synthesis
+from wearsim.geometry.gear.path_of_contact import involute
+from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import direction_fields, loaded_pair, phases, stress_fields
@@ -59,13 +59,15 @@ def touching(x, y, stress, family):
 
 
 def segment(family, last, stress=SIGMA, nodes=5, at=None):
-    synthesis = Synthesis(CIRCLES, pair(stress).law, family)
+    synthesis = PathSynthesis(CIRCLES, pair(stress).radius_rule, family)
     return synthesis.from_point(START, np.linspace(START[0], last, nodes) if at is None else at)
 
 
-def through_pole(at, stress=SIGMA, load=TORQUE):
+def through_pitch_point(at, stress=SIGMA, load=TORQUE):
     loaded = pair(stress, load)
-    return Synthesis(CIRCLES, loaded.law, 1).through_pole(loaded.pole_crossing(), at)
+    return PathSynthesis(CIRCLES, loaded.radius_rule, 1).through_pitch_point(
+        loaded.pitch_point_crossing(), at
+    )
 
 
 def exactly(printed):
@@ -82,7 +84,7 @@ def test_constants():
     assert exactly("0.0308641975308642") == CIRCLES.curvature_sum
     assert exactly("-0.00308641975308642") == CIRCLES.curvature_bias
     assert (CIRCLES.pinion_radius, CIRCLES.wheel_radius) == (54.0, 81.0)
-    assert float(CIRCLES.pole_radius(math.radians(20))) == exactly("11.08145264")
+    assert float(CIRCLES.pitch_point_radius(math.radians(20))) == exactly("11.08145264")
 
 
 def test_form_of_the_gear_standards():
@@ -99,34 +101,34 @@ def test_form_of_the_gear_standards():
 @pytest.mark.parametrize(
     ("stress", "angle"), [(500, "16.0139062546"), (400, "27.9797436171"), (454.1608627, "20.000000")]
 )
-def test_pole_angle(validated, stress, angle):
-    found = math.degrees(pair(stress).pole_crossing().pressure_angle)
+def test_pitch_point_angle(validated, stress, angle):
+    found = math.degrees(pair(stress).pitch_point_crossing().pressure_angle)
     quantity, source = f"pressure angle in the pole at {stress:g} MPa", "independent program"
     how = {"absolute": True, "page": stress != 400}
     validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
 
 
-def test_least_stress_in_the_pole(validated):
-    found, source = pair().least_pole_stress, "independent program"
+def test_least_stress_in_the_pitch_point(validated):
+    found, source = pair().least_pitch_point_stress, "independent program"
     validated("least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
-    assert pair(364.1191).pole_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
+    assert pair(364.1191).pitch_point_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
     with pytest.raises(GeometryError, match=r"above 364\.119 in the pole.*45 deg.*but is 364"):
         phases(pair(364), tables(364))
     steepest = np.radians(np.linspace(1, 89, 881))
-    curvature = 1 / CIRCLES.pole_radius(steepest)
+    curvature = 1 / CIRCLES.pitch_point_radius(steepest)
     stresses = peak_pressure(pair().load.at(steepest), curvature, pair().modulus)
-    assert stresses.min() == pytest.approx(pair().least_pole_stress, rel=1e-12)
+    assert stresses.min() == pytest.approx(pair().least_pitch_point_stress, rel=1e-12)
 
 
 def test_least_stress_under_a_constant_normal_load():
     """Z_E sqrt(A q), at a pressure angle of 90 deg."""
     loaded = pair(300, {"load_per_width_N_per_mm": 60, "pinion_speed_rpm": 1000})
     least = 191.6456725064184 * math.sqrt(CIRCLES.curvature_sum * 60)
-    assert loaded.least_pole_stress == pytest.approx(least, rel=1e-12)
-    angle = loaded.pole_crossing().pressure_angle
+    assert loaded.least_pitch_point_stress == pytest.approx(least, rel=1e-12)
+    angle = loaded.pitch_point_crossing().pressure_angle
     assert math.sin(angle) == pytest.approx((least / 300) ** 2, rel=1e-12)
     with pytest.raises(GeometryError, match="90 deg"):
-        pair(250, {"load_per_width_N_per_mm": 60, "pinion_speed_rpm": 9}).pole_crossing()
+        pair(250, {"load_per_width_N_per_mm": 60, "pinion_speed_rpm": 9}).pitch_point_crossing()
 
 
 @pytest.mark.parametrize(
@@ -154,7 +156,7 @@ def test_involute_is_a_fixed_solution(l):
     contacts = involute(CIRCLES, math.radians(20), [l]).contacts
     radius = 1 / contacts.relative_curvature[0]
     assert abs(CIRCLES.turn(l, math.radians(20), radius, 1)) < 1e-13
-    law = Synthesis(CIRCLES, lambda l, angle: _involute_radius(l), 1)
+    law = PathSynthesis(CIRCLES, lambda l, angle: _involute_radius(l), 1)
     line = law.from_point((l, math.radians(20)), np.linspace(l, 1.2 * l, 5))
     assert line.contacts.pressure_angle == pytest.approx(math.radians(20), abs=1e-12)
 
@@ -215,8 +217,8 @@ def measures(contacts):
     return {
         "rho1": rho1,
         "rho2": rho2,
-        "p": rho1 - contacts.pole_distance,
-        "q": rho2 + contacts.pole_distance,
+        "p": rho1 - contacts.pitch_point_distance,
+        "q": rho2 + contacts.pitch_point_distance,
         "slope": contacts.slope,
         "mu": np.degrees(contacts.direction),
         "sum": W1 * (contacts.pinion_rolling + contacts.wheel_rolling) / 1e3,
@@ -241,25 +243,25 @@ def test_root_of_the_duality():
     for stress, rho, root in [(SIGMA, "10.87165746", "22.6685604458"), (600, "6.228918834", "18.46528415")]:
         radius = float(pair(stress).reduced_radius(*START))
         assert radius == exactly(rho)
-        twice = 4 * CIRCLES.pole_radius(START[1]) * radius
+        twice = 4 * CIRCLES.pitch_point_radius(START[1]) * radius
         assert math.sqrt(START[0] ** 2 + twice) == exactly(root)
 
 
 def test_straight_profiles():
     """1/p = 0 at rho = s - l, 1/q = 0 at rho = s + l: a centre of curvature at infinity."""
-    s = float(CIRCLES.pole_radius(0.35))
+    s = float(CIRCLES.pitch_point_radius(0.35))
     pinion = Contacts.of_radius(CIRCLES, np.array(4.0), np.array(0.35), s - 4.0, 1)
     wheel = Contacts.of_radius(CIRCLES, np.array(4.0), np.array(0.35), s + 4.0, 1)
     assert pinion.pinion_curvature == pytest.approx(0, abs=1e-15)
     assert wheel.wheel_curvature == pytest.approx(0, abs=1e-15)
 
 
-def test_small_radii_near_the_pole():
+def test_small_radii_near_the_pitch_point():
     """rho1 -> l r/(1 + r) and rho2 -> -l r/(1 + r), r^2 = rho/s.
 
     The reference text has l/2 and -l/2, which takes rho = s.
     """
-    s = float(CIRCLES.pole_radius(0.35))
+    s = float(CIRCLES.pitch_point_radius(0.35))
     for rho in (s, 9.0, 30.0):
         contacts = Contacts.of_radius(CIRCLES, np.array(1e-5), np.array(0.35), rho, -1)
         part = 1 / (1 + math.sqrt(s / rho))
@@ -300,7 +302,7 @@ def test_families_swap_the_wheels():
 
 @pytest.mark.parametrize("angle", [0.2, 0.35, 0.7])
 @pytest.mark.parametrize("turn", [-0.4, 0.0, 0.3])
-def test_reduced_radius_in_the_pole(angle, turn):
+def test_reduced_radius_in_the_pitch_point(angle, turn):
     """Any regular line of action has s there, whatever its direction."""
     contacts = Contacts(CIRCLES, np.array(0.0), np.array(angle), np.array(turn))
     assert 1 / contacts.relative_curvature == pytest.approx(math.sin(angle) * 32.4, rel=1e-13)
@@ -400,9 +402,9 @@ LINE = [
 ]
 
 
-def test_line_through_the_pole(validated):
-    line = through_pole([row[0] for row in LINE])
-    straight = involute(CIRCLES, math.radians(20), line.contacts.pole_distance).contacts
+def test_line_through_the_pitch_point(validated):
+    line = through_pitch_point([row[0] for row in LINE])
+    straight = involute(CIRCLES, math.radians(20), line.contacts.pitch_point_distance).contacts
     for at, (_, angle, roll, first, second, rho1, rho2, compared) in enumerate(LINE):
         found, source = np.degrees(line.contacts.pressure_angle[at]), "independent program"
         quantity = f"angle of the line of constant stress, l = {LINE[at][0]} mm"
@@ -416,13 +418,13 @@ def test_line_through_the_pole(validated):
         assert pair().contact_stress(straight)[at] == exactly(compared)
 
 
-def test_slope_in_the_pole():
-    contacts = through_pole([-1e-3, 0.0, 1e-3]).contacts
+def test_slope_in_the_pitch_point():
+    contacts = through_pitch_point([-1e-3, 0.0, 1e-3]).contacts
     assert contacts.slope[1] == exactly("-0.00229082468817")
     cosine = math.cos(math.radians(20))
     closed = 2 * CIRCLES.curvature_bias * cosine / (4 * cosine**2 - 1)
     assert contacts.slope == pytest.approx(closed, rel=1e-3)
-    numerical = np.gradient(contacts.pressure_angle, contacts.pole_distance)
+    numerical = np.gradient(contacts.pressure_angle, contacts.pitch_point_distance)
     assert numerical[1] == pytest.approx(closed, rel=1e-6)
 
 
@@ -430,10 +432,10 @@ NORMAL = {"load_per_width_N_per_mm": 240e3 / (76 * 54 * math.cos(math.radians(20
 
 
 def test_line_under_a_constant_normal_load():
-    contacts = through_pole([-10, 0, 10], load=NORMAL).contacts
-    first, pole, last = np.degrees(contacts.pressure_angle)
+    contacts = through_pitch_point([-10, 0, 10], load=NORMAL).contacts
+    first, pitch_point, last = np.degrees(contacts.pressure_angle)
     assert (first, last) == (exactly("22.06360010"), exactly("19.57968422"))
-    assert pole == pytest.approx(20, abs=1e-9)
+    assert pitch_point == pytest.approx(20, abs=1e-9)
     cosine = math.cos(math.radians(20))
     assert contacts.slope[1] == pytest.approx(2 * CIRCLES.curvature_bias / (3 * cosine))
 
@@ -511,8 +513,8 @@ def nodes(first, last, count=48):
 
 
 LINES = {
-    "pole": lambda: through_pole(nodes(-10, 10)),
-    "pole, normal load": lambda: through_pole(nodes(-10, 10), load=NORMAL),
+    "pole": lambda: through_pitch_point(nodes(-10, 10)),
+    "pole, normal load": lambda: through_pitch_point(nodes(-10, 10), load=NORMAL),
     **{
         f"{family:+d} at {stress} MPa": lambda family=family, last=last, stress=stress: segment(
             family, last, stress, at=nodes(START[0], last)
@@ -529,7 +531,7 @@ def fitted(l, points):
     return [np.array([fit.deriv(order)(l) for fit in fits]).T for order in (0, 1, 2)]
 
 
-def turned(points, angle):
+def rotated(points, angle):
     x, y = np.moveaxis(np.asarray(points), -1, 0)
     return np.stack([np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y], -1)
 
@@ -541,17 +543,17 @@ def test_wheel_is_the_envelope_of_the_pinion(name):
     Only the points of the pinion's profile and the rigid motion enter: no pole, no normal.
     """
     line = LINES[name]()
-    point, tangent, _ = fitted(line.contacts.pole_distance, line.pinion_profile)
+    point, tangent, _ = fitted(line.contacts.pitch_point_distance, line.pinion_profile)
 
     def seen(roll):
         """The pinion's points in the wheel's frame, and their motion there, by the roll angle."""
-        fixed = turned(point, -roll) - [0.0, 135.0]
-        moved = turned(point, -roll) @ [[0.0, -1.0], [1.0, 0.0]]
+        fixed = rotated(point, -roll) - [0.0, 135.0]
+        moved = rotated(point, -roll) @ [[0.0, -1.0], [1.0, 0.0]]
         spin = fixed @ [[0.0, -1.0], [1.0, 0.0]]
-        return turned(fixed, -roll / 1.5), turned(moved + spin / 1.5, -roll / 1.5)
+        return rotated(fixed, -roll / 1.5), rotated(moved + spin / 1.5, -roll / 1.5)
 
     def across(roll):
-        along = turned(turned(tangent, -roll), -roll / 1.5)
+        along = rotated(rotated(tangent, -roll), -roll / 1.5)
         motion = seen(roll)[1]
         return along[:, 0] * motion[:, 1] - along[:, 1] * motion[:, 0]
 
@@ -571,22 +573,22 @@ def normal_curvature(first, second, side):
 @pytest.mark.parametrize("name", LINES)
 def test_stress_from_the_points_of_both_profiles(validated, name):
     line = LINES[name]()
-    l, angle = line.contacts.pole_distance, line.contacts.pressure_angle
+    l, angle = line.contacts.pitch_point_distance, line.contacts.pressure_angle
     normal = np.column_stack([np.cos(angle), np.sin(angle)])
     _, *pinion = fitted(l, line.pinion_profile)
     _, *wheel = fitted(l, line.wheel_profile)
-    first = normal_curvature(*pinion, -turned(normal, line.roll_angle))
-    second = normal_curvature(*wheel, turned(normal, -line.roll_angle / 1.5))
+    first = normal_curvature(*pinion, -rotated(normal, line.roll_angle))
+    second = normal_curvature(*wheel, rotated(normal, -line.roll_angle / 1.5))
     # The ends of the range are left out: derivatives of a polynomial are worst there.
     inner = slice(3, -3)
     assert first[inner] == pytest.approx(line.contacts.pinion_curvature[inner], abs=1e-6)
     assert second[inner] == pytest.approx(line.contacts.wheel_curvature[inner], abs=1e-6)
     load = NORMAL["load_per_width_N_per_mm"] if "normal" in name else 240e3 / 4104 / np.cos(angle)
     stress = 191.6456725064184 * np.sqrt(load * (first + second))
-    asked = 600.0 if "600" in name else SIGMA
+    requested = 600.0 if "600" in name else SIGMA
     quantity, source = f"stress along the line {name!r}", "curvature of the points of both profiles"
     shown = name == "+1 at 600 MPa"
-    validated(quantity, asked, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
+    validated(quantity, requested, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize("name", LINES)
@@ -598,10 +600,10 @@ def test_stress_is_constant(name):
 
 def test_line_by_another_equation():
     """dy/dl = B l + eps (A/2) sqrt(l^2 + 4 rho y/(A l)) for y = l sin(alpha), rho = const."""
-    line = through_pole(np.linspace(1, 10, 10), load=NORMAL)
+    line = through_pitch_point(np.linspace(1, 10, 10), load=NORMAL)
     a, b = CIRCLES.curvature_sum, CIRCLES.curvature_bias
     rho = math.sin(math.radians(20)) / a
-    l, y = line.contacts.pole_distance, line.contacts.points[:, 1]
+    l, y = line.contacts.pitch_point_distance, line.contacts.points[:, 1]
     found = solve_ivp(
         lambda l, y: b * l + 0.5 * a * np.sqrt(l**2 + 4 * rho * y / (a * l)),
         (1, 10),
@@ -628,8 +630,8 @@ def end_by_angle(start, family=-1):
     return solve_ivp(rate, (start[1], last), start[:1], "LSODA", rtol=1e-10, atol=1e-10).y[0, -1]
 
 
-def test_small_radii_end_before_the_pole(validated):
-    end, angle = Synthesis(CIRCLES, pair().law, -1).end(START, 1e-5)
+def test_small_radii_end_before_the_pitch_point(validated):
+    end, angle = PathSynthesis(CIRCLES, pair().radius_rule, -1).end(START, 1e-5)
     assert math.degrees(angle) == pytest.approx(90, abs=0.01)
     expected, source = end_by_angle(START), "integration over the angle instead"
     validated("end of a line of small radii", end, expected, 1e-6, source, "mm", absolute=True)
@@ -641,9 +643,9 @@ def test_small_radii_end_before_the_pole(validated):
         segment(-1, 5.5857)
 
 
-def test_small_radii_end_before_the_pole_on_its_other_side():
+def test_small_radii_end_before_the_pitch_point_on_its_other_side():
     start = (-math.hypot(8, 3), math.atan2(3, 8))
-    end, angle = Synthesis(CIRCLES, pair().law, -1).end(start, -1e-5)
+    end, angle = PathSynthesis(CIRCLES, pair().radius_rule, -1).end(start, -1e-5)
     assert -6 < end < -4 and math.degrees(angle) == pytest.approx(90, abs=0.01)
     assert end == pytest.approx(end_by_angle(start), abs=1e-6)
 
@@ -651,7 +653,7 @@ def test_small_radii_end_before_the_pole_on_its_other_side():
 def test_lines_end_at_a_pressure_angle_of_zero():
     """There the contact stands still on a profile, and would run back on it."""
     for family, last in ((-1, 30), (1, 1e-5)):
-        end, angle = Synthesis(CIRCLES, pair().law, family).end(START, last)
+        end, angle = PathSynthesis(CIRCLES, pair().radius_rule, family).end(START, last)
         assert angle == pytest.approx(0, abs=1e-12)
         contacts = segment(family, end * (1 + 1e-9 * (START[0] - end))).contacts
         still = contacts.wheel_rolling[-1] if family == 1 else contacts.pinion_rolling[-1]
@@ -663,23 +665,23 @@ def test_lines_end_at_a_pressure_angle_of_zero():
 @pytest.mark.parametrize(
     ("load", "power"), [(NORMAL, 0.5), (TORQUE, 0.5 * (1 - math.tan(math.radians(20)) ** 2))]
 )
-def test_one_line_goes_through_the_pole_below_45_degrees(load, power):
+def test_one_line_goes_through_the_pitch_point_below_45_degrees(load, power):
     """What is added to it near the pole fades outward as l^(-power)."""
-    synthesis = Synthesis(CIRCLES, pair(load=load).law, 1)
-    exact = through_pole([1e-4, 1e-2], load=load).contacts.pressure_angle
+    synthesis = PathSynthesis(CIRCLES, pair(load=load).radius_rule, 1)
+    exact = through_pitch_point([1e-4, 1e-2], load=load).contacts.pressure_angle
     for shift in (1e-6, -1e-6):
         off = synthesis.end((1e-4, exact[0] + shift), 1e-2)[1] - exact[1]
         assert off / shift == pytest.approx(100**-power, rel=1e-3)
 
 
 @pytest.mark.parametrize("degrees", [60, 65, 75, 80])
-def test_many_lines_go_through_the_pole_above_45_degrees(degrees):
+def test_many_lines_go_through_the_pitch_point_above_45_degrees(degrees):
     """Under a constant torque 70 deg has the same stress in the pole as 20 deg.
 
     "Only one line of constant stress crosses the pole" holds for the smaller angle only: at the
     greater one perturbations fade towards the pole, and every line nearby ends up in it.
     """
-    synthesis = Synthesis(CIRCLES, pair().law, 1)
+    synthesis = PathSynthesis(CIRCLES, pair().radius_rule, 1)
     for start, last in ((3.0, 1e-5), (-3.0, -1e-5)):
         end, angle = synthesis.end((start, math.radians(degrees)), last)
         assert end == pytest.approx(last)
@@ -704,25 +706,29 @@ def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
 def test_stress_between_points(law):
     loaded = pair(law)
     (phase,) = phases(loaded, tables(law))
-    l = phase.line.contacts.pole_distance
-    asked = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
+    l = phase.line.contacts.pitch_point_distance
+    requested = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
     stress = loaded.contact_stress(phase.line.contacts)
-    assert stress == pytest.approx(asked, rel=1e-9)
+    assert stress == pytest.approx(requested, rel=1e-9)
     assert not phase.involute.contacts.turn.any()
 
 
-def test_slopes_on_both_sides_of_a_corner_in_the_pole():
+def test_slopes_on_both_sides_of_a_corner_in_the_pitch_point():
     loaded = pair(CORNER)
-    crossing = loaded.pole_crossing()
+    crossing = loaded.pitch_point_crossing()
     near = np.array([-0.02, -0.01, 0.01, 0.02])
-    angle = Synthesis(CIRCLES, loaded.law, 1).through_pole(crossing, near).contacts.pressure_angle
+    angle = (
+        PathSynthesis(CIRCLES, loaded.radius_rule, 1)
+        .through_pitch_point(crossing, near)
+        .contacts.pressure_angle
+    )
     advance = 54 * math.cos(crossing.pressure_angle)
     slopes = (angle - crossing.pressure_angle) / near
     extrapolated = 2 * slopes[[1, 2]] - slopes[[0, 3]]
     expected = np.array([crossing.turn_before, crossing.turn_after]) / advance
     assert extrapolated == pytest.approx(expected, rel=1e-4)
     assert expected[0] > 0 > expected[1]
-    beside = Synthesis(CIRCLES, loaded.law, 1).through_pole(crossing, [-1e-9, 1e-9])
+    beside = PathSynthesis(CIRCLES, loaded.radius_rule, 1).through_pitch_point(crossing, [-1e-9, 1e-9])
     assert tuple(beside.contacts.turn) == (crossing.turn_before, crossing.turn_after)
 
 

@@ -12,9 +12,9 @@ import pytest
 import shapely
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.strand.contact import StrandMechanism
-from wearsim.simulation.task import task
+from wearsim.simulation.wear_task import wear_task
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
 
@@ -75,7 +75,7 @@ def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float)
     """
     stop = f"stop.critical_depth_mm={depth}"
     case = reference(exponent, stop, "run.life_tolerance=1e-6")
-    advance, _ = task(case, case.drive.mechanism(case).contact).run()
+    advance, _ = wear_task(case, case.drive.mechanism(case).contact).run()
     per_cycle = wearsim.simulate(reference(exponent, stop, PER_CYCLE))
     assert advance.cycles[-1] == pytest.approx(per_cycle.cycles, rel=1e-4)
     flank = shapely.LineString(np.column_stack([advance.x[-1], advance.y[-1]]))
@@ -106,7 +106,7 @@ def test_infeasible_offset_4_is_still_a_valid_number(
     """At h = 4.0 the leaving roller cuts the flank, so only the engine can be asked."""
     mechanism = reference_mechanism(nodes=401, offset=4.0)
     law = power({1: 1e-8, 2: 1e-11}[exponent], exponent)
-    run, _ = run_advance(mechanism.contact, law, (depth_criterion(0.2),), 1e9, 1e-4)
+    run, _ = run_advance(mechanism.contact, law, (depth_limit(0.2),), 1e9, 1e-4)
     quantity = f"life with an offset of 4 mm, m = {exponent:g}"
     source, shown = "two independent programs", exponent == 1
     validated(quantity, run.cycles[-1], life, 5e-4, source, "cycles", page=shown)

@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 import pytest
 
-from wearsim.catalogue.catalogues import chains, rows
+from wearsim.catalogue.catalogues import catalogue_rows, chains
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,
-    exploitation_factor,
+    joint_application_factor,
     joint_pressure,
     speed_limits,
 )
@@ -28,7 +28,7 @@ from wearsim.chain.power_rating import (
     strand_factor,
     tooth_factor,
 )
-from wearsim.chain.selection import Finding, RatedDrive, assess, elongation_limit, rating_note
+from wearsim.chain.selection import RatedDrive, RatingFinding, assess, elongation_limit, rating_note
 from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
 from wearsim.errors import CaseError
 
@@ -44,7 +44,7 @@ def bisected(rating, target):
     return low
 
 
-def finding(drive: RatedDrive, name: str, *factors: float) -> Finding:
+def finding(drive: RatedDrive, name: str, *factors: float) -> RatingFinding:
     return next(found for found in assess(drive, *factors) if found.name == name)
 
 
@@ -281,13 +281,13 @@ def test_no_pressure_for_other_pitches(pitch: float) -> None:
 
 def test_exploitation_factor() -> None:
     """1.35 * 1.5 * 1.45 * 1.25, and 0.15 sqrt(81) = 1.35 on a slope of 81 degrees."""
-    assert exploitation_factor() == 1.0
-    worst = exploitation_factor("moderate shocks", "periodic", "three", "none")
+    assert joint_application_factor() == 1.0
+    worst = joint_application_factor("moderate shocks", "periodic", "three", "none")
     assert worst == pytest.approx(1.35 * 1.5 * 1.45 * 1.25, rel=1e-14)
-    best = exploitation_factor("heavy shocks", "continuous", "two", "tensioner")
+    best = joint_application_factor("heavy shocks", "continuous", "two", "tensioner")
     assert best == pytest.approx(1.8 * 0.8 * 1.25 * 1.1, rel=1e-14)
-    assert exploitation_factor(slope=math.radians(81)) == pytest.approx(1.35, rel=1e-12)
-    assert exploitation_factor(slope=math.radians(60)) == 1.0
+    assert joint_application_factor(slope=math.radians(81)) == pytest.approx(1.35, rel=1e-12)
+    assert joint_application_factor(slope=math.radians(60)) == 1.0
 
 
 def test_joint_pressure_of_several_strands() -> None:
@@ -396,7 +396,7 @@ def test_every_series_of_the_catalogue_is_known(series: str) -> None:
     [
         (lambda: application_factor("smoth", "smooth"), "driver must be one of smooth, slight"),
         (lambda: application_factor("smooth", "hevy shocks"), "did you mean 'heavy shocks'"),
-        (lambda: exploitation_factor(shifts="four"), "state must be one of one, two, three"),
+        (lambda: joint_application_factor(shifts="four"), "state must be one of one, two, three"),
         (lambda: strand_factor(7), "strands must be one of 1, 2, 3, 4, 5, 6, is '7'"),
         (lambda: strand_factor(4, "GOST"), "strands must be one of 1, 2, 3, is '4'"),
         (lambda: joint_pressure(1.0, 0.0), "bearing area must be above 0"),
@@ -413,4 +413,4 @@ def test_numbers_and_words_that_cannot_be(call, message: str) -> None:
     ["application_factors", "exploitation_factors", "joint_pressure", "speed_limits", "strand_factors"],
 )
 def test_every_row_has_a_source(table: str) -> None:
-    assert all(row["source"].strip() for row in rows(table))
+    assert all(row["source"].strip() for row in catalogue_rows(table))

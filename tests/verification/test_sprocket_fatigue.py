@@ -203,9 +203,9 @@ def test_a_stress_below_the_limit_is_endured_for_ever(strand: Callable[..., dict
 
 def test_a_stress_above_all_life_factors_is_allowed_at_no_time(strand: Callable[..., dict[str, Any]]) -> None:
     """K_HL is 1.8 at most: pulls of 1.01 and 0.99 of that stress squared."""
-    most = 5000.0 * (1.8 * HARD_LIMIT / evolute_peak(5000.0)) ** 2
+    greatest = 5000.0 * (1.8 * HARD_LIMIT / evolute_peak(5000.0)) ** 2
     above, below = (
-        wearsim.simulate(wearsim.load_case(strand(load={"tension_N": factor * most, "speed_rpm": 100})))
+        wearsim.simulate(wearsim.load_case(strand(load={"tension_N": factor * greatest, "speed_rpm": 100})))
         for factor in (1.01, 0.99)
     )
     assert above.parts["sprocket_fatigue"] == Life(0.0, 0.0)
@@ -251,9 +251,9 @@ def test_hardness_outside_its_formula_is_told(strand: Callable[..., dict[str, An
 
 
 def test_wear_is_the_same_with_and_without(strand: Callable[..., dict[str, Any]]) -> None:
-    asked = wearsim.simulate(wearsim.load_case(strand()))
+    requested = wearsim.simulate(wearsim.load_case(strand()))
     plain = wearsim.simulate(wearsim.load_case(strand(fatigue=None)))
-    assert plain.life == asked.life
+    assert plain.life == requested.life
     assert plain.parts == {}
     assert not {"governing_life", "sprocket_fatigue_life_hours"} & set(plain.summary())
 

@@ -354,12 +354,12 @@ def test_parseval(model):
 def test_the_first_tooth_is_anyones(model):
     """Numbering the teeth from the s-th on turns both phases and leaves all magnitudes."""
     s = 7
-    turned = replace(
+    rotated = replace(
         UNEVEN,
         pinion=replace(UNEVEN.pinion, error_phase=0.7 + 2.0 * math.pi * 2 * s / 20),
         wheel=replace(UNEVEN.wheel, error_phase=2.1 + 2.0 * math.pi * 3 * s / 30),
     )
-    one, other = (magnitudes(pair, model, np.arange(130)) for pair in (UNEVEN, turned))
+    one, other = (magnitudes(pair, model, np.arange(130)) for pair in (UNEVEN, rotated))
     np.testing.assert_allclose(one, other, atol=1e-13)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import Engagement
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.mechanisms.strand.contact import StrandMechanism, load_share
 
 MechanismMaker = Callable[..., StrandMechanism]
@@ -84,13 +84,13 @@ def test_slip_ratio_is_sliding_speed_over_contact_speed_on_any_flank(
     K = np.column_stack([flank.x, flank.y])
     n = (centre - K) / radius
     C = K + r * n
-    before_pole = np.sqrt((C**2).sum(axis=1) - (R - h) ** 2)
-    psi = np.arctan2(R - h, -before_pole) - np.arctan2(C[:, 1], C[:, 0])
+    before_pitch_point = np.sqrt((C**2).sum(axis=1) - (R - h) ** 2)
+    psi = np.arctan2(R - h, -before_pitch_point) - np.arctan2(C[:, 1], C[:, 0])
     contact_speed = radius * np.abs(np.gradient(angle, psi))
     # Fixed frame: the roller moves with the chain, the sprocket turns clockwise with omega = 1.
     cos, sin = np.cos(psi), np.sin(psi)
     nx, ny = n[:, 0] * cos - n[:, 1] * sin, n[:, 0] * sin + n[:, 1] * cos
-    Kx, Ky = -before_pole - r * nx, (R - h) - r * ny
+    Kx, Ky = -before_pitch_point - r * nx, (R - h) - r * ny
     chain_speed = (Ky * nx - Kx * ny) / nx
     sliding = np.abs((chain_speed - Ky) * -ny + Kx * nx)
     loaded = found.load_per_width > 0.0
@@ -99,7 +99,7 @@ def test_slip_ratio_is_sliding_speed_over_contact_speed_on_any_flank(
     expected, source = (sliding / contact_speed)[loaded], "rigid-body kinematics by differences"
     validated("slip ratio on a circular flank", found.slip[loaded], expected, 1e-5, source)
     np.testing.assert_allclose(found.sliding_speed[loaded], OMEGA * sliding[loaded], rtol=1e-6)
-    share = load_share(before_pole, 4.0, 30.67, 25.4)
+    share = load_share(before_pitch_point, 4.0, 30.67, 25.4)
     np.testing.assert_allclose(
         found.load_per_width[loaded], (PULL * share / nx)[loaded], rtol=1e-5, atol=1e-6
     )

@@ -18,7 +18,7 @@ from wearsim.fatigue.endurance import FatigueCurve, contact_base_cycles, service
 from wearsim.fatigue.heat_treatment import treatments
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import pair_strength
-from wearsim.handbook.strength.spectrum import Spectrum, load_spectrum, regime_spectrum
+from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import SpurMesh
 from wearsim.input.calculation_file import load_calculation
 
@@ -38,8 +38,8 @@ def pair(name, *overrides):
     return pair_strength(load_calculation(CASES[name], StrengthTables, overrides))
 
 
-def both(found, criterion, attribute):
-    return [getattr(getattr(gear, criterion), attribute) for gear in found.gears]
+def both(found, stop_limit, attribute):
+    return [getattr(getattr(gear, stop_limit), attribute) for gear in found.gears]
 
 
 class TestExampleA:
@@ -296,7 +296,7 @@ class TestSpectrum:
             load_spectrum(steps, 1e6)
 
     def test_exponent_of_the_published(self):
-        assert Spectrum("x", ((1.0, 1.0),), published={6: 0.3}).equivalence(6.0) == 0.3
+        assert LoadSpectrum("x", ((1.0, 1.0),), published={6: 0.3}).equivalence(6.0) == 0.3
 
 
 class TestFatigueCurve:

@@ -20,7 +20,7 @@ from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
 from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap, pitch_diameter
-from wearsim.geometry.segments import Arc, Line
+from wearsim.geometry.segments import ArcSegment, LineSegment
 
 INCH = 25.4
 FORMS: dict[str, Callable[..., Gap]] = {
@@ -109,9 +109,9 @@ def test_iso_seat_end(form: str, seat_end: str, theta_end: str) -> None:
 
 def test_iso_half_gap_on_the_pitch_circle() -> None:
     """The radius pairings of the standard, and the two crossed ones."""
-    least, most = (iso606.gap_form(name, 8.51, 17) for name in ("min", "max"))
-    slim = iso606.GapForm(most.flank_radius, least.seat_radius, least.seating_angle)
-    bold = iso606.GapForm(least.flank_radius, most.seat_radius, most.seating_angle)
+    least, greatest = (iso606.gap_form(name, 8.51, 17) for name in ("min", "max"))
+    slim = iso606.GapForm(greatest.flank_radius, least.seat_radius, least.seating_angle)
+    bold = iso606.GapForm(least.flank_radius, greatest.seat_radius, greatest.seating_angle)
     for printed, form in (("4.750", "min"), ("4.713", slim), ("5.431", "max"), ("5.547", bold)):
         left = iso606_gap(12.7, 8.51, 17, form=form).outline(2001)
         x, y = left.x[1001:], left.y[1001:]
@@ -332,7 +332,7 @@ def test_gost_19_05_z_20_and_15_875_z_21() -> None:
 def test_gost_displaced_halves_are_the_plain_ones_moved_apart() -> None:
     plain, displaced = (gost591_gap(25.4, 15.88, 25, displaced=moved) for moved in (False, True))
     flat, *rest = displaced.segments
-    assert isinstance(flat, Line)
+    assert isinstance(flat, LineSegment)
     assert (flat.length, flat.start[0]) == (pytest.approx(0.381), 0.0)
     assert displaced.bottom_radius == plain.bottom_radius
     for moved, part in zip(rest[:-1], plain.segments[:-1], strict=True):
@@ -433,10 +433,10 @@ def test_outline_has_the_curvature_and_the_area_of_the_arcs(form: str) -> None:
             inner = (way > start + step) & (way < start + part.length - step)
             inner[[0, -1]] = False
             sign = 1.0 if part is gap.segments[-1] else -1.0
-            expected = sign / part.radius if isinstance(part, Arc) else 0.0
+            expected = sign / part.radius if isinstance(part, ArcSegment) else 0.0
             np.testing.assert_allclose(outline.curvature[inner], expected, rtol=1e-9, atol=1e-9)
             start += part.length
-            if isinstance(part, Arc):
+            if isinstance(part, ArcSegment):
                 (cx, cy), r, p, q = part.centre, part.radius, part.first, part.last
                 twice += r * (r * (q - p) + cx * (np.sin(q) - np.sin(p)) - cy * (np.cos(q) - np.cos(p)))
             else:

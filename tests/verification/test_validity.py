@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Contact, Kind
-from wearsim.geometry.profile import Profile
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.geometry.profile_points import Profile
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.signatures import CONTACT
@@ -181,10 +181,10 @@ def test_only_what_a_table_does_not_give_is_nan(prescribed: CaseMaker) -> None:
 FLAT = Profile(np.zeros(9), np.linspace(0.0, 8.0, 9))
 
 
-def flat_contact(kernel: Callable[..., None]) -> Contact:
+def flat_contact(kernel: Callable[..., None]) -> FlankContact:
     """A flat flank of 8 mm under a contact of the test's own."""
-    return Contact(
-        kind=Kind.LOCAL,
+    return FlankContact(
+        kind=ContactKind.LOCAL,
         kernel=kernel,
         constants=np.zeros(1),
         columns=np.zeros((1, 1)),
@@ -207,7 +207,7 @@ def test_stall_has_cycle_and_place() -> None:
             slip[3] = np.nan
 
     with pytest.raises(wearsim.ConvergenceError, match=r"cycle [\d.e+]+, 3 mm from the root.*go on"):
-        run_advance(flat_contact(stalling), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
+        run_advance(flat_contact(stalling), archard(1e-9), (depth_limit(0.1),), 1e9, 1e-3)
 
 
 @pytest.mark.slow
@@ -222,7 +222,7 @@ def test_vanished_contact_has_cycle_and_place() -> None:
             load[:] = 0.0
 
     with pytest.raises(wearsim.ContactError, match=r"cycle [\d.e+]+, deepest 5 mm from.*touches no"):
-        run_advance(flat_contact(vanishing), archard(1e-9), (depth_criterion(0.1),), 1e9, 1e-3)
+        run_advance(flat_contact(vanishing), archard(1e-9), (depth_limit(0.1),), 1e9, 1e-3)
 
 
 def test_flank_turned_over_has_cycle_and_place() -> None:

@@ -22,8 +22,8 @@ from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.roller_path import roller_path
-from wearsim.geometry.segments import Arc
-from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapLoads, WrapMechanism
+from wearsim.geometry.segments import ArcSegment
+from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapLoads, WrapMechanism
 
 Array = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ def wrap(
         pitch_angle=2.0 * math.pi / gap.teeth,
         wrap_angle=wrap_angle,
         chain=WrapChain(PITCH, radius, 0.7 * radius, stiffness, alternating),
-        pull=Pull(tight, slack, driver, *friction),
+        pull=StrandTensions(tight, slack, driver, *friction),
     )
 
 
@@ -68,7 +68,7 @@ def progression(angle: float, pitch_angle: float) -> float:
 
 def seated_angle(gap: Gap) -> float:
     """Pressure angle where the seat ends: 35 - 120/z, 20 - 135/z or 30 - 135/z degrees."""
-    seat = next(part for part in gap.segments if isinstance(part, Arc))
+    seat = next(part for part in gap.segments if isinstance(part, ArcSegment))
     return float(gap.pressure_angle(seat.end_tangent))
 
 
@@ -236,8 +236,8 @@ class ExactArcs:
         for number, part in enumerate(parts):
             if left <= part.length or number == len(parts) - 1:
                 point = part.point_at(left)
-                turn = part.sense * left / part.radius if isinstance(part, Arc) else 0.0
-                direction = (part.start_tangent if isinstance(part, Arc) else part.direction) + turn
+                turn = part.sense * left / part.radius if isinstance(part, ArcSegment) else 0.0
+                direction = (part.start_tangent if isinstance(part, ArcSegment) else part.direction) + turn
                 break
             left -= part.length
         side = 1.0 if way >= 0.0 else -1.0
@@ -457,11 +457,11 @@ def test_number_of_rollers(degrees: float, phase: float) -> None:
     loads = wrap(FORMS["ANSI"](20), wrap_angle=math.radians(degrees)).loads(phase)
     last = (phase - 0.5) * 18.0 + 18.0 * (loads.force.size - 1)
     assert degrees - 9.0 - 1e-6 <= last < degrees + 9.0 + 1e-6
-    turned = math.degrees(
+    rotated = math.degrees(
         math.atan2(-loads.slack_direction[1], loads.slack_direction[0])
         - math.atan2(loads.tight_direction[1], -loads.tight_direction[0])
     )
-    assert turned % 360.0 == pytest.approx(degrees)
+    assert rotated % 360.0 == pytest.approx(degrees)
 
 
 @pytest.mark.parametrize("elongation", [0.0, 0.02])

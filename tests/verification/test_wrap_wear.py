@@ -15,15 +15,15 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
-from wearsim.contact.criteria import depth_criterion
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
-from wearsim.geometry.profile import area_between
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.geometry.profile_points import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
-from wearsim.wear.bodies import Start, highest_load
-from wearsim.wear.implicit_steps import DwellingTrajectory, run_dwelling
+from wearsim.wear.implicit_steps import RestingTrajectory, run_resting
 from wearsim.wear.law import archard, power
+from wearsim.wear.resting_bodies import StartState, highest_load
 
 Array = NDArray[np.float64]
 
@@ -57,17 +57,17 @@ def wear(
     horizon: float = ENDLESS,
     factor: float = 1.0,
     step: float = 0.0,
-) -> DwellingTrajectory:
+) -> RestingTrajectory:
     """Run until a depth or a horizon."""
     law = archard(COEFFICIENT * factor)
-    return run_dwelling(of, law, (depth_criterion(depth),), horizon, level, step)
+    return run_resting(of, law, (depth_limit(depth),), horizon, level, step)
 
 
 def events(of: WrapContact, elongation: float = 0.0) -> Array:
     """Return rows of events as (row, kind of link, phase, roller) of unworn gaps."""
     outlines = (np.tile(values, (of.bodies, 1)) for values in (of.profile.x, of.profile.y))
     table = of.events(*outlines, ChainWear(elongation), of.memory())
-    return table.reshape(kernels.EVENT_ROWS, -1, of.phases, of.most)
+    return table.reshape(kernels.EVENT_ROWS, -1, of.phases, of.most_rollers)
 
 
 def force(of: WrapContact, table: Array) -> Array:
@@ -342,9 +342,11 @@ def test_power_law_wears_less_where_pressure_is_low() -> None:
     """m = 2 with the coefficient of m = 1 at 250 MPa: fast while the scar is narrow, then slow."""
     of = contact("mechanism.phases=2")
     law = power(COEFFICIENT / 250.0, 2.0)
-    square = run_dwelling(of, law, (depth_criterion(0.02),), ENDLESS, 0)
+    square = run_resting(of, law, (depth_limit(0.02),), ENDLESS, 0)
     line = wear(of, depth=0.02)
-    first, last = (highest_load(of, law, Start(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]])
+    first, last = (
+        highest_load(of, law, StartState(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]]
+    )
     assert last < 250.0 < first
     early = 1e-4 * line.cycles[-1]
     depths = [np.interp(early, run.cycles, run.depth.max(axis=1)) for run in (square, line)]
@@ -400,7 +402,7 @@ def test_hunting_teeth_take_the_mean_of_both_kinds() -> None:
 
 
 @cache
-def replaced() -> tuple[WrapContact, DwellingTrajectory]:
+def replaced() -> tuple[WrapContact, RestingTrajectory]:
     of = grown(contact(), 6e6)
     return of, wear(of)
 
@@ -421,9 +423,9 @@ def test_a_new_chain_on_a_worn_sprocket_is_the_same_run_gone_on() -> None:
     of, run = replaced()
     first = wear(of, depth=DEPTH, horizon=6e6)
     assert first.met is None and first.elongation[-1] == pytest.approx(0.03, rel=1e-9)
-    start = Start(depth=first.all_depth[-1], wear=NEW_CHAIN, chain=2)
-    law, limit = archard(COEFFICIENT), (depth_criterion(DEPTH),)
-    rest = run_dwelling(of, law, limit, ENDLESS, 0, start=start)
+    start = StartState(depth=first.all_depth[-1], wear=NEW_CHAIN, chain=2)
+    law, limit = archard(COEFFICIENT), (depth_limit(DEPTH),)
+    rest = run_resting(of, law, limit, ENDLESS, 0, start=start)
     assert 6e6 + rest.cycles[-1] == pytest.approx(run.cycles[-1], rel=2e-3)
     assert rest.chains[-1] == run.chains[-1]
 
@@ -441,7 +443,7 @@ def test_hours_of_replacement_alone_decide() -> None:
     assert other.chains[-1] == run.chains[-1]
 
 
-def zone(of: WrapContact, run: DwellingTrajectory, area: float) -> dict[str, float]:
+def zone(of: WrapContact, run: RestingTrajectory, area: float) -> dict[str, float]:
     """Return the shape of the worn flank when so much area is gone."""
     areas = [area_between(run.x[0], run.y[0], x, y) for x, y in zip(run.x, run.y, strict=True)]
     k = int(np.searchsorted(areas, area))
@@ -479,7 +481,7 @@ def test_a_chain_that_does_not_stretch_digs_a_hook_at_the_root_one_that_does_spr
 def test_result_does_not_depend_on_the_order_of_two_runs() -> None:
     """The engine keeps nothing from run to run."""
     of = contact("mechanism.phases=2")
-    runs: list[Callable[[], DwellingTrajectory]] = [lambda: wear(of), lambda: wear(of)]
+    runs: list[Callable[[], RestingTrajectory]] = [lambda: wear(of), lambda: wear(of)]
     first, second = (run() for run in runs)
     np.testing.assert_array_equal(first.cycles, second.cycles)
     np.testing.assert_array_equal(first.all_depth, second.all_depth)

@@ -8,14 +8,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from wearsim.case.duty_blocks import Duty, resolve_duty
+from wearsim.case.duty_blocks import GivenDuty, complete_duty
 from wearsim.case.model import Case, Drive, WearInput
-from wearsim.case.shared import modulus_of, resolve_fatigue, run_input, take_defaults, wear_input
+from wearsim.case.table_inputs import contact_modulus_of, fatigue_input, run_input, take_defaults, wear_input
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
-from wearsim.input.kind import mechanism_kind
-from wearsim.input.messages import Faults
+from wearsim.input.faults import Faults
+from wearsim.input.mechanism_registry import mechanism_kind
 from wearsim.input.schema import CaseTables, ChainTable
 
 _DEEP = 0.3
@@ -29,7 +29,7 @@ _STAND_INS: dict[str, Any] = {
 }
 """What takes the place of a faulty part while the others are looked at."""
 
-Builder = Callable[[Resolution, WearInput, Chain, Duty | None], Drive | None]
+Builder = Callable[[ChainRecord, WearInput, Chain, GivenDuty | None], Drive | None]
 """Completes a drive from its tables; None where they do not make one, which the faults tell."""
 
 
@@ -52,21 +52,21 @@ def read_chain_case(document: Document, build: Builder, tolerance: float) -> Cas
 
 def _complete(tables: CaseTables, document: Document, build: Builder, tolerance: float) -> Case:
     faults = document.faults
-    case = Resolution(tables, document.folder, faults)
+    case = ChainRecord(tables, document.folder, faults)
     take_defaults(case, tables)
     chain = _chain(case, tables.chain)
     materials = tables.material
-    modulus = modulus_of(case, {"sprocket": materials.sprocket, "roller": materials.roller})
+    modulus = contact_modulus_of(case, {"sprocket": materials.sprocket, "roller": materials.roller})
     wear = wear_input(case, tables.wear)
     kind = mechanism_kind(case)
-    duty = resolve_duty(case, kind, chain)
+    duty = complete_duty(case, kind, chain)
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
     if tables.stop.min_tip_land_mm is not None:
         _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     more_limits = _more_limits(case, drive)
     run = run_input(case, tables.run, tolerance)
-    fatigue = resolve_fatigue(case, tables.fatigue)
+    fatigue = fatigue_input(case, tables.fatigue)
     faults.check()
     assert drive is not None and duty is not None
     return Case(
@@ -91,7 +91,7 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
     )
 
 
-def _title(case: Resolution, kind: str) -> str:
+def _title(case: ChainRecord, kind: str) -> str:
     """What a case is about that has no title of its own."""
     given, sprocket = case.inputs["chain"], case.inputs.get("sprocket", {})
     name = given.get("designation")
@@ -104,7 +104,7 @@ def _title(case: Resolution, kind: str) -> str:
     return f"{form}, {chain}, {sprocket['teeth']} teeth"
 
 
-def _turns_per_cycle(case: Resolution) -> int:
+def _turns_per_cycle(case: ChainRecord) -> int:
     """Turns between two loadings of a gap; some gaps carry no roller where it is not engaged_every."""
     table = case.tables.sprocket
     if table is None:
@@ -118,7 +118,7 @@ def _turns_per_cycle(case: Resolution) -> int:
     return table.engaged_every // common
 
 
-def _chain(case: Resolution, table: ChainTable) -> Chain:
+def _chain(case: ChainRecord, table: ChainTable) -> Chain:
     if table.designation is None:
         assert table.pitch_mm and table.roller_diameter_mm and table.inner_width_mm
         return replace(
@@ -144,7 +144,7 @@ def _chain(case: Resolution, table: ChainTable) -> Chain:
     return chain
 
 
-def _critical_depth(case: Resolution, drive: Drive | None) -> float:
+def _critical_depth(case: ChainRecord, drive: Drive | None) -> float:
     given = case.tables.stop.critical_depth_mm
     if given is not None:
         _check_depth(case, drive, given)
@@ -164,7 +164,7 @@ def _critical_depth(case: Resolution, drive: Drive | None) -> float:
     return math.nan
 
 
-def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
+def _check_depth(case: ChainRecord, drive: Drive | None, depth: float) -> None:
     """Compare a given critical depth with the tooth that has to bear it."""
     if drive is None or not drive.has_tooth:
         return
@@ -181,7 +181,7 @@ def _check_depth(case: Resolution, drive: Drive | None, depth: float) -> None:
         )
 
 
-def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) -> None:
+def _check_tip_land(case: ChainRecord, drive: Drive | None, min_tip_land: float) -> None:
     key = "stop.min_tip_land_mm"
     if drive is None:
         return
@@ -194,7 +194,7 @@ def _check_tip_land(case: Resolution, drive: Drive | None, min_tip_land: float) 
         )
 
 
-def _more_limits(case: Resolution, drive: Drive | None) -> dict[str, float]:
+def _more_limits(case: ChainRecord, drive: Drive | None) -> dict[str, float]:
     """Limits of the worn tooth beyond depth and tip land, by their keys."""
     stop = case.tables.stop
     keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm", "min_slack_tension_N")

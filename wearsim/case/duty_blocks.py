@@ -5,23 +5,23 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from wearsim.catalogue.catalogues import Chain, regimes
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_log
-from wearsim.input.duty_log import LogBlock, log_blocks, merged
+from wearsim.input.duty_log import LogBin, log_bins, merged
 from wearsim.input.schema import DutyBlock
 from wearsim.input.schema.drive_tables import LOAD_KEYS
 
 BINS = [20, 8]
 """Bins of tension and speed that a log is sorted into."""
 
-_MOST_BLOCKS = 12
+_MAX_BLOCKS = 12
 """Blocks of a log on a wrap, where every block adds its contacts to a cycle."""
 
 _SUM_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True)
-class LoadBlock:
+class GivenLoad:
     """A part of the duty as the case gives it."""
 
     share: float  # of the cycles
@@ -36,18 +36,18 @@ class LoadBlock:
 
 
 @dataclass(frozen=True)
-class Duty:
+class GivenDuty:
     """What a drive does, in blocks."""
 
     # their shares sum to 1; none where a table of loads takes their place
-    blocks: tuple[LoadBlock, ...]
+    blocks: tuple[GivenLoad, ...]
     speed_rpm: float  # mean over the time
     # the loads that strength and ratings are judged by: the blocks, but of a typical regime the
     # load given
-    rated: tuple[LoadBlock, ...]
+    rated: tuple[GivenLoad, ...]
 
 
-def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
+def complete_duty(case: ChainRecord, kind: str, chain: Chain) -> GivenDuty | None:
     """Return the duty of a case: from [[duty]], a log, a typical regime or constant."""
     tables, load, faults = case.tables, case.tables.load, case.faults
     if not tables.duty:
@@ -59,7 +59,7 @@ def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
     if tables.duty:
         return _given(case, kind)
     if load.duty_file is not None:
-        return _logged(case, load.duty_file, _MOST_BLOCKS if kind == "wrap" else 0, chain)
+        return _logged(case, load.duty_file, _MAX_BLOCKS if kind == "wrap" else 0, chain)
     if "load" not in tables.model_fields_set:
         return None
     name = next((key for key in LOAD_KEYS if getattr(load, key) is not None), None)
@@ -69,12 +69,12 @@ def resolve_duty(case: Resolution, kind: str, chain: Chain) -> Duty | None:
     if load.speed_rpm is None:
         return None
     if name is None or kind == "prescribed":
-        return Duty((), load.speed_rpm, ())
-    block = LoadBlock(1.0, load.speed_rpm, name, getattr(load, name), 1.0, 1.0, f"load.{name}")
-    return Duty(_regime(case, block), load.speed_rpm, (block,))
+        return GivenDuty((), load.speed_rpm, ())
+    block = GivenLoad(1.0, load.speed_rpm, name, getattr(load, name), 1.0, 1.0, f"load.{name}")
+    return GivenDuty(_regime(case, block), load.speed_rpm, (block,))
 
 
-def _regime(case: Resolution, block: LoadBlock) -> tuple[LoadBlock, ...]:
+def _regime(case: ChainRecord, block: GivenLoad) -> tuple[GivenLoad, ...]:
     """Return a constant load, or the parts of it in the given typical regime."""
     name = case.tables.load.regime
     if name is None:
@@ -89,7 +89,7 @@ def _regime(case: Resolution, block: LoadBlock) -> tuple[LoadBlock, ...]:
     return tuple(replace(block, share=share, part=part) for part, share in parts)
 
 
-def _given(case: Resolution, kind: str) -> Duty | None:
+def _given(case: ChainRecord, kind: str) -> GivenDuty | None:
     """Return the blocks of [[duty]] on a mechanism of this kind."""
     tables, faults = case.tables, case.faults
     before, blocks = faults.count, tables.duty
@@ -124,12 +124,12 @@ def _given(case: Resolution, kind: str) -> Duty | None:
     )
     case.assumptions.append(f"speed {speed:.6g} rpm is the mean over the time of the duty")
     _say_heaviest(case, len(found))
-    return Duty(found, speed, found)
+    return GivenDuty(found, speed, found)
 
 
-def _load_block(block: DutyBlock, number: int, share: float) -> LoadBlock:
+def _load_block(block: DutyBlock, number: int, share: float) -> GivenLoad:
     kind = next(key for key in LOAD_KEYS if getattr(block, key) is not None)
-    return LoadBlock(
+    return GivenLoad(
         share=share,
         speed_rpm=block.speed_rpm,
         kind=kind,
@@ -150,9 +150,9 @@ def _shares_of_cycles(shares: list[float], speeds: list[float], of_time: bool) -
     return shares, speeds[0] / slow
 
 
-def _joined(blocks: Iterable[LoadBlock]) -> tuple[LoadBlock, ...]:
+def _joined(blocks: Iterable[GivenLoad]) -> tuple[GivenLoad, ...]:
     """Join blocks of the same load and speed: shares add up, the factors on wear are their means."""
-    found: dict[tuple[str, float, float], LoadBlock] = {}
+    found: dict[tuple[str, float, float], GivenLoad] = {}
     for block in blocks:
         same = found.get((block.kind, block.value, block.speed_rpm))
         if same is not None:
@@ -166,14 +166,14 @@ def _joined(blocks: Iterable[LoadBlock]) -> tuple[LoadBlock, ...]:
     return tuple(found.values())
 
 
-def _mean(one: LoadBlock, other: LoadBlock, first: float, second: float) -> float:
+def _mean(one: GivenLoad, other: GivenLoad, first: float, second: float) -> float:
     """Return the mean of a number of two blocks by their shares; equal ones stay to the last digit."""
     if first == second:
         return first
     return (one.share * first + other.share * second) / (one.share + other.share)
 
 
-def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None:
+def _logged(case: ChainRecord, name: str, greatest: int, chain: Chain) -> GivenDuty | None:
     """Return the blocks of a log of tension and speed."""
     key = "load.duty_file"
     path = case.path(key, name)
@@ -192,13 +192,13 @@ def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None
             f"{chain.tensile:g} N (got {log.tension[heaviest]:g})",
         )
         return None
-    sorted_in = log_blocks(log, bins[0], bins[1])
-    blocks = merged(sorted_in, most) if most else sorted_in
+    sorted_in = log_bins(log, bins[0], bins[1])
+    blocks = merged(sorted_in, greatest) if greatest else sorted_in
     case.assumptions.append(_log_summary(path.name, log.duration, sorted_in, blocks))
     _say_heaviest(case, len(blocks))
     cycles = math.fsum(block.revolutions for block in blocks)
     found = tuple(
-        LoadBlock(
+        GivenLoad(
             share=block.revolutions / cycles,
             speed_rpm=60.0 * block.revolutions / block.time,
             kind="tension_N",
@@ -210,10 +210,10 @@ def _logged(case: Resolution, name: str, most: int, chain: Chain) -> Duty | None
         )
         for block in blocks
     )
-    return Duty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
+    return GivenDuty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
 
 
-def _log_summary(name: str, duration: float, sorted_in: list[LogBlock], blocks: list[LogBlock]) -> str:
+def _log_summary(name: str, duration: float, sorted_in: list[LogBin], blocks: list[LogBin]) -> str:
     text = f"{name}: {duration:.6g} s, every row holds until the next, {len(sorted_in)} blocks"
     if len(blocks) < len(sorted_in):
         square = [sum(b.revolutions * b.tension**2 for b in part) for part in (blocks, sorted_in)]
@@ -224,7 +224,7 @@ def _log_summary(name: str, duration: float, sorted_in: list[LogBlock], blocks: 
     return text
 
 
-def _say_heaviest(case: Resolution, count: int) -> None:
+def _say_heaviest(case: ChainRecord, count: int) -> None:
     if count > 1:
         case.assumptions.append(
             f"wear in a cycle is the mean over {count} blocks of the duty, weighted by their cycles; "

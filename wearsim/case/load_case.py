@@ -3,11 +3,11 @@
 from collections.abc import Callable, Sequence
 
 from wearsim.case.model import Case
-from wearsim.input.document import Document, Source, read_document
-from wearsim.input.kind import mechanism_of
+from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.input.mechanism_registry import mechanism_of
 
 
-def load_case(source: Source, overrides: Sequence[str] = ()) -> Case:
+def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     """Return the case of an input file, of its text or of a mapping with the same tables.
 
     Parameters

@@ -6,18 +6,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
-from wearsim.chain.selection import Finding
-from wearsim.contact.criteria import Criterion, depth_criterion, falling, rising, tip_land_criterion
-from wearsim.contact.engagement import Contact, Mechanism
+from wearsim.chain.selection import RatingFinding
+from wearsim.contact.engagement import FlankContact, Mechanism
+from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
 from wearsim.fatigue.endurance import EnduredHours
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene, Stroke
-from wearsim.geometry.wheel import WheelShape
+from wearsim.geometry.wheel_outline import WheelShape
 
 
 @dataclass(frozen=True)
-class Block:
+class LoadBlock:
     """A part of the duty in which load and speed are constant; a constant drive is one block."""
 
     share: float  # of the cycles; those of all blocks sum to 1
@@ -28,7 +28,7 @@ class Block:
     joint_factor: float  # on that of the chain's joints, which a straight strand does not have
 
 
-def heaviest(blocks: tuple[Block, ...]) -> Block:
+def heaviest_block(blocks: tuple[LoadBlock, ...]) -> LoadBlock:
     """Return the block of the largest tension, the first of them where several are alike."""
     return max(blocks, key=lambda block: block.tension)
 
@@ -46,7 +46,7 @@ class Drive:
     """Whether arc lengths count from the root of the flank."""
 
     @property
-    def duty(self) -> tuple[Block, ...]:
+    def duty(self) -> tuple[LoadBlock, ...]:
         """Blocks of load; none where the load is one and the same."""
         return ()
 
@@ -110,20 +110,20 @@ class Drive:
         """Return what loads every point of the flank once a cycle."""
         raise NotImplementedError(f"{type(self).__name__}: mates rest in the outline")
 
-    def stop_limits(self, case: "Case", contact: Contact) -> tuple[Criterion, ...]:
+    def stop_limits(self, case: "Case", contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return what ends the life of a flank with this contact, the critical depth first."""
         return self.tooth_limits(case)
 
-    def tooth_limits(self, case: "Case") -> tuple[Criterion, ...]:
+    def tooth_limits(self, case: "Case") -> tuple[StopLimit, ...]:
         """Return the limits of a worn flank or outline on its own, the critical depth first."""
         more = case.more_limits
-        found = [depth_criterion(case.critical_depth)]
+        found = [depth_limit(case.critical_depth)]
         if "case_depth_mm" in more:
             found.append(
                 rising("case_depth_mm", more["case_depth_mm"], lambda x, y, depth: float(depth.max()))
             )
         if self.has_tooth and case.min_tip_land:
-            found.append(tip_land_criterion(case.min_tip_land, self.worn_tip_land))
+            found.append(tip_land_limit(case.min_tip_land, self.worn_tip_land))
         if self.has_tooth and "min_tooth_thickness_mm" in more:
             thickness = more["min_tooth_thickness_mm"]
             found.append(
@@ -142,7 +142,7 @@ class Drive:
     def check(self, case: "Case") -> None:
         """Raise where the new drive does not work at all, which takes no run to find."""
 
-    def ratings(self, case: "Case") -> tuple[Finding, ...]:
+    def ratings(self, case: "Case") -> tuple[RatingFinding, ...]:
         """Return what the handbooks say about the drive."""
         return ()
 
@@ -153,67 +153,39 @@ class Drive:
 
 @dataclass(frozen=True)
 class WearInput:
-    """The wear law as it was given.
+    """The wear law as it was given."""
 
-    Attributes
-    ----------
-    law : str
-        ``archard``, ``power`` or ``drozdov``.
-    coefficient : float
-        k [mm2/N], K [1/MPa^m] or the intensity K.
-    pressure_exponent : float
-        m; 1 for archard.
-    hardness, reference_speed, speed_exponent : float
-        H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for the others.
-    low, high : float
-        The coefficient at the ends of its band, as factors of it.
-    band : str
-        Where the band comes from.
-    case_depth, core_factor : float
-        Depth of the hardened layer [mm] and what the coefficient is multiplied by below it.
-    roller_ratio : float
-        Coefficient of the rollers over that of the teeth.
-    running_in_factor, running_in_distance : float
-        First coefficient over the lasting one, and the sliding distance [mm] over which the
-        excess falls to 1/e.
-    """
-
-    law: str
-    coefficient: float
-    pressure_exponent: float
+    law: str  # `archard`, `power` or `drozdov`
+    coefficient: float  # k [mm2/N], K [1/MPa^m] or the intensity K
+    pressure_exponent: float  # m; 1 for archard
+    # hardness, reference_speed, speed_exponent: H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for
+    # the others
     hardness: float
     reference_speed: float
     speed_exponent: float
+    # low, high: the coefficient at the ends of its band, as factors of it
     low: float
     high: float
-    band: str
+    band: str  # where the band comes from
+    # case_depth, core_factor: depth of the hardened layer [mm] and what the coefficient is multiplied by
+    # below it
     case_depth: float = math.inf
     core_factor: float = 1.0
-    roller_ratio: float = 0.0
+    roller_ratio: float = 0.0  # coefficient of the rollers over that of the teeth
+    # running_in_factor, running_in_distance: first coefficient over the lasting one, and the sliding distance
+    # [mm] over which the excess falls to 1/e
     running_in_factor: float = 1.0
     running_in_distance: float = 1.0
 
 
 @dataclass(frozen=True)
 class RunInput:
-    """How the life is calculated.
+    """How the life is calculated."""
 
-    Attributes
-    ----------
-    method : str
-        ``advance`` or ``per_cycle``.
-    cycles_per_update : int
-        Of ``per_cycle``.
-    life_tolerance : float
-        Relative tolerance of the life.
-    horizon_hours : float
-        Running time at which the run ends.
-    """
-
-    method: str
-    cycles_per_update: int
-    life_tolerance: float
-    horizon_hours: float
+    method: str  # `advance` or `per_cycle`
+    cycles_per_update: int  # of `per_cycle`
+    life_tolerance: float  # relative tolerance of the life
+    horizon_hours: float  # running time at which the run ends
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from wearsim.catalogue.catalogues import Chain
 from wearsim.errors import GeometryError
 from wearsim.geometry.feasibility import OFFSET_RESERVE, evolute_limits, remedy, smallest_offset, tooth_limits
 from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
-from wearsim.geometry.measured.points import contact_range, flank_from_points, phase_error, working_side
+from wearsim.geometry.measured.points import contact_range, flank_from_points, gap_rotation, working_side
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
 
@@ -21,7 +21,7 @@ POINTS_NOISE = 1e-4
 
 
 def evolute_tooth(
-    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
+    case: ChainRecord, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
     """Complete a tooth around an evolute flank."""
     end, start, offset = table.contact_end_mm, table.contact_start_mm, table.evolute_offset_mm
@@ -71,7 +71,7 @@ def _feasible(
 
 
 def _default_offset(
-    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, contact: tuple[float, float]
+    case: ChainRecord, table: SprocketTable, chain: Chain, centrode: float, contact: tuple[float, float]
 ) -> float | None:
     if not 1.0 < contact_ratio(*contact, chain.pitch) < 2.0:
         # The range is at fault and will be named; any offset serves until then.
@@ -96,7 +96,7 @@ def _relief(table: SprocketTable, chain: Chain) -> float:
 
 
 def points_tooth(
-    case: Resolution, table: SprocketTable, chain: Chain, centrode: float, nodes: int
+    case: ChainRecord, table: SprocketTable, chain: Chain, centrode: float, nodes: int
 ) -> tuple[Tooth, float, float] | None:
     """Complete a tooth around a flank given by points."""
     faults = case.faults
@@ -114,7 +114,7 @@ def points_tooth(
     try:
         flank = working_side(flank_from_points(*points, noise, nodes))
         reached = contact_range(flank, strand.height, strand.roller_radius)
-        turned = phase_error(flank, strand)
+        rotation = gap_rotation(flank, strand)
     except GeometryError as error:
         faults.add("sprocket.points_file", str(error))
         return None
@@ -133,12 +133,12 @@ def points_tooth(
             f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
         )
         return None
-    if abs(turned) > _PHASE_TOLERANCE:
+    if abs(rotation) > _PHASE_TOLERANCE:
         case.warnings.append(
-            f"the points are turned by {math.degrees(turned):.3g} degrees against a gap centred on +y: "
+            f"the points are turned by {math.degrees(rotation):.3g} degrees against a gap centred on +y: "
             "turned back for the tooth around them"
         )
-        flank = flank.rotated(-turned)
+        flank = flank.rotated(-rotation)
     _check_reach(case, (end, start), reached, 0.01 * chain.pitch)
     case.assumptions.append(
         "the flank is a quintic smoothing spline through the points, their error taken as "
@@ -147,12 +147,12 @@ def points_tooth(
     if "back_flank" not in table.model_fields_set:
         case.take("sprocket.back_flank", table.back_flank, "default")
     tooth = Tooth(strand, flank, table.teeth, _relief(table, chain))
-    _doubt_points(case, tooth, noise)
+    _warn_of_points(case, tooth, noise)
     return tooth, end, start
 
 
 def _check_reach(
-    case: Resolution, contact: tuple[float, float], reached: tuple[float, float], tolerance: float
+    case: ChainRecord, contact: tuple[float, float], reached: tuple[float, float], tolerance: float
 ) -> None:
     """Add a fault where the range of contact goes on past an end of the flank."""
     (end, start), (root, tip) = contact, reached
@@ -168,7 +168,7 @@ def _check_reach(
         )
 
 
-def _doubt_points(case: Resolution, tooth: Tooth, noise: float) -> None:
+def _warn_of_points(case: ChainRecord, tooth: Tooth, noise: float) -> None:
     """Warn where a drawn or measured tooth is thin or cut; it may be what the user has."""
     try:
         cut = tooth.cut_depth()

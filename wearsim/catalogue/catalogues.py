@@ -28,7 +28,7 @@ def regimes() -> dict[str, tuple[tuple[float, float], ...]]:
     0.25
     """
     found: dict[str, tuple[tuple[float, float], ...]] = {}
-    for row in rows("regimes"):
+    for row in catalogue_rows("regimes"):
         block = float(row["relative_load"]), float(row["share_of_cycles"])
         found[row["regime"]] = (*found.get(row["regime"], ()), block)
     return found
@@ -108,7 +108,7 @@ class WearCondition:
 
 
 @cache
-def rows(table: str) -> tuple[dict[str, str], ...]:
+def catalogue_rows(table: str) -> tuple[dict[str, str], ...]:
     """Return a table as it stands in its file."""
     path = Path(__file__).with_name(f"{table}.csv")
     with path.open(encoding="utf-8", newline="") as file:
@@ -127,7 +127,7 @@ def chains() -> dict[str, Chain]:
     '08A-3'
     """
     found: dict[str, Chain] = {}
-    for row in rows("chains"):
+    for row in catalogue_rows("chains"):
         chain = _chain(row)
         _, _, other = row["designation"].partition(" (")
         ansi = other.rstrip(")")
@@ -205,8 +205,8 @@ def _chain(row: dict[str, str]) -> Chain:
 
 def _note(row: dict[str, str]) -> str:
     """What a case that uses the row must tell: its doubtful numbers first."""
-    _, doubtful, columns = row["trust"].partition("doubtful: ")
-    return ", ".join(part for part in (doubtful + columns, row["note"]) if part)
+    _, uncertain, columns = row["trust"].partition("doubtful: ")
+    return ", ".join(part for part in (uncertain + columns, row["note"]) if part)
 
 
 def _multiple(single: Chain, designation: str, strands: int) -> Chain:
@@ -234,7 +234,7 @@ def materials() -> dict[str, Material]:
             float(row["poissons_ratio"]),
             float(row["density_kg_per_m3"]),
         )
-        for row in rows("materials")
+        for row in catalogue_rows("materials")
     }
 
 
@@ -254,19 +254,19 @@ def wear_conditions() -> dict[str, WearCondition]:
             float(row["joint_high_mm2_per_N"]),
             row["joint_source"],
         )
-        for row in rows("wear_conditions")
+        for row in catalogue_rows("wear_conditions")
     }
 
 
-def factor(table: str, **keys: str) -> float:
+def table_factor(table: str, **keys: str) -> float:
     """Return the factor of the row whose columns hold given words.
 
     Examples
     --------
-    >>> factor("application_factors", driver="smooth", driven="heavy shocks")
+    >>> table_factor("application_factors", driver="smooth", driven="heavy shocks")
     1.8
     """
-    left = rows(table)
+    left = catalogue_rows(table)
     for column, word in keys.items():
         known = dict.fromkeys(row[column] for row in left)
         if word not in known:

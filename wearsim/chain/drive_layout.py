@@ -30,7 +30,7 @@ def polygon_effect(teeth: int) -> float:
 
 
 @dataclass(frozen=True)
-class Meetings:
+class ToothMeetings:
     """Which tooth meets which roller.
 
     With g = gcd(z, X) the teeth fall into g classes that never share a roller: a tooth meets
@@ -39,18 +39,14 @@ class Meetings:
     roller and both wear evenly. With g even a tooth meets the same kind of link, inner or outer,
     for life.
 
-    Attributes
-    ----------
-    teeth, links : int
-        z and X.
-
     Examples
     --------
-    >>> meetings = Meetings(teeth=20, links=114)
+    >>> meetings = ToothMeetings(teeth=20, links=114)
     >>> meetings.classes, meetings.rollers_per_tooth, meetings.teeth_per_roller
     (2, 57, 10)
     """
 
+    # teeth, links: z and X
     teeth: int
     links: int
 
@@ -84,18 +80,6 @@ class Meetings:
 class DriveLayout:
     """Two sprockets at a centre distance with a closed chain of so many links.
 
-    Attributes
-    ----------
-    pitch : float
-        Chain pitch [mm], above 0.
-    teeth_1, teeth_2 : int
-        Gaps of the driving and the driven sprocket, at least 5 each.
-    links : int
-        Links X of the chain.
-    centre_distance : float
-        a [mm]; the tip circles, taken with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1, must
-        not overlap, and the chain must reach. It may be less than that of the taut chain.
-
     Raises
     ------
     GeometryError
@@ -108,10 +92,13 @@ class DriveLayout:
     (300.0, 300.0, 10.0)
     """
 
-    pitch: float
+    pitch: float  # chain pitch [mm], above 0
+    # teeth_1, teeth_2: gaps of the driving and the driven sprocket, at least 5 each
     teeth_1: int
     teeth_2: int
-    links: int
+    links: int  # links X of the chain
+    # a [mm]; the tip circles, taken with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1, must not overlap,
+    # and the chain must reach. It may be less than that of the taut chain.
     centre_distance: float
 
     def __post_init__(self) -> None:
@@ -150,24 +137,24 @@ class DriveLayout:
         return math.asin(half / self.centre_distance)
 
     @property
-    def wrap_1(self) -> float:
+    def wrap_angle_1(self) -> float:
         """Wrap angle of sprocket 1, pi - 2 asin((d2 - d1)/(2 a)) [rad]."""
         return math.pi - 2.0 * self.inclination
 
     @property
-    def wrap_2(self) -> float:
+    def wrap_angle_2(self) -> float:
         """Wrap angle of sprocket 2, pi + 2 asin((d2 - d1)/(2 a)) [rad]."""
         return math.pi + 2.0 * self.inclination
 
     @property
     def engaged_1(self) -> float:
         """Pitches on sprocket 1, wrap_1 z1/(2 pi)."""
-        return self.wrap_1 * self.teeth_1 / (2.0 * math.pi)
+        return self.wrap_angle_1 * self.teeth_1 / (2.0 * math.pi)
 
     @property
     def engaged_2(self) -> float:
         """Pitches on sprocket 2, wrap_2 z2/(2 pi)."""
-        return self.wrap_2 * self.teeth_2 / (2.0 * math.pi)
+        return self.wrap_angle_2 * self.teeth_2 / (2.0 * math.pi)
 
     @property
     def span(self) -> float:
@@ -175,14 +162,14 @@ class DriveLayout:
         return self.centre_distance * math.cos(self.inclination)
 
     @property
-    def meetings_1(self) -> Meetings:
+    def meetings_1(self) -> ToothMeetings:
         """Which tooth of sprocket 1 meets which roller."""
-        return Meetings(self.teeth_1, self.links)
+        return ToothMeetings(self.teeth_1, self.links)
 
     @property
-    def meetings_2(self) -> Meetings:
+    def meetings_2(self) -> ToothMeetings:
         """Which tooth of sprocket 2 meets which roller."""
-        return Meetings(self.teeth_2, self.links)
+        return ToothMeetings(self.teeth_2, self.links)
 
     def chain_speed(self, angular_speed: float) -> float:
         """Return the mean speed of the chain, v = z1 p omega/(2 pi)."""

@@ -6,7 +6,7 @@ The tables are empirical and written in the handbooks' units: speed in rpm.
 import math
 from itertools import pairwise
 
-from wearsim.catalogue.catalogues import factor, rows
+from wearsim.catalogue.catalogues import catalogue_rows, table_factor
 from wearsim.chain.power_rating import strand_factor
 from wearsim.errors import CaseError, Fault
 
@@ -14,7 +14,7 @@ _SAME = 1e-3
 """Difference within which two pitches are the same [mm]."""
 
 
-def exploitation_factor(
+def joint_application_factor(
     load: str = "steady",
     lubrication: str = "drip",
     shifts: str = "one",
@@ -49,12 +49,12 @@ def exploitation_factor(
 
     Examples
     --------
-    >>> exploitation_factor(shifts="two", adjustment="none")  # 1.25 * 1.25
+    >>> joint_application_factor(shifts="two", adjustment="none")  # 1.25 * 1.25
     1.5625
     """
     causes = {"load": load, "lubrication": lubrication, "shifts": shifts, "adjustment": adjustment}
     used = math.prod(
-        factor("exploitation_factors", cause=cause, state=state) for cause, state in causes.items()
+        table_factor("exploitation_factors", cause=cause, state=state) for cause, state in causes.items()
     )
     degrees = abs(math.degrees(slope))
     return used * (0.15 * math.sqrt(degrees) if degrees > 60.0 else 1.0)
@@ -73,7 +73,7 @@ def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitat
     strands : int
         1 to 3.
     exploitation : float
-        K_e of `exploitation_factor`.
+        K_e of `joint_application_factor`.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def allowable_joint_pressure(pitch: float, speed: float) -> float | None:
     """
     column = [
         (float(row["speed_rpm"]), float(row["pressure_MPa"]))
-        for row in rows("joint_pressure")
+        for row in catalogue_rows("joint_pressure")
         if float(row["smallest_pitch_mm"]) - _SAME <= pitch <= float(row["largest_pitch_mm"]) + _SAME
     ]
     if not column or speed > column[-1][0]:
@@ -153,7 +153,7 @@ def speed_limits(pitch: float) -> tuple[float, float] | None:
     >>> speed_limits(25.4)
     (800.0, 1200.0)
     """
-    for row in rows("speed_limits"):
+    for row in catalogue_rows("speed_limits"):
         if abs(float(row["pitch_mm"]) - pitch) <= _SAME:
             return float(row["recommended_rpm"]), float(row["greatest_rpm"])
     return None

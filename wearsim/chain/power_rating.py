@@ -3,7 +3,7 @@
 The formulas are empirical and written in the handbooks' units: power in kW, speed in rpm.
 """
 
-from wearsim.catalogue.catalogues import factor
+from wearsim.catalogue.catalogues import table_factor
 
 HORSEPOWER = 0.745699872
 """1 hp = 550 ft lbf/s [kW]."""
@@ -40,7 +40,7 @@ def application_factor(driver: str, driven: str) -> float:
     >>> application_factor("slight shocks", "moderate shocks")
     1.5
     """
-    return factor("application_factors", driver=driver, driven=driven)
+    return table_factor("application_factors", driver=driver, driven=driven)
 
 
 def tooth_factor(teeth: float) -> float:
@@ -117,7 +117,7 @@ def strand_factor(strands: int, method: str = "ANSI") -> float:
     >>> strand_factor(3)
     2.5
     """
-    return factor("strand_factors", method=method, strands=str(strands))
+    return table_factor("strand_factors", method=method, strands=str(strands))
 
 
 def plate_fatigue_rating(pitch: float, teeth: float, speed: float, light: bool = False) -> float:

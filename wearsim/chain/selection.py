@@ -41,29 +41,6 @@ LEAST_SAFETY = 7.0
 class RatedDrive:
     """What the ratings need to know of a drive; 0 stands for not known.
 
-    Attributes
-    ----------
-    pitch : float
-        Chain pitch [mm].
-    teeth : float
-        Gaps of the smaller sprocket; no whole number where only some gaps carry a roller.
-    speed : float
-        Speed of the smaller sprocket [rpm].
-    power : float
-        Transmitted power [kW].
-    strands : int
-        Chains side by side.
-    bearing_area : float
-        Projected area of pin in bush, all strands together [mm2].
-    tensile : float
-        Minimum tensile strength, all strands together [N].
-    own_tension : float
-        Catenary and centrifugal tension of the tight span [N].
-    series : str
-        As in the catalogue: ``ISO606-A/ANSI B29.1``, ``ISO606-B``, ``ISO606-H``, ``GOST13568``.
-    light : bool
-        Whether the chain is no. 41 (085-1).
-
     Raises
     ------
     CaseError
@@ -76,16 +53,16 @@ class RatedDrive:
     4724.41
     """
 
-    pitch: float
-    teeth: float
-    speed: float
-    power: float
-    strands: int = 1
-    bearing_area: float = 0.0
-    tensile: float = 0.0
-    own_tension: float = 0.0
-    series: str = ""
-    light: bool = False
+    pitch: float  # chain pitch [mm]
+    teeth: float  # gaps of the smaller sprocket; no whole number where only some gaps carry a roller
+    speed: float  # speed of the smaller sprocket [rpm]
+    power: float  # transmitted power [kW]
+    strands: int = 1  # chains side by side
+    bearing_area: float = 0.0  # projected area of pin in bush, all strands together [mm2]
+    tensile: float = 0.0  # minimum tensile strength, all strands together [N]
+    own_tension: float = 0.0  # catenary and centrifugal tension of the tight span [N]
+    series: str = ""  # as in the catalogue: `ISO606-A/ANSI B29.1`, `ISO606-B`, `ISO606-H`, `GOST13568`
+    light: bool = False  # whether the chain is no. 41 (085-1).
 
     def __post_init__(self) -> None:
         faults = [
@@ -103,40 +80,24 @@ class RatedDrive:
 
 
 @dataclass(frozen=True)
-class Finding:
+class RatingFinding:
     """A number of the drive beside what a rule allows.
-
-    Attributes
-    ----------
-    name : str
-        What is compared.
-    value, limit : float
-        Of the drive, and by the rule, both in `unit`.
-    unit : str
-        Unit of both, empty for a ratio.
-    source : str
-        Whose rule it is.
-    note : str
-        Why the rule is only indicative here; empty where it applies as it stands.
-    at_least : bool
-        Whether the limit is a lower one.
-    load : str
-        Which of several loads of the drive it is about; empty where there is one.
 
     Examples
     --------
-    >>> Finding("safety", 6.0, 7.0, "", "iwis", at_least=True).ok
+    >>> RatingFinding("safety", 6.0, 7.0, "", "iwis", at_least=True).ok
     False
     """
 
-    name: str
+    name: str  # what is compared
+    # value, limit: of the drive, and by the rule, both in `unit`
     value: float
     limit: float
-    unit: str
-    source: str
-    note: str = ""
-    at_least: bool = False
-    load: str = ""
+    unit: str  # unit of both, empty for a ratio
+    source: str  # whose rule it is
+    note: str = ""  # why the rule is only indicative here; empty where it applies as it stands
+    at_least: bool = False  # whether the limit is a lower one
+    load: str = ""  # which of several loads of the drive it is about; empty where there is one
 
     @property
     def used(self) -> float:
@@ -154,7 +115,7 @@ class Finding:
         return self.value >= self.limit if self.at_least else self.value <= self.limit
 
 
-def overloading(ratings: Sequence[Finding]) -> tuple[Finding, ...]:
+def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     """Return the ratings that a drive is overloaded by.
 
     Those outside but for the recommended speed, above which a drive may run, and the elongation,
@@ -163,7 +124,7 @@ def overloading(ratings: Sequence[Finding]) -> tuple[Finding, ...]:
 
     Parameters
     ----------
-    ratings : sequence of Finding
+    ratings : sequence of RatingFinding
         All of a drive.
 
     Returns
@@ -173,8 +134,8 @@ def overloading(ratings: Sequence[Finding]) -> tuple[Finding, ...]:
 
     Examples
     --------
-    >>> plates = Finding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
-    >>> pressure = Finding("joint pressure", 26.0, 22.5, "MPa", "GOST practice", "indicative")
+    >>> plates = RatingFinding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
+    >>> pressure = RatingFinding("joint pressure", 26.0, 22.5, "MPa", "GOST practice", "indicative")
     >>> overloading([plates, pressure])
     ()
     >>> [finding.name for finding in overloading([pressure])]
@@ -243,7 +204,9 @@ def rating_note(series: str) -> str:
     return f"indicative, the formula is for the A series; {kinds.get(series, 'series not known')}"
 
 
-def assess(drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0) -> tuple[Finding, ...]:
+def assess(
+    drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0
+) -> tuple[RatingFinding, ...]:
     """Return what the handbooks say about a drive.
 
     Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference
@@ -256,7 +219,7 @@ def assess(drive: RatedDrive, service_factor: float = 1.0, exploitation: float =
     service_factor : float
         f1 on the power, `application_factor` times whatever reserve is wanted.
     exploitation : float
-        K_e on the joint pressure, of `exploitation_factor`.
+        K_e on the joint pressure, of `joint_application_factor`.
 
     Returns
     -------
@@ -284,7 +247,7 @@ def assess(drive: RatedDrive, service_factor: float = 1.0, exploitation: float =
     )
 
 
-def _power_findings(drive: RatedDrive, service_factor: float) -> list[Finding]:
+def _power_findings(drive: RatedDrive, service_factor: float) -> list[RatingFinding]:
     if drive.pitch > LARGEST_PITCH:
         return []
     note = rating_note(drive.series)
@@ -297,52 +260,52 @@ def _power_findings(drive: RatedDrive, service_factor: float) -> list[Finding]:
     corrected = corrected_power(drive.power, service_factor, drive.teeth)
     iso = "ISO 10823, f1 f2; rating of 19 teeth by ANSI B29.1"
     return [
-        Finding("plate fatigue", required, plates, "kW", "ANSI B29.1, H1", note),
-        Finding("roller impact", required, impact, "kW", "ANSI B29.1, H2", note),
-        Finding("corrected power", corrected, several * reference, "kW", iso, note),
+        RatingFinding("plate fatigue", required, plates, "kW", "ANSI B29.1, H1", note),
+        RatingFinding("roller impact", required, impact, "kW", "ANSI B29.1, H2", note),
+        RatingFinding("corrected power", corrected, several * reference, "kW", iso, note),
     ]
 
 
-def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[Finding]:
+def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[RatingFinding]:
     allowed = allowable_joint_pressure(drive.pitch, drive.speed)
     if allowed is None or not drive.bearing_area or drive.strands > 3:
         return []
     found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, exploitation)
     note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
-    return [Finding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
+    return [RatingFinding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
 
 
-def _speed_findings(drive: RatedDrive) -> list[Finding]:
+def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     limits = speed_limits(drive.pitch)
     if limits is None:
         return []
     note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
     names = ("recommended speed", "greatest speed")
     return [
-        Finding(name, drive.speed, limit, "rpm", "GOST practice", note)
+        RatingFinding(name, drive.speed, limit, "rpm", "GOST practice", note)
         for name, limit in zip(names, limits, strict=True)
     ]
 
 
-def _tensile_findings(drive: RatedDrive) -> list[Finding]:
+def _tensile_findings(drive: RatedDrive) -> list[RatingFinding]:
     if not drive.tensile:
         return []
     safety = drive.tensile / (drive.pull + drive.own_tension)
     rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
-    return [Finding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+    return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
 
 
-def rating_warnings(findings: Sequence[Finding]) -> list[str]:
+def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
     """Return a warning for every rating that a drive is outside of."""
     return [warning(finding) for finding in findings if not finding.ok and finding.name != _SAFETY]
 
 
-def warning(finding: Finding) -> str:
+def warning(finding: RatingFinding) -> str:
     """Return a finding outside its limit in words.
 
     Examples
     --------
-    >>> warning(Finding("plate fatigue", 30.0, 29.33, "kW", "ANSI B29.1, H1"))
+    >>> warning(RatingFinding("plate fatigue", 30.0, 29.33, "kW", "ANSI B29.1, H1"))
     'outside a rating: plate fatigue 30 kW, allowed at most 29.33 kW (ANSI B29.1, H1)'
     """
     side = "least" if finding.at_least else "most"

@@ -81,15 +81,6 @@ def catenary_tension(mass_per_length: float, span: float, sag: float = 0.02, slo
 class SpanTensions:
     """Tensions of the two spans of a running drive.
 
-    Attributes
-    ----------
-    pull : float
-        F_t, power over chain speed [N].
-    catenary : float
-        Tension of the slack span under its weight [N].
-    centrifugal : float
-        q v^2 [N].
-
     Examples
     --------
     >>> spans = SpanTensions(pull=1000.0, catenary=30.0, centrifugal=20.0)
@@ -97,9 +88,9 @@ class SpanTensions:
     (1050.0, 50.0, 1030.0)
     """
 
-    pull: float
-    catenary: float = 0.0
-    centrifugal: float = 0.0
+    pull: float  # F_t, power over chain speed [N]
+    catenary: float = 0.0  # tension of the slack span under its weight [N]
+    centrifugal: float = 0.0  # q v^2 [N]
 
     @property
     def tight(self) -> float:

@@ -6,7 +6,7 @@ import click
 
 from wearsim.command.cases_and_runs import results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.options import finite, overrides, standard, working
+from wearsim.command.options import common_options, finite, overrides, working
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 
@@ -50,7 +50,7 @@ _SHORTEST_S = 0.02
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
 @overrides
-@standard
+@common_options
 def animate(
     source: Path,
     out: Path,

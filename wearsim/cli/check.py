@@ -6,14 +6,14 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import load_cases, overrides, standard
+from wearsim.command.options import common_options, load_cases, overrides
 
 
 @click.command(short_help="Is a case complete, and can it run?")
 @click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
-@standard
+@common_options
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
     loaded = load_cases(cases, settings, as_json)

@@ -2,7 +2,7 @@
 
 import click
 
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 
 
 @click.command(short_help="How to cite wearsim and the sources of its equations.")
@@ -14,10 +14,15 @@ from wearsim.command.options import standard
     show_default=True,
     help="Plain words, BibTeX, Citation File Format or APA style.",
 )
-@standard
+@common_options
 def cite(style: str) -> None:
     """Print how to cite wearsim, and the papers whose equations it uses."""
     from wearsim import citation
 
-    forms = {"text": citation.text, "bibtex": citation.bibtex, "cff": citation.cff, "apa": citation.apa}
+    forms = {
+        "text": citation.citation_text,
+        "bibtex": citation.bibtex,
+        "cff": citation.cff,
+        "apa": citation.apa,
+    }
     click.echo(forms[style](), nl=False)

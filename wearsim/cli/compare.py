@@ -7,7 +7,7 @@ import click
 
 from wearsim.command.cases_and_runs import results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.options import SOME_FAILED, overrides, standard, warn
+from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 
 
@@ -18,7 +18,7 @@ from wearsim.command.single_file import check_workbook, workbook_option, write_w
 @click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @overrides
-@standard
+@common_options
 def compare(
     sources: tuple[Path, ...],
     out: Path | None,

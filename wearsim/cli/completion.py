@@ -2,7 +2,7 @@
 
 import click
 
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 
 _VARIABLE = "_WEARSIM_COMPLETE"
 
@@ -57,7 +57,7 @@ def _joined(words: list[str]) -> list[str]:
 
 @click.command(help=_HELP, short_help="The script that completes wearsim's words in a shell.")
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
-@standard
+@common_options
 def completion(shell: str) -> None:
     """Print the completion script of SHELL."""
     from click.shell_completion import get_completion_class

@@ -6,7 +6,7 @@ from dataclasses import asdict
 import click
 
 from wearsim.cli.list import shipped_cases
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 
 _NOT_IN_ORDER = 1
 _SELF_TEST = "hertz-arc-prescribed"
@@ -14,17 +14,17 @@ _SELF_TEST = "hertz-arc-prescribed"
 
 @click.command(short_help="Is this installation in order, and what to do if not?")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
-@standard
+@common_options
 def doctor(as_json: bool) -> int:
     """Check versions, kernels, cache, folders, extras and browser, and run a life that is known.
 
     The exit code is 1 where something that is needed has failed; what is only noted does not
     count.
     """
-    from wearsim.installation import findings
+    from wearsim.installation import installation_checks
 
     case = next((path for path in shipped_cases() if path.stem == _SELF_TEST), None)
-    found = findings(case)
+    found = installation_checks(case)
     failed = [one.name for one in found if one.state == "failed"]
     if as_json:
         content = {"schema_version": 1, "in_order": not failed, "findings": [asdict(one) for one in found]}

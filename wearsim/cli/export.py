@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.cases_and_runs import check_settings
-from wearsim.command.options import load_cases, overrides, standard, worn
+from wearsim.command.options import common_options, load_cases, overrides, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import CaseError, Fault, OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.geometry.wheel import State
+    from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
 
 _FORMATS = ("dxf", "svg", "csv", "step")
@@ -41,7 +41,7 @@ _LONGER = 1000.0
 )
 @click.option("--force", is_flag=True, help="Replace the files.")
 @overrides
-@standard
+@common_options
 def export(
     source: Path,
     out: Path | None,
@@ -75,7 +75,7 @@ def export(
         result = worn(case)
     written: list[tuple[Path, bytes]] = []
     if out is not None and kind is not None:
-        from wearsim.export.formats import export as content
+        from wearsim.export.wheel_formats import export as content
 
         written.append((out, content(case, result, states, kind)))
     if template is not None and gauge is not None and result is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import complete_chain
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
     help="New file; - is stdout.",
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
-@standard
+@common_options
 def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
     """Write a working case for a chain and a number of teeth, every key explained."""
     from wearsim.files import check_free, write_file

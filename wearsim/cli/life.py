@@ -10,6 +10,7 @@ from wearsim.command.complete import CasePath, complete_key
 from wearsim.command.options import (
     NOT_MET,
     SOME_FAILED,
+    common_options,
     error_json,
     exit_code,
     finite,
@@ -17,7 +18,6 @@ from wearsim.command.options import (
     overrides,
     print_json,
     show_error,
-    standard,
     warn,
     working,
     worn,
@@ -62,7 +62,7 @@ if TYPE_CHECKING:
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
-@standard
+@common_options
 def life(
     cases: tuple[Path, ...],
     out: Path | None,

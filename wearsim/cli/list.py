@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 
 _TABLES = ("chains", "materials", "wear-conditions", "cases", "quantities")
 
@@ -13,7 +13,7 @@ _TABLES = ("chains", "materials", "wear-conditions", "cases", "quantities")
 @click.command("list", short_help="Chains, materials, wear conditions, cases, quantities.")
 @click.argument("table", type=click.Choice(_TABLES))
 @click.option("--json", "as_json", is_flag=True, help="As a JSON array.")
-@standard
+@common_options
 def list_table(table: str, as_json: bool) -> None:
     """Print a TABLE with the source of its numbers."""
     rows = _rows(table)
@@ -33,9 +33,9 @@ def _rows(table: str) -> list[dict[str, str]]:
         return [vars(quantity) for quantity in quantities().values()]
     if table == "cases":
         return [_case(path) for path in shipped_cases()]
-    from wearsim.catalogue.catalogues import rows
+    from wearsim.catalogue.catalogues import catalogue_rows
 
-    return list(rows(table.replace("-", "_")))
+    return list(catalogue_rows(table.replace("-", "_")))
 
 
 def shipped_cases() -> list[Path]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import finite, load_cases, overrides, standard, warn
+from wearsim.command.options import common_options, finite, load_cases, overrides, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
@@ -30,7 +30,7 @@ from wearsim.command.options import finite, load_cases, overrides, standard, war
 @click.option("--worst", is_flag=True, help="The phase with the largest force on a tooth.")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
-@standard
+@common_options
 def loads(
     case: Path, elongation: float, phase: float | None, worst: bool, as_json: bool, settings: tuple[str, ...]
 ) -> None:

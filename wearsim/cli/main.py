@@ -26,7 +26,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
-from wearsim.command.options import BAD_INPUT, exit_code, show_error, standard
+from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 from wearsim.handbook.convex_concave.command import convex_concave
 from wearsim.handbook.face_load.command import face_load
@@ -66,7 +66,7 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 
 @click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="wearsim")
-@standard
+@common_options
 def wearsim_command() -> None:
     """Group of all commands."""
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import load_cases, overrides, standard
+from wearsim.command.options import common_options, load_cases, overrides
 from wearsim.command.single_file import check_place
 
 
@@ -20,7 +20,7 @@ from wearsim.command.single_file import check_place
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
 @overrides
-@standard
+@common_options
 def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
     check_place(out, case, force)

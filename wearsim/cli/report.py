@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.cases_and_runs import results_of
-from wearsim.command.options import SOME_FAILED, overrides, standard, warn
+from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
@@ -23,7 +23,7 @@ from wearsim.command.options import SOME_FAILED, overrides, standard, warn
 )
 @click.option("--force", is_flag=True, help="Replace the folder.")
 @overrides
-@standard
+@common_options
 def report(
     sources: tuple[Path, ...],
     out: Path,
@@ -44,7 +44,7 @@ def report(
     check_folder(out, force)
     found = results_of(sources, settings, False)
     from wearsim.report.comparison import differing_limits, distinct
-    from wearsim.report.html.writer import save_report
+    from wearsim.report.html.page_writer import save_report
 
     results = distinct(list(found.values()), [str(path) for path in found])
     for page in save_report(results, out, force, single_file, detail):

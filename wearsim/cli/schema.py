@@ -5,7 +5,7 @@ import json
 import click
 
 from wearsim.command.complete import complete_kind
-from wearsim.command.options import standard
+from wearsim.command.options import common_options
 
 
 @click.command(short_help="JSON Schema of the input file or of the result.")
@@ -17,7 +17,7 @@ from wearsim.command.options import standard
     shell_complete=complete_kind,
     help="Of the input of a gear pair (gear) or of a calculation (wave-drive, ...) instead.",
 )
-@standard
+@common_options
 def schema(of_result: bool, command: str | None) -> None:
     """Print the JSON Schema of the input file; editors complete and check .toml files with it."""
     if of_result and command:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import overrides, standard, warn
+from wearsim.command.options import common_options, overrides, warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
-    from wearsim.page.file import CaseFile
+    from wearsim.page.case_file import CaseFile
 
 _NEW = Path("drive.toml")
 
@@ -26,7 +26,7 @@ _NEW = Path("drive.toml")
 )
 @click.option("--no-browser", is_flag=True, help="Open no browser, only print the address.")
 @overrides
-@standard
+@common_options
 def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]) -> None:
     """Serve a page on which CASE (.toml), or a new case, is edited while its life follows.
 
@@ -38,12 +38,12 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     check_installed(("nicegui", "plotly", "jinja2"), "ui", "ui")
     opened = _Opened(case, settings)
     opened()
-    from wearsim.page.guard import loopback_socket
+    from wearsim.page.request_guard import loopback_socket
 
-    listener = loopback_socket(port)
+    server_socket = loopback_socket(port)
     from wearsim.page.server import serve  # takes a second
 
-    address = f"http://127.0.0.1:{listener.getsockname()[1]}/"
+    address = f"http://127.0.0.1:{server_socket.getsockname()[1]}/"
     click.echo(address)
     warn("Ctrl-C stops it")
     if not no_browser:
@@ -52,7 +52,7 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
 
         # A browser in the terminal keeps its caller waiting.
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
-    serve(opened, listener, _cases_to_warm())
+    serve(opened, server_socket, _cases_to_warm())
 
 
 class _Opened:
@@ -63,7 +63,7 @@ class _Opened:
 
     def __call__(self) -> "tuple[CaseFile, str]":
         from wearsim.cli.init import new_case
-        from wearsim.page.file import new_file, read_file
+        from wearsim.page.case_file import new_file, read_file
 
         if self._path is None:
             file, text = new_file(_NEW), new_case("16B-1", 20, "strand")
@@ -76,19 +76,19 @@ class _Opened:
 
 
 def _with_setting(text: str, setting: str) -> str:
-    from wearsim.page.source import tables_of, with_value
+    from wearsim.page.toml_source import parsed_tables, with_value
 
     key, equals, typed = setting.partition("=")
     if not equals or not all(key.strip().split(".")):
         raise OutputError(f"--set {setting}: must have the form table.key=VALUE")
-    if tables_of(text) is None:
+    if parsed_tables(text) is None:
         raise OutputError(f"--set {setting}: the case must be TOML for that: mend it first")
     return with_value(text, key.strip(), typed)
 
 
 def _cases_to_warm() -> tuple[str, ...]:
     from wearsim.cli.init import new_case
-    from wearsim.page.source import with_value
+    from wearsim.page.toml_source import with_value
 
     wrap = new_case("08B-1", 19, "wrap")
     for key, least in (("mechanism.phases", "1"), ("sprocket.nodes", "51")):

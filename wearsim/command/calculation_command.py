@@ -9,13 +9,21 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import error_json, exit_code, overrides, print_json, show_error, standard, warn
+from wearsim.command.options import (
+    common_options,
+    error_json,
+    exit_code,
+    overrides,
+    print_json,
+    show_error,
+    warn,
+)
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
-Compute = Callable[..., "Sheet"]
+Compute = Callable[..., "CalculationSheet"]
 Option = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
@@ -29,7 +37,7 @@ def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compu
             _show(partial(compute, **own), case, out, force, as_json, settings)
 
         _run.__doc__ = compute.__doc__
-        command = standard(overrides(_run))
+        command = common_options(overrides(_run))
         for option in (
             *options,
             click.option("--json", "as_json", is_flag=True, help="As one JSON object."),

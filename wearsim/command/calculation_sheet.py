@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class CalculationSheet:
     """A finished calculation."""
 
     text: str  # for the screen, at most a hundred characters wide

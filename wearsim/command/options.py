@@ -23,7 +23,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 BAD_INPUT, FAILED, NOT_MET, SOME_FAILED = 2, 3, 4, 5
 
 
-def standard(function: Function) -> Function:
+def common_options(function: Function) -> Function:
     """Add ``-q`` and ``--debug``, which every command takes."""
 
     def _quiet(context: click.Context, parameter: click.Parameter, value: bool) -> None:
@@ -80,20 +80,20 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(text, total=None)
 
-        def told(part: float) -> None:
+        def report_progress(part: float) -> None:
             if part < bar.tasks[0].completed:
                 bar.reset(task)
             bar.update(task, completed=part, total=1.0)
 
-        yield told
+        yield report_progress
 
 
 def worn(case: "Case") -> "WearResult":
     """Run a case and show on a terminal how far it is."""
     from wearsim.simulation import simulate
 
-    with working(f"wearing {case.title}") as told:
-        return simulate(case, told)
+    with working(f"wearing {case.title}") as report_progress:
+        return simulate(case, report_progress)
 
 
 def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:

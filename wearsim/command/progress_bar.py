@@ -16,11 +16,11 @@ from rich.progress import (
 from rich.text import Text
 
 from wearsim.quantities import grouped
-from wearsim.runner.run_study import Told
+from wearsim.runner.run_study import ProgressCount
 
 
 @contextmanager
-def counting(text: str) -> Iterator[Told]:
+def progress_count(text: str) -> Iterator[ProgressCount]:
     """Show on stderr how many cases are done, at what rate, and the time left."""
     columns = (
         TextColumn("{task.description}", markup=False),

@@ -15,7 +15,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
-class Place:
+class StudyOptions:
     """Where a study runs and what is kept of it."""
 
     out: Path | None  # its folder
@@ -31,7 +31,7 @@ class Place:
         """Return the workers that were asked for."""
         from wearsim.runner.workers import Cluster, Processes, Threads
 
-        asked = [
+        requested = [
             name
             for name, value in (
                 ("--jobs", self.jobs),
@@ -41,9 +41,9 @@ class Place:
             )
             if value is not None
         ]
-        if len(asked) > 1:
-            raise click.UsageError(f"{' and '.join(asked)} do not go together: give one of them")
-        if self.tls and not {"--scheduler", "--scheduler-file"} & set(asked):
+        if len(requested) > 1:
+            raise click.UsageError(f"{' and '.join(requested)} do not go together: give one of them")
+        if self.tls and not {"--scheduler", "--scheduler-file"} & set(requested):
             raise click.UsageError("the --tls options need --scheduler or --scheduler-file")
         if self.scheduler is not None or self.scheduler_file is not None:
             return Cluster(self.scheduler, self.scheduler_file, dict(self.tls))
@@ -52,7 +52,7 @@ class Place:
         return Threads(self.threads or os.cpu_count() or 1)
 
 
-def place_options(function: Function) -> Function:
+def study_options(function: Function) -> Function:
     """Add the options that tell where a study runs, as the argument ``place``."""
     from functools import wraps
 
@@ -73,7 +73,7 @@ def place_options(function: Function) -> Function:
     ) -> Any:
         files = {"tls_ca_file": tls_ca_file, "tls_client_cert": tls_cert, "tls_client_key": tls_key}
         tls = {name: str(path) for name, path in files.items() if path is not None}
-        place = Place(out, force, dry_run, jobs, threads, scheduler, scheduler_file, tls)
+        place = StudyOptions(out, force, dry_run, jobs, threads, scheduler, scheduler_file, tls)
         return function(*arguments, place=place, **others)
 
     for option in reversed(_OPTIONS):

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from wearsim.files import mark, write_file
 from wearsim.report.figures import picture_bytes
-from wearsim.report.lines import literal
+from wearsim.report.text_lines import literal
 
 _KINDS = ("png", "svg")
 

@@ -9,20 +9,22 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.options import SOME_FAILED, warn
-from wearsim.command.study import Place
+from wearsim.command.study import StudyOptions
 from wearsim.errors import StudyError
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from wearsim.runner.design import Design
-    from wearsim.runner.run_study import Told
+    from wearsim.runner.run_study import ProgressCount
     from wearsim.runner.store import Store
 
 INTERRUPTED = 130
 
 
-def run(design: "Design", place: Place, told: Mapping[str, Any], text: str) -> "pd.DataFrame | None":
+def run(
+    design: "Design", place: StudyOptions, progress: Mapping[str, Any], text: str
+) -> "pd.DataFrame | None":
     """Run the cases of a study, or only tell what it would take."""
     from wearsim.runner.run_study import run_study
     from wearsim.runner.store import check_store
@@ -30,47 +32,47 @@ def run(design: "Design", place: Place, told: Mapping[str, Any], text: str) -> "
     workers = place.workers()
     if place.dry_run:
         if place.out is not None:
-            check_store(place.out, design, told, place.force)
+            check_store(place.out, design, progress, place.force)
         _show_plan(design, place)
         return None
-    store = _store(design, place, told)
+    store = _store(design, place, progress)
     with _interrupted(place), _counting(text) as count:
         return run_study(design, workers, store, count)
 
 
 @contextmanager
 def in_batches(
-    design: "Design", place: Place, told: Mapping[str, Any], text: str, most: int
+    design: "Design", place: StudyOptions, progress: Mapping[str, Any], text: str, greatest: int
 ) -> "Iterator[Callable[[Design], pd.DataFrame]]":
     """Run cases of a study batch by batch, where each depends on the ones before."""
     from wearsim.runner.run_study import run_study
-    from wearsim.runner.workers import KeptOpen
+    from wearsim.runner.workers import SharedWorkers
 
-    workers, done = KeptOpen(place.workers()), 0
-    store = _store(design, place, told)
+    workers, done = SharedWorkers(place.workers()), 0
+    store = _store(design, place, progress)
     with _interrupted(place), closing(workers), _counting(text) as count:
 
         def run_batch(part: "Design") -> "pd.DataFrame":
             nonlocal done
-            table = run_study(part, workers, store, lambda now, _: count(done + now, most))
+            table = run_study(part, workers, store, lambda now, _: count(done + now, greatest))
             done += len(part.rows)
             return table
 
         yield run_batch
 
 
-def _store(design: "Design", place: Place, told: Mapping[str, Any]) -> "Store | None":
+def _store(design: "Design", place: StudyOptions, progress: Mapping[str, Any]) -> "Store | None":
     if place.out is None:
         return None
     from wearsim.extras import library
     from wearsim.runner.store import open_store
 
     library("pyarrow", "study", "--out")
-    return open_store(place.out, design, told, place.force)
+    return open_store(place.out, design, progress, place.force)
 
 
 @contextmanager
-def _interrupted(place: Place) -> "Iterator[None]":
+def _interrupted(place: StudyOptions) -> "Iterator[None]":
     """End on Ctrl-C, and say how to go on."""
     try:
         yield
@@ -95,7 +97,7 @@ def exit_code(table: "pd.DataFrame") -> int:
     return SOME_FAILED
 
 
-def _show_plan(design: "Design", place: Place) -> None:
+def _show_plan(design: "Design", place: StudyOptions) -> None:
     from wearsim.runner.shard import shards
     from wearsim.runner.store import Store
 
@@ -129,13 +131,13 @@ _TIMED = 4
 
 
 @contextmanager
-def _counting(text: str) -> "Iterator[Told]":
+def _counting(text: str) -> "Iterator[ProgressCount]":
     """Show on a terminal how many cases are done, at what rate, and the time left."""
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
         yield lambda done, count: None
         return
-    from wearsim.command.progress_bar import counting
+    from wearsim.command.progress_bar import progress_count
 
-    with counting(text) as told:
-        yield told
+    with progress_count(text) as progress:
+        yield progress

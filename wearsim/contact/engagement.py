@@ -7,11 +7,11 @@ from typing import Protocol
 
 import numpy as np
 
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.flank_geometry import flank_frame
 
 
-class Kind(Enum):
+class ContactKind(Enum):
     """How a contact meets the points of a worn flank."""
 
     TRAVELLING = "travelling"
@@ -20,84 +20,42 @@ class Kind(Enum):
     LOCAL = "local"
     """Slip is the path [mm] a point slides under the local peak pressure."""
 
-    DWELLING = "dwelling"
+    RESTING = "dwelling"
     """A mate rests in the outline and slides a path [mm]; its pressure follows from the gap."""
 
 
 @dataclass(frozen=True)
 class Engagement:
-    """One passage of a flank through contact, as arrays over its phases (points of the flank).
+    """One passage of a flank through contact, as arrays over its phases (points of the flank)."""
 
-    Attributes
-    ----------
-    kind : Kind
-        What ``slip`` means.
-    arc_length : numpy.ndarray
-        Where on the flank [mm].
-    load_per_width : numpy.ndarray
-        Normal load [N/mm]; zero where there is no contact.
-    per_cycle : numpy.ndarray
-        How often in one cycle.
-    slip : numpy.ndarray
-        Slip ratio, or path [mm] for a local contact.
-    sliding_speed : numpy.ndarray
-        Sliding speed [mm/s], nan where it is not known.
-    relative_curvature : numpy.ndarray
-        Sum of the signed curvatures of flank and roller [1/mm].
-    """
-
-    kind: Kind
-    arc_length: Vector
-    load_per_width: Vector
-    per_cycle: Vector
-    slip: Vector
-    sliding_speed: Vector
-    relative_curvature: Vector
+    kind: ContactKind  # what `slip` means
+    arc_length: Vector  # where on the flank [mm]
+    load_per_width: Vector  # normal load [N/mm]; zero where there is no contact
+    per_cycle: Vector  # how often in one cycle
+    slip: Vector  # slip ratio, or path [mm] for a local contact
+    sliding_speed: Vector  # sliding speed [mm/s], nan where it is not known
+    relative_curvature: Vector  # sum of the signed curvatures of flank and roller [1/mm]
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
-    """A flank and the compiled function that says how it is touched as it wears.
+class FlankContact:
+    """A flank and the compiled function that says how it is touched as it wears."""
 
-    Attributes
-    ----------
-    kind : Kind
-        How the contact meets the points.
-    kernel : callable
-        Compiled function of the signature ``kernels.signatures.CONTACT``.
-    constants : numpy.ndarray
-        Numbers handed to it.
-    columns : numpy.ndarray
-        Rows of values per point handed to it, shape (rows, points).
-    profile : Profile
-        The unworn flank.
-    arc_length : numpy.ndarray
-        Arc length of the unworn points [mm].
-    roller_radius : float
-        Radius of the mate [mm].
-    modulus : float
-        Contact modulus E* [MPa].
-    slip_curvature_exponent : float
-        d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0.
-    offset_form : bool
-        Whether load and sliding are those of the columns (rows as in ``kernels.offset``) and the
-        curvature follows from the depth over their arc length, at the ends not at all; of the
-        worn points otherwise.
-    least_curvature : float
-        Relative curvature [1/mm] that the kernel takes where that of the worn flank is less: a
-        mate that bridges a hollow; 0 where it takes that of the flank everywhere.
-    """
-
-    kind: Kind
-    kernel: Callable[..., None]
-    constants: Vector
-    columns: Vector
-    profile: Profile
-    arc_length: Vector
-    roller_radius: float
-    modulus: float
+    kind: ContactKind  # how the contact meets the points
+    kernel: Callable[..., None]  # compiled function of the signature `kernels.signatures.CONTACT`
+    constants: Vector  # numbers handed to it
+    columns: Vector  # rows of values per point handed to it, shape (rows, points)
+    profile: Profile  # the unworn flank
+    arc_length: Vector  # arc length of the unworn points [mm]
+    roller_radius: float  # radius of the mate [mm]
+    modulus: float  # contact modulus E* [MPa]
+    # d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0
     slip_curvature_exponent: float
+    # whether load and sliding are those of the columns (rows as in `kernels.offset`) and the curvature
+    # follows from the depth over their arc length, at the ends not at all; of the worn points otherwise
     offset_form: bool
+    # relative curvature [1/mm] that the kernel takes where that of the worn flank is less: a mate that
+    # bridges a hollow; 0 where it takes that of the flank everywhere
     least_curvature: float = 0.0
 
     @property
@@ -106,7 +64,7 @@ class Contact:
         steps = np.diff(self.arc_length)
         return 0.5 * float(steps[0] + steps[-1])
 
-    def coarsened(self) -> "Contact":
+    def coarsened(self) -> "FlankContact":
         """Return the same contact on about every second point.
 
         Returns
@@ -152,10 +110,10 @@ class Mechanism(Protocol):
     """What touches a flank, where, how hard and with how much slip."""
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> FlankContact:
         """The flank and its contact."""
 
-    def other_grids(self) -> tuple[Contact, ...]:
+    def other_grids(self) -> tuple[FlankContact, ...]:
         """Return the new flank on other points, whose lives tell how wrong that on its own is.
 
         Returns

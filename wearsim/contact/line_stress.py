@@ -16,19 +16,11 @@ _SEARCH = np.linspace(0.0, 2.0, 401)
 
 
 @dataclass(frozen=True)
-class Greatest:
-    """The greatest of a stress on the axis of a contact.
+class GreatestStress:
+    """The greatest of a stress on the axis of a contact."""
 
-    Attributes
-    ----------
-    depth : float
-        z/a; 0 where it is on the surface.
-    stress : float
-        Over the peak pressure.
-    """
-
-    depth: float
-    stress: float
+    depth: float  # z/a; 0 where it is on the surface
+    stress: float  # over the peak pressure
 
 
 def axis_stresses(depth: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -95,7 +87,7 @@ def axis_von_mises(depth: ArrayLike, poissons_ratio: float) -> NDArray[np.float6
     return np.sqrt(squares * (along**2 + across**2) - product * along * across)
 
 
-def greatest_von_mises(poissons_ratio: float) -> Greatest:
+def greatest_von_mises(poissons_ratio: float) -> GreatestStress:
     """Return the greatest von Mises stress on the axis of the contact.
 
     Parameters
@@ -116,12 +108,12 @@ def greatest_von_mises(poissons_ratio: float) -> Greatest:
     """
     top = int(axis_von_mises(_SEARCH, poissons_ratio).argmax())
     if top == 0:
-        return Greatest(0.0, 1.0 - 2.0 * poissons_ratio)
+        return GreatestStress(0.0, 1.0 - 2.0 * poissons_ratio)
     depth = float(brentq(_slope, _SEARCH[top - 1], _SEARCH[top + 1], args=(poissons_ratio,), xtol=1e-15))
-    return Greatest(depth, float(axis_von_mises(depth, poissons_ratio)))
+    return GreatestStress(depth, float(axis_von_mises(depth, poissons_ratio)))
 
 
-def greatest_shear() -> Greatest:
+def greatest_shear() -> GreatestStress:
     """Return the greatest shear stress on the axis of the contact.
 
     tau/p0 = z - z^2/s; its derivative vanishes where z^4 + z^2 = 1.
@@ -138,7 +130,7 @@ def greatest_shear() -> Greatest:
     (0.300283106, 0.78615138)
     """
     depth = math.sqrt(0.5 * (math.sqrt(5.0) - 1.0))
-    return Greatest(depth, float(axis_shear(depth)))
+    return GreatestStress(depth, float(axis_shear(depth)))
 
 
 def _weights(poissons_ratio: float) -> tuple[float, float]:

@@ -8,25 +8,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.line_synthesis import PoleCrossing
+from wearsim.geometry.gear.path_synthesis import PitchPointCrossing
 from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 
 @dataclass(frozen=True)
 class LineLoad:
-    """Normal load per face width, q = w/cos(alpha)^n.
+    """Normal load per face width, q = w/cos(alpha)^n."""
 
-    Attributes
-    ----------
-    base : float
-        w [N/mm]; for a constant torque T1/(b r1).
-    power : int
-        n: 1 for a constant torque, 0 for a constant normal load.
-    """
-
-    base: float
-    power: int
+    base: float  # w [N/mm]; for a constant torque T1/(b r1)
+    power: int  # n: 1 for a constant torque, 0 for a constant normal load
 
     def at(self, pressure_angle: ArrayLike) -> Vector:
         """Return the load at a pressure angle.
@@ -50,71 +42,49 @@ class LineLoad:
         return self.power * math.tan(pressure_angle)
 
     @property
-    def best_pole_angle(self) -> float:
-        """Pressure angle with the greatest s/q in the pole [rad]: 45 deg, or 90 for n = 0."""
+    def best_pitch_point_angle(self) -> float:
+        """Pressure angle with the greatest s/q in the pitch point [rad]: 45 deg, or 90 for n = 0."""
         return 0.5 * math.pi / (1 + self.power)
 
 
 @dataclass(frozen=True, eq=False)
-class StressLaw:
-    """Contact stress over the distance from the pole: constant, or straight between points.
+class StressProfile:
+    """Contact stress over the distance from the pitch point: constant, or straight between points."""
 
-    Attributes
-    ----------
-    pole_distance : numpy.ndarray
-        l of the points [mm], ascending; any for a single one.
-    stress : numpy.ndarray
-        sigma_H there [MPa].
-    """
+    pitch_point_distance: Vector  # l of the points [mm], ascending; any for a single one
+    stress: Vector  # sigma_H there [MPa]
 
-    pole_distance: Vector
-    stress: Vector
+    def at(self, pitch_point_distance: ArrayLike) -> Vector:
+        """Return the stress at some distances from the pitch point."""
+        l = np.asarray(pitch_point_distance, float)
+        return np.asarray(np.interp(l, self.pitch_point_distance, self.stress))
 
-    def at(self, pole_distance: ArrayLike) -> Vector:
-        """Return the stress at some distances from the pole."""
-        l = np.asarray(pole_distance, float)
-        return np.asarray(np.interp(l, self.pole_distance, self.stress))
-
-    def covers(self, pole_distance: ArrayLike) -> NDArray[np.bool_]:
+    def covers(self, pitch_point_distance: ArrayLike) -> NDArray[np.bool_]:
         """Return where a stress is given."""
-        l = np.asarray(pole_distance)
-        within = (self.pole_distance[0] <= l) & (l <= self.pole_distance[-1])
+        l = np.asarray(pitch_point_distance)
+        within = (self.pitch_point_distance[0] <= l) & (l <= self.pitch_point_distance[-1])
         return np.asarray(within | (self.stress.size == 1))
 
-    def pole_slope(self, side: int) -> float:
-        """Return the slope beside the pole."""
-        right = np.searchsorted(self.pole_distance, 0.0, "left" if side < 0 else "right")
+    def pitch_point_slope(self, side: int) -> float:
+        """Return the slope beside the pitch point."""
+        right = np.searchsorted(self.pitch_point_distance, 0.0, "left" if side < 0 else "right")
         if not 0 < right < self.stress.size:
             return 0.0
-        rise, run = np.diff(self.stress)[right - 1], np.diff(self.pole_distance)[right - 1]
+        rise, run = np.diff(self.stress)[right - 1], np.diff(self.pitch_point_distance)[right - 1]
         return float(rise / run)
 
 
 @dataclass(frozen=True, eq=False)
 class LoadedPair:
-    """A gear pair with its load and the contact stress that it is to have.
+    """A gear pair with its load and the contact stress that it is to have."""
 
-    Attributes
-    ----------
-    circles : PitchCircles
-        Its pitch circles.
-    modulus : float
-        Contact modulus E* [MPa].
-    load : LineLoad
-        What a pair of teeth carries.
-    stress : StressLaw
-        What is prescribed.
-    speed : float
-        Angular speed w1 of the pinion [rad/s].
-    """
+    circles: PitchCircles  # its pitch circles
+    modulus: float  # contact modulus E* [MPa]
+    load: LineLoad  # what a pair of teeth carries
+    stress: StressProfile  # what is prescribed
+    speed: float  # angular speed w1 of the pinion [rad/s]
 
-    circles: PitchCircles
-    modulus: float
-    load: LineLoad
-    stress: StressLaw
-    speed: float
-
-    def reduced_radius(self, pole_distance: ArrayLike, pressure_angle: ArrayLike) -> Vector:
+    def reduced_radius(self, pitch_point_distance: ArrayLike, pressure_angle: ArrayLike) -> Vector:
         """Return the reduced radius that has the prescribed stress.
 
         rho = q E*/(pi sigma_H^2).
@@ -123,7 +93,7 @@ class LoadedPair:
 
         Parameters
         ----------
-        pole_distance, pressure_angle : array_like
+        pitch_point_distance, pressure_angle : array_like
             l [mm] and alpha [rad].
 
         Returns
@@ -132,11 +102,11 @@ class LoadedPair:
             rho [mm].
         """
         at_one = peak_pressure(self.load.at(pressure_angle), 1.0, self.modulus)
-        return (at_one / self.stress.at(pole_distance)) ** 2
+        return (at_one / self.stress.at(pitch_point_distance)) ** 2
 
-    def law(self, pole_distance: float, pressure_angle: float) -> float:
+    def radius_rule(self, pitch_point_distance: float, pressure_angle: float) -> float:
         """Return the reduced radius at one point."""
-        return float(self.reduced_radius(pole_distance, pressure_angle))
+        return float(self.reduced_radius(pitch_point_distance, pressure_angle))
 
     def contact_stress(self, contacts: Contacts) -> Vector:
         """Return the contact stress of profiles.
@@ -160,17 +130,17 @@ class LoadedPair:
         return peak_pressure(self.load.at(contacts.pressure_angle), curvature, self.modulus)
 
     @property
-    def least_pole_stress(self) -> float:
-        """Least contact stress that profiles can have in the pole, where rho = sin(alpha)/A.
+    def least_pitch_point_stress(self) -> float:
+        """Least contact stress that profiles can have in the pitch point, where rho = sin(alpha)/A.
 
         Equation synthesise.md (12).
         """
-        angle = self.load.best_pole_angle
-        curvature = 1.0 / self.circles.pole_radius(angle)
+        angle = self.load.best_pitch_point_angle
+        curvature = 1.0 / self.circles.pitch_point_radius(angle)
         return float(peak_pressure(self.load.at(angle), curvature, self.modulus))
 
-    def pole_crossing(self) -> PoleCrossing:
-        """Return how the line of action with the prescribed stress goes through the pole.
+    def pitch_point_crossing(self) -> PitchPointCrossing:
+        """Return how the path of contact with the prescribed stress goes through the pitch point.
 
         sin(alpha) cos(alpha)^n is proportional to 1/sigma_H^2 there. Of the two angles under a
         constant torque this is the one below 45 deg, through which one line goes.
@@ -185,23 +155,23 @@ class LoadedPair:
         Raises
         ------
         GeometryError
-            No profiles have a stress as low as this in the pole.
+            No profiles have a stress as low as this in the pitch point.
         """
-        asked, least = float(self.stress.at(0.0)), self.least_pole_stress
-        if not asked > least:
+        requested, least = float(self.stress.at(0.0)), self.least_pitch_point_stress
+        if not requested > least:
             raise GeometryError(
                 f"contact_stress_MPa: must be above {least:.6g} in the pole, the least at any pressure "
-                f"angle (it is that at {math.degrees(self.load.best_pole_angle):g} deg), but is "
-                f"{asked:g}: raise it or lower the load (a phase of synthesise may start beside the pole)"
+                f"angle (it is that at {math.degrees(self.load.best_pitch_point_angle):g} deg), but is "
+                f"{requested:g}: raise it or lower the load (a phase of synthesise may start beside the pole)"
             )
-        angle = math.asin((least / asked) ** 2) / (1 + self.load.power)
-        radius = float(self.circles.pole_radius(angle))
+        angle = math.asin((least / requested) ** 2) / (1 + self.load.power)
+        radius = float(self.circles.pitch_point_radius(angle))
         turns = [
-            self.circles.pole_turn(
+            self.circles.pitch_point_turn(
                 angle,
-                by_distance=-2.0 * radius * self.stress.pole_slope(side) / asked,
+                by_distance=-2.0 * radius * self.stress.pitch_point_slope(side) / requested,
                 by_angle=radius * self.load.growth(angle),
             )
             for side in (-1, 1)
         ]
-        return PoleCrossing(angle, *turns)
+        return PitchPointCrossing(angle, *turns)

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.engagement import Engagement, Kind
+from wearsim.contact.engagement import ContactKind, Engagement
 from wearsim.errors import ContactError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
     EVENT_COUNT,
@@ -24,27 +24,19 @@ Rows = NDArray[np.float64]
 
 
 class ChainWear(NamedTuple):
-    """What a chain in use has lost.
+    """What a chain in use has lost."""
 
-    Attributes
-    ----------
-    elongation : float
-        Relative elongation by wear of its joints.
-    roller : float
-        Depth worn off its rollers all round [mm].
-    """
-
-    elongation: float = 0.0
-    roller: float = 0.0
+    elongation: float = 0.0  # relative elongation by wear of its joints
+    roller: float = 0.0  # depth worn off its rollers all round [mm]
 
 
 NEW_CHAIN = ChainWear()
 
 
-class Dwelling(ABC):
+class RestingContact(ABC):
     """Contacts that dwell on one or several worn bodies that were alike when new."""
 
-    kind = Kind.DWELLING
+    kind = ContactKind.RESTING
 
     elongation_per_cycle: float
     """Growth of the chain in a cycle."""
@@ -148,7 +140,7 @@ class Dwelling(ABC):
         return True
 
     @abstractmethod
-    def coarsened(self) -> "Dwelling":
+    def coarsened(self) -> "RestingContact":
         """Return the same contacts on about every second point.
 
         Returns

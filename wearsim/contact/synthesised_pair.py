@@ -5,29 +5,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.contact.prescribed_stress import LoadedPair
-from wearsim.geometry.gear.line_of_action import LineOfAction
-from wearsim.geometry.gear.line_synthesis import Synthesis
 from wearsim.geometry.gear.mesh import Mesh, mesh_on
+from wearsim.geometry.gear.path_of_contact import PathOfContact
+from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import PitchCircles
 
 
 @dataclass(frozen=True, eq=False)
 class SynthesisedPair:
-    """Gears whose line of action through the pole has a prescribed contact stress.
+    """Gears whose path of contact through the pitch point has a prescribed contact stress."""
 
-    Attributes
-    ----------
-    loaded : LoadedPair
-        The pair with its stress.
-    teeth : tuple of int
-        z1 and z2.
-    reach : tuple of float
-        Distances from the pole of the first and the last contact [mm], below and above 0: those
-        of the tips of wheel and pinion.
-    """
-
-    loaded: LoadedPair
-    teeth: tuple[int, int]
+    loaded: LoadedPair  # the pair with its stress
+    teeth: tuple[int, int]  # z1 and z2
+    # distances from the pitch point of the first and the last contact [mm], below and above 0: those of the
+    # tips of wheel and pinion
     reach: tuple[float, float]
 
     @property
@@ -36,18 +27,21 @@ class SynthesisedPair:
         return self.loaded.circles
 
     @property
-    def pole_angle(self) -> float:
-        """Pressure angle in the pole [rad]."""
-        return self.loaded.pole_crossing().pressure_angle
+    def pitch_point_angle(self) -> float:
+        """Pressure angle in the pitch point [rad]."""
+        return self.loaded.pitch_point_crossing().pressure_angle
 
-    def line(self, points: int) -> LineOfAction:
-        """Return the line of action at points that are nearly evenly turned."""
-        crossing, synthesis = (self.loaded.pole_crossing(), Synthesis(self.circles, self.loaded.law, 1))
+    def line(self, points: int) -> PathOfContact:
+        """Return the path of contact at points that are nearly evenly turned."""
+        crossing, synthesis = (
+            self.loaded.pitch_point_crossing(),
+            PathSynthesis(self.circles, self.loaded.radius_rule, 1),
+        )
         tried = np.linspace(*self.reach, points)
-        roll = synthesis.through_pole(crossing, tried).roll_angle
+        roll = synthesis.through_pitch_point(crossing, tried).roll_angle
         even = np.interp(np.linspace(roll[0], roll[-1], points), roll, tried)
         even[[0, -1]] = self.reach
-        return synthesis.through_pole(crossing, even)
+        return synthesis.through_pitch_point(crossing, even)
 
     def mesh(self, points: int) -> Mesh:
         """Return the way of a pair of teeth through contact."""

@@ -13,10 +13,10 @@ import numpy as np
 import shapely
 from shapely.geometry.polygon import orient
 
-from wearsim.geometry.outline import along_ways, turned
-from wearsim.geometry.profile import Vector
-from wearsim.geometry.stretch import Stretch, angle_between, arc_about_axis, line
-from wearsim.geometry.wheel import Chain, WheelShape
+from wearsim.geometry.outline import along_ways, rotated
+from wearsim.geometry.outline_stretch import OutlineStretch, angle_between, arc_about_axis, line
+from wearsim.geometry.profile_points import Vector
+from wearsim.geometry.wheel_outline import OutlineChain, WheelShape
 
 _HEAD = 0.5
 _LEAST_HEAD = 20.0
@@ -34,13 +34,13 @@ _TOLERANCE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Gauge:
+class GaugeOutline:
     """A gauge in the frame of its space, whose centre line is +y."""
 
     name: str  # of the wheel
     # closed, of short lines: what goes between the teeth, shoulders along the tips, head
-    outline: Chain
-    new: tuple[Chain, ...]  # the new gap, for comparison
+    outline: OutlineChain
+    new: tuple[OutlineChain, ...]  # the new gap, for comparison
     clearance: float  # to the new teeth, where the gauge is not as wide as the worn gap [mm]
     pitch_radius: float  # of the wheel [mm]
     tip_radius: float  # of the wheel [mm]
@@ -53,9 +53,9 @@ class Gauge:
         return float(low[0]), float(low[1]), *(high - low).tolist()
 
 
-def gauge(shape: WheelShape) -> Gauge:
+def gauge(shape: WheelShape) -> GaugeOutline:
     """Return the gauge of a wheel that is worn to its limit."""
-    worn, new = shape.worn[shape.most_worn], shape.new[shape.most_worn]
+    worn, new = shape.worn[shape.worn_most], shape.new[shape.worn_most]
     pitch = math.tau * shape.pitch_radius / len(shape.new)
     clearance = _CLEARANCE * pitch
     top = shape.tip_radius + max(_LEAST_HEAD, _HEAD * pitch)
@@ -74,17 +74,17 @@ def gauge(shape: WheelShape) -> Gauge:
     body = max(shapely.get_parts(whole), key=shapely.area)
     vertices = shapely.get_coordinates(orient(body).exterior)
     rows = (new.right + new.left,) if new.rooted else (new.right, new.left)
-    return Gauge(
+    return GaugeOutline(
         shape.name,
-        Chain((Stretch("gauge", vertices, np.zeros(len(vertices) - 1)),), (1,), True),
-        tuple(Chain(row, (1,) * len(row), False) for row in rows),
+        OutlineChain((OutlineStretch("gauge", vertices, np.zeros(len(vertices) - 1)),), (1,), True),
+        tuple(OutlineChain(row, (1,) * len(row), False) for row in rows),
         clearance,
         shape.pitch_radius,
         shape.tip_radius,
     )
 
 
-def _points(stretches: tuple[Stretch, ...]) -> Vector:
+def _points(stretches: tuple[OutlineStretch, ...]) -> Vector:
     """Points of stretches, arcs by chords, straight across where one does not start at the last."""
     rows = []
     for part in stretches:
@@ -109,7 +109,7 @@ def _head(points: Vector, teeth: int, top: float) -> shapely.Polygon:
     right, left = points[0], points[-1]
     pitch = math.tau / teeth
     half = max(0.5 * (pitch - angle_between(right, left)), _LEAST_SHOULDER * pitch)
-    left_end, right_end = turned(left, half), turned(right, -half)
+    left_end, right_end = rotated(left, half), rotated(right, -half)
     upper = top / math.hypot(*right)
     return shapely.Polygon(
         _points(

@@ -8,11 +8,11 @@ import numpy as np
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.export.gauge import Gauge, gauge
+from wearsim.export.gauge import GaugeOutline, gauge
 from wearsim.export.printed_page import drawing_bytes
+from wearsim.geometry.outline_stretch import arc_about_axis
 from wearsim.geometry.scene import Label, Scene, Shape, line
-from wearsim.geometry.stretch import arc_about_axis
-from wearsim.geometry.wheel import Chain
+from wearsim.geometry.wheel_outline import OutlineChain
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import flanks
 from wearsim.report.scene import wheel_shapes
@@ -75,7 +75,7 @@ def _label(text: str, x: float, y: float) -> Label:
     return Label("notes", text, (x, y), _TEXT)
 
 
-def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str]]:
+def _sheet(gauges: list[GaugeOutline], text: list[str]) -> tuple[float, float, list[str]]:
     """Width and height of the smallest sheet, and the text in its lines."""
     wide = max(one.box[2] for one in gauges)
     tall = sum(one.box[3] + 12.0 for one in gauges)
@@ -91,7 +91,7 @@ def _sheet(gauges: list[Gauge], text: list[str]) -> tuple[float, float, list[str
     )
 
 
-def _placed(one: Gauge, shift: tuple[float, float]) -> list[Shape]:
+def _placed(one: GaugeOutline, shift: tuple[float, float]) -> list[Shape]:
     left, bottom, wide, tall = one.box
     x, y = shift[0] + left, shift[1] + bottom + tall - 6.0
     name = [] if one.name == "sprocket" else [_label(one.name, x + wide + 5.0, y)]
@@ -105,12 +105,12 @@ def _placed(one: Gauge, shift: tuple[float, float]) -> list[Shape]:
     ]
 
 
-def _pitch_arc(one: Gauge) -> Chain:
+def _pitch_arc(one: GaugeOutline) -> OutlineChain:
     """Pitch circle across the gauge."""
     half = min(0.5 * one.box[2] / one.pitch_radius, 1.0)
     x, y = one.pitch_radius * math.sin(half), one.pitch_radius * math.cos(half)
     ends = np.array([[x, y], [-x, y]])
-    return Chain(arc_about_axis("pitch_circle", ends[0], ends[1]), (1,), False)
+    return OutlineChain(arc_about_axis("pitch_circle", ends[0], ends[1]), (1,), False)
 
 
 def _check(x: float, y: float) -> list[Shape]:
@@ -166,13 +166,13 @@ def _sprocket_limit(case: Case, result: WearResult) -> tuple[str, float]:
     columns = [last[name] for name in ("x_mm", "y_mm", "depth_mm")]
     kinds = [last["gap_kind"] == kind for kind in set(last["gap_kind"].tolist())]
     margins = [
-        (criterion.margin(*(column[kind] for column in columns)) / criterion.limit, criterion)
-        for criterion in case.drive.tooth_limits(case)
+        (stop_limit.margin(*(column[kind] for column in columns)) / stop_limit.limit, stop_limit)
+        for stop_limit in case.drive.tooth_limits(case)
         for kind in kinds
     ]
-    least, criterion = min(margins, key=lambda pair: pair[0])
+    least, stop_limit = min(margins, key=lambda pair: pair[0])
     if least < 1e-3:
-        return criterion.name, criterion.limit
+        return stop_limit.name, stop_limit.limit
     if "over_pins_change_mm" in case.more_limits:
         return "over_pins_change_mm", case.more_limits["over_pins_change_mm"]
     return "min_slack_tension_N", 0.0

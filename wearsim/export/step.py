@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
-from wearsim.geometry.stretch import Stretch
-from wearsim.geometry.wheel import Chain, State, WheelShape
+from wearsim.geometry.outline_stretch import OutlineStretch
+from wearsim.geometry.profile_points import Vector
+from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape
 
 if TYPE_CHECKING:
     from build123d import Edge, Solid
@@ -39,7 +39,7 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     return stream.getvalue()
 
 
-def solid(chain: Chain, width: float) -> "Solid":
+def solid(chain: OutlineChain, width: float) -> "Solid":
     """Return an outline extruded along z."""
     from build123d import Face, Solid, Wire
     from build123d import Vector as Direction
@@ -48,7 +48,7 @@ def solid(chain: Chain, width: float) -> "Solid":
     return Solid.extrude(Face(Wire(edges)), Direction(0.0, 0.0, width))
 
 
-def _edges(stretch: Stretch) -> "list[Edge]":
+def _edges(stretch: OutlineStretch) -> "list[Edge]":
     from build123d import Edge
 
     if stretch.is_curve:
@@ -63,7 +63,7 @@ def _edges(stretch: Stretch) -> "list[Edge]":
     return found
 
 
-def _curve(part: Stretch) -> "list[Edge]":
+def _curve(part: OutlineStretch) -> "list[Edge]":
     """One spline, or the arcs where there are few."""
     from build123d import Edge
 
@@ -74,7 +74,7 @@ def _curve(part: Stretch) -> "list[Edge]":
     return [Edge.make_spline(points, tangents, parameters=_way(part).tolist(), scale=False)]
 
 
-def _smooth(stretch: Stretch) -> list[Stretch]:
+def _smooth(stretch: OutlineStretch) -> list[OutlineStretch]:
     """Parts of a curve on which one spline keeps to the arcs between its points.
 
     A spline has no corners and no jumps of curvature; it is split where it leaves the arcs most.
@@ -95,14 +95,14 @@ def _smooth(stretch: Stretch) -> list[Stretch]:
     return _smooth(before) + _smooth(after)
 
 
-def _way(stretch: Stretch) -> Vector:
+def _way(stretch: OutlineStretch) -> Vector:
     """Length along the arcs to every vertex [mm]."""
     half = 2.0 * np.arctan(stretch.bulges)
     chord = np.hypot(*np.diff(stretch.vertices, axis=0).T)
     return np.concatenate([[0.0], np.cumsum(chord / np.sinc(half / math.pi))])
 
 
-def _ends(stretch: Stretch) -> tuple[Vector, Vector]:
+def _ends(stretch: OutlineStretch) -> tuple[Vector, Vector]:
     """Directions of travel at both ends, half of an arc's angle off its chord."""
     found = []
     for way, sense in ((0, -1.0), (-1, 1.0)):

@@ -6,7 +6,7 @@ import numpy as np
 from ezdxf.math import Vec2
 from ezdxf.math.triangulation import mapbox_earcut_2d
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 

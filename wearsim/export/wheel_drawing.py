@@ -10,7 +10,7 @@ import numpy as np
 from wearsim.export.dxf_writer import Layers
 from wearsim.geometry.outline import along_ways
 from wearsim.geometry.scene import Circle, Label, Scene, Shape, around, line
-from wearsim.geometry.wheel import Chain, State, WheelShape
+from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -83,7 +83,7 @@ def wheel_points(shapes: Sequence[WheelShape], states: Sequence[State]) -> "pd.D
     )
 
 
-def _rows(chain: Chain) -> Iterator[tuple[int, str, float, float]]:
+def _rows(chain: OutlineChain) -> Iterator[tuple[int, str, float, float]]:
     """Tooth, stretch and place of every point of an outline."""
     for stretch, tooth in zip(chain.stretches, chain.teeth, strict=True):
         points, _ = along_ways(stretch.vertices[:-1], stretch.vertices[1:], stretch.bulges, CHORD_TOLERANCE)

@@ -100,7 +100,7 @@ def fatigue_life(
     return Endurance(limit, curve, mu, cycles_per_hour, hours, math.nan).life(highest)
 
 
-def doubtful_hardness(materials: Mapping[str, FlankMaterial]) -> list[str]:
+def hardness_warnings(materials: Mapping[str, FlankMaterial]) -> list[str]:
     """Return warnings of endurance limits by a formula outside the range it is given for."""
     found = []
     for name, material in materials.items():

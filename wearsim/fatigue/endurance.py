@@ -88,31 +88,17 @@ def contact_base_cycles(brinell: float, reading: Literal["gost", "source"] = "go
 
 @dataclass(frozen=True)
 class FatigueCurve:
-    """The stress that a tooth endures for a number of cycles, with its safety.
+    """The stress that a tooth endures for a number of cycles, with its safety."""
 
-    Attributes
-    ----------
-    limit : float
-        Stress endured for the base number of cycles [MPa]: endurance limit times the factors of
-        the surface over the safety, strength.md (26) and (27) without the life factor.
-    base_cycles : float
-        N_G.
-    exponent : float
-        Of the stress, up to the base number.
-    greatest_factor : float
-        Most that the life factor may be.
-    tail_exponent : float
-        Of the stress beyond the base number; infinite where the curve is flat there.
-    least_factor : float
-        Least that the life factor may be.
-    """
-
+    # stress endured for the base number of cycles [MPa]: endurance limit times the factors of the surface
+    # over the safety, strength.md (26) and (27) without the life factor
     limit: float
-    base_cycles: float
-    exponent: float
-    greatest_factor: float
+    base_cycles: float  # N_G
+    exponent: float  # of the stress, up to the base number
+    greatest_factor: float  # most that the life factor may be
+    # of the stress beyond the base number; infinite where the curve is flat there
     tail_exponent: float = math.inf
-    least_factor: float = 1.0
+    least_factor: float = 1.0  # least that the life factor may be
 
     @property
     def flat_from(self) -> float:
@@ -206,46 +192,22 @@ class FatigueCurve:
 
 @dataclass(frozen=True)
 class EnduredHours:
-    """Life by fatigue.
+    """Life by fatigue."""
 
-    Attributes
-    ----------
-    hours : float
-        Running time [h] at which the stress is just allowed; 0 where it never is.
-    bound : bool
-        The stress is endured at all times; ``hours`` is how far that has been looked at.
-    """
-
-    hours: float
-    bound: bool
+    hours: float  # running time [h] at which the stress is just allowed; 0 where it never is
+    bound: bool  # the stress is endured at all times; `hours` is how far that has been looked at
 
 
 @dataclass(frozen=True)
 class Endurance:
-    """What the teeth of a gear endure in contact or in bending, at its hours and loads.
+    """What the teeth of a gear endure in contact or in bending, at its hours and loads."""
 
-    Attributes
-    ----------
-    endurance_limit : float
-        sigma_Hlim or sigma_Flim [MPa].
-    curve : FatigueCurve
-        With factors and safety.
-    equivalence : float
-        mu of the load spectrum.
-    cycles_per_hour : float
-        Load cycles of a tooth in an hour.
-    hours : float
-        Running time asked for [h].
-    greatest : float
-        Greatest stress allowed in an overload [MPa]; nan where it is not known.
-    """
-
-    endurance_limit: float
-    curve: FatigueCurve
-    equivalence: float
-    cycles_per_hour: float
-    hours: float
-    greatest: float
+    endurance_limit: float  # sigma_Hlim or sigma_Flim [MPa]
+    curve: FatigueCurve  # with factors and safety
+    equivalence: float  # mu of the load spectrum
+    cycles_per_hour: float  # load cycles of a tooth in an hour
+    hours: float  # running time asked for [h]
+    greatest: float  # greatest stress allowed in an overload [MPa]; nan where it is not known
 
     @property
     def equivalent_cycles(self) -> float:

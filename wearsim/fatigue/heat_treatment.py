@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import cache
 
-from wearsim.catalogue.catalogues import rows
+from wearsim.catalogue.catalogues import catalogue_rows
 
 HB_PER_HRC = 10.0
 """Of the source: 1 HRC is about 10 HB."""
@@ -15,42 +15,22 @@ HB_PER_HRC = 10.0
 
 @dataclass(frozen=True)
 class Treatment:
-    """A heat treatment with what the source gives for it (table 2.3, items 5, 7 and 9).
+    """A heat treatment with what the source gives for it (table 2.3, items 5, 7 and 9)."""
 
-    Attributes
-    ----------
-    name : str
-        As in the input.
-    scale : str
-        ``HB`` or ``HRC``, of the hardness in its formulas.
-    hardness_range : tuple of float
-        For which they are given.
-    contact_line : tuple of float
-        Slope and offset of sigma_Hlim over the hardness [MPa]; nan where the source lost them.
-    bending_line : tuple of float
-        Slope and offset of sigma_Flim [MPa]; over the core's hardness where it is nitrided.
-    contact_safety : float
-        S_H.
-    bending_exponent : float
-        m of the curve of bending fatigue.
-    contact_factor, bending_factor : float
-        Greatest K_HL and K_FL.
-    overload_of : str
-        ``yield`` or ``hardness``: what the greatest contact stress is a multiple of.
-    overload_slope, overload_cap : float
-        That multiple, and the most that it may come to [MPa].
-    """
-
-    name: str
-    scale: str
-    hardness_range: tuple[float, float]
+    name: str  # as in the input
+    scale: str  # `HB` or `HRC`, of the hardness in its formulas
+    hardness_range: tuple[float, float]  # for which they are given
+    # slope and offset of sigma_Hlim over the hardness [MPa]; nan where the source lost them
     contact_line: tuple[float, float]
+    # slope and offset of sigma_Flim [MPa]; over the core's hardness where it is nitrided
     bending_line: tuple[float, float]
-    contact_safety: float
-    bending_exponent: float
+    contact_safety: float  # S_H
+    bending_exponent: float  # m of the curve of bending fatigue
+    # contact_factor, bending_factor: greatest K_HL and K_FL
     contact_factor: float
     bending_factor: float
-    overload_of: str
+    overload_of: str  # `yield` or `hardness`: what the greatest contact stress is a multiple of
+    # overload_slope, overload_cap: that multiple, and the most that it may come to [MPa]
     overload_slope: float
     overload_cap: float
 
@@ -158,5 +138,5 @@ def treatments() -> dict[str, Treatment]:
             overload_slope=float(row["overload_slope"]),
             overload_cap=_number(row["overload_cap"], math.inf),
         )
-        for row in rows("heat_treatments")
+        for row in catalogue_rows("heat_treatments")
     }

@@ -15,7 +15,7 @@ THINNEST_PER_PITCH = 0.05
 OFFSET_RESERVE = 1.05
 """Factor on the smallest evolute offset that the roller clears, for the default."""
 
-MOST_TEETH = 150
+MAX_TEETH = 150
 
 
 def exit_cut(strand: Strand, contact_end: float, contact_start: float) -> float:
@@ -138,7 +138,7 @@ def remedy(
     offset = _offset(teeth)
     if offset is not None:
         return f"; evolute_offset_mm = {offset:.4g} will do"
-    for more in range(teeth + 1, MOST_TEETH + 1):
+    for more in range(teeth + 1, MAX_TEETH + 1):
         if _offset(more) is not None:
             return f"; teeth = {more} will do with the default offset, or try a shorter contact range"
     return "; try a shorter contact range or a smaller roller"

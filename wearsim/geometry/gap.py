@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector
-from wearsim.geometry.segments import Arc, Point, Segment, points_along
+from wearsim.geometry.profile_points import Profile, Vector
+from wearsim.geometry.segments import ArcSegment, Point, Segment, points_along
 
 SeatCentre = Literal["pitch_circle", "root_diameter"]
 
@@ -101,7 +101,7 @@ def seat_height(
     )
 
 
-def head_arc(centre: Point, radius: float, theta: float) -> Arc:
+def head_arc(centre: Point, radius: float, theta: float) -> ArcSegment:
     """Return a convex arc from where its normal has the angle theta up to its top.
 
     Parameters
@@ -133,29 +133,12 @@ def head_arc(centre: Point, radius: float, theta: float) -> Arc:
             f"tooth head: its radius must be above 0, is {radius:g} mm: use more teeth, or "
             "check pitch and roller diameter"
         )
-    return Arc(centre, radius, 0.5 * math.pi + theta, math.atan2(centre[1], centre[0]))
+    return ArcSegment(centre, radius, 0.5 * math.pi + theta, math.atan2(centre[1], centre[0]))
 
 
 @dataclass(frozen=True)
 class Gap:
     """The gap between two teeth, cut off at the tip circle or where the tooth is pointed.
-
-    Attributes
-    ----------
-    segments : tuple of Arc or Line
-        Right half of the outline from the bottom on the centre line to the tip. Given
-        up to the top of the last one; what lies beyond the tip is cut off.
-    teeth : int
-        z of the sprocket.
-    pitch_radius, roller_radius : float
-        d/2 and d1/2 [mm].
-    nominal_tip_radius : float
-        Radius of the tip circle that is asked for [mm].
-    form : str
-        Name of the standard and of its form.
-    pointed_radius : float
-        Radius at which the two flanks of a tooth meet [mm]; infinite where they do not,
-        because the tooth has a rounded top.
 
     Raises
     ------
@@ -164,12 +147,17 @@ class Gap:
         tooth's top.
     """
 
+    # right half of the outline from the bottom on the centre line to the tip. Given up to the top of the last
+    # one; what lies beyond the tip is cut off.
     segments: tuple[Segment, ...]
-    teeth: int
+    teeth: int  # z of the sprocket
+    # pitch_radius, roller_radius: d/2 and d1/2 [mm]
     pitch_radius: float
     roller_radius: float
-    nominal_tip_radius: float
-    form: str
+    nominal_tip_radius: float  # radius of the tip circle that is asked for [mm]
+    form: str  # name of the standard and of its form
+    # radius at which the two flanks of a tooth meet [mm]; infinite where they do not, because the tooth has a
+    # rounded top
     pointed_radius: float = field(init=False)
 
     def __post_init__(self) -> None:
@@ -189,7 +177,7 @@ class Gap:
                     f"{2.0 * math.hypot(*self.segments[-1].end):g} mm, is "
                     f"{2.0 * self.nominal_tip_radius:g} mm: give one in between"
                 )
-        seat = next(n for n, part in enumerate(self.segments) if isinstance(part, Arc))
+        seat = next(n for n, part in enumerate(self.segments) if isinstance(part, ArcSegment))
         if len(kept) <= seat + 1:
             raise GeometryError(
                 f"{self.form}, z = {self.teeth}: no flank is left above the seat: use more "
@@ -213,7 +201,7 @@ class Gap:
     @property
     def seat_centre(self) -> float:
         """Distance of the seat arc's centre from the sprocket's axis along +y [mm]."""
-        return next(part.centre[1] for part in self.segments if isinstance(part, Arc))
+        return next(part.centre[1] for part in self.segments if isinstance(part, ArcSegment))
 
     @property
     def bottom_radius(self) -> float:

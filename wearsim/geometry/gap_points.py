@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.tooth import Tooth
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ ON_CENTRE_LINE = 1e-3
 
 _SHARPEST_TURN = 0.1
 _SEARCH_KNOTS = 12
-_MOST_JOINTS = 10
+_MAX_JOINTS = 10
 _LEAST_NOISE = 2e-5
 _LEAST_BETWEEN = 6
 _NO_FIT = 1e12
-_MOST_POINTS = 1000
+_MAX_POINTS = 1000
 
 
 def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller_radius: float) -> Profile:
@@ -36,9 +36,9 @@ def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller
     A quintic spline over the chord length, fitted by least squares. Where arcs and lines
     meet, the curvature jumps: such joints are searched one by one, and kept where they
     lower n log(sum of squared residuals + n noise^2) by more than they add to
-    9 log(2 n), their share of the Bayesian information criterion; there the spline's
+    9 log(2 n), their share of the Bayesian information stop limit; there the spline's
     tangent is continuous and its curvature is not. Between joints it gets as few knots as
-    the same criterion asks for. Corners sharper than 0.1 rad stay corners.
+    the same stop limit asks for. Corners sharper than 0.1 rad stay corners.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller
     points = _whole_outline(np.asarray(x, dtype=float), np.asarray(y, dtype=float), noise)
     points, noise = _thinned(points, noise)
     chord = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    spline = _JointedFit(points, chord, noise).spline()
+    spline = _JointedSpline(points, chord, noise).spline()
     fine = np.linspace(0.0, chord[-1], 20 * nodes + 1)
     speed = np.hypot(*spline.derivative()(fine).T)
     arc = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
@@ -221,11 +221,11 @@ def _thinned(points: Vector, noise: float) -> tuple[Vector, float]:
         grouped = points[first : first + count * group].reshape(count, group, 2)
         points, noise = np.asarray(grouped.mean(axis=1)), noise / math.sqrt(group)
     last = points.shape[0] - 1
-    spread = range(0, last, max(1, points.shape[0] // _MOST_POINTS))
+    spread = range(0, last, max(1, points.shape[0] // _MAX_POINTS))
     return points[sorted({*spread, last, *_corners(points, noise)})], noise
 
 
-class _JointedFit:
+class _JointedSpline:
     """A least-squares quintic with corners, and joints where its curvature may jump.
 
     Break points are held as the chord length at which they lie.
@@ -263,7 +263,7 @@ class _JointedFit:
         """
         found: list[float] = []
         joints, lowest = found, self._even_score(found)
-        while len(found) < min(_MOST_JOINTS, len(joints) + 2):
+        while len(found) < min(_MAX_JOINTS, len(joints) + 2):
             trials = [[float(at), *found] for at in self.chord[:: self.step]]
             best = min(trials, key=self._even_score)
             found = self._all_placed(self._all_placed(best, self._even_score), self._even_score)
@@ -298,14 +298,14 @@ class _JointedFit:
     def _numbers(self, joints: list[float]) -> tuple[int, ...]:
         """How many knots every piece between breaks gets, added while they pay."""
         numbers = (0,) * (len(joints) + len(self.corners) + 1)
-        most = (np.diff(self._breaks(joints)) - _LEAST_BETWEEN) // 3
+        greatest = (np.diff(self._breaks(joints)) - _LEAST_BETWEEN) // 3
         total = self._spread_score(numbers, joints)
         while sum(numbers) < self.count // 6:
             trials = [
                 (*numbers[:i], numbers[i] + more, *numbers[i + 1 :])
                 for i in range(len(numbers))
                 for more in (1, 2, 4)
-                if numbers[i] + more <= most[i]
+                if numbers[i] + more <= greatest[i]
             ]
             if not trials:
                 break

@@ -8,10 +8,10 @@ import shapely
 from numpy.typing import NDArray
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 
-def turned(points: Vector, angle: float) -> Vector:
+def rotated(points: Vector, angle: float) -> Vector:
     """Return points turned counterclockwise about the origin."""
     cos, sin = math.cos(angle), math.sin(angle)
     return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]))
@@ -43,14 +43,6 @@ def along_ways(
 class Outline:
     """Vertices of a closed outline, run counterclockwise, and the arcs between them.
 
-    Attributes
-    ----------
-    vertices : numpy.ndarray
-        Coordinates [mm], shape (n, 2); the first is not repeated.
-    bulges : numpy.ndarray
-        Of the way from each vertex to the next: tan of a quarter of the angle of its arc,
-        positive counterclockwise, 0 for a line.
-
     Examples
     --------
     A circle of radius 1 from two half circles:
@@ -62,7 +54,9 @@ class Outline:
     True
     """
 
-    vertices: Vector
+    vertices: Vector  # coordinates [mm], shape (n, 2); the first is not repeated
+    # of the way from each vertex to the next: tan of a quarter of the angle of its arc, positive
+    # counterclockwise, 0 for a line
     bulges: Vector
 
     @property

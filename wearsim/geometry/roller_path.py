@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector
-from wearsim.kernels.locus import roller_locus
+from wearsim.geometry.profile_points import Profile, Vector
+from wearsim.kernels.roller_locus import roller_locus
 
 Rows = NDArray[np.float64]
 
@@ -30,21 +30,11 @@ _NODES_PER_NODE = 2.0
 
 @dataclass(frozen=True, eq=False)
 class WornPath:
-    """Centres of a roller that touches a worn outline, right side to left side.
+    """Centres of a roller that touches a worn outline, right side to left side."""
 
-    Attributes
-    ----------
-    place : numpy.ndarray
-        Where each node stands on the unworn line, counted in its nodes from 0.
-    locus : numpy.ndarray
-        Rows x, y, normal x, normal y of the centres [mm], shape (4, nodes).
-    touched : numpy.ndarray
-        Place on the outline that each of them touches, counted in points from 0.
-    """
-
-    place: Vector
-    locus: Rows
-    touched: Vector
+    place: Vector  # where each node stands on the unworn line, counted in its nodes from 0
+    locus: Rows  # rows x, y, normal x, normal y of the centres [mm], shape (4, nodes)
+    touched: Vector  # place on the outline that each of them touches, counted in points from 0
 
     def node_place(self, node: Vector) -> Vector:
         """Return where places between nodes stand on the unworn line."""
@@ -57,19 +47,11 @@ class WornPath:
 
 @dataclass(frozen=True, eq=False)
 class RollerPath:
-    """Centres of a roller that touches a gap's outline, right side to left side.
+    """Centres of a roller that touches a gap's outline, right side to left side."""
 
-    Attributes
-    ----------
-    base : numpy.ndarray
-        Nodes on the unworn gap: rows x, y [mm] and the unit direction out of the
-        material, shape (4, nodes).
-    roller_radius : float
-        Radius of the roller [mm].
-    """
-
+    # nodes on the unworn gap: rows x, y [mm] and the unit direction out of the material, shape (4, nodes)
     base: Rows
-    roller_radius: float
+    roller_radius: float  # radius of the roller [mm]
 
     def worn(self, x: Vector, y: Vector) -> "WornPath":
         """Return the line on a worn outline.

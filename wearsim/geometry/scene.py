@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 Box = tuple[float, float, float, float]
 """Left, bottom, width and height [mm]."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 Point = tuple[float, float]
 
@@ -15,27 +15,19 @@ _ON_END = 1e-12
 
 
 @dataclass(frozen=True)
-class Arc:
+class ArcSegment:
     """A circular arc, run from its first direction to its last.
-
-    Attributes
-    ----------
-    centre : tuple of float
-        Coordinates [mm].
-    radius : float
-        Radius [mm], above 0.
-    first, last : float
-        Directions from the centre to the end points [rad]; counterclockwise (a concave
-        part of the gap) where ``last`` is the larger.
 
     Examples
     --------
-    >>> Arc((0.0, 0.0), 2.0, 0.0, 0.5 * math.pi).point_at(math.pi).round(12).tolist()
+    >>> ArcSegment((0.0, 0.0), 2.0, 0.0, 0.5 * math.pi).point_at(math.pi).round(12).tolist()
     [0.0, 2.0]
     """
 
-    centre: Point
-    radius: float
+    centre: Point  # coordinates [mm]
+    radius: float  # radius [mm], above 0
+    # first, last: directions from the centre to the end points [rad]; counterclockwise (a concave part of the
+    # gap) where `last` is the larger
     first: float
     last: float
 
@@ -80,14 +72,14 @@ class Arc:
         unit = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         return np.asarray(self.centre) + self.radius * unit
 
-    def shortened(self, arc_length: float) -> "Arc":
+    def shortened(self, arc_length: float) -> "ArcSegment":
         """Return the arc's first part."""
         turn = self.sense * arc_length / self.radius
-        return Arc(self.centre, self.radius, self.first, self.first + turn)
+        return ArcSegment(self.centre, self.radius, self.first, self.first + turn)
 
-    def offset(self, distance: float) -> "Arc":
+    def offset(self, distance: float) -> "ArcSegment":
         """Return the parallel arc on the left of the direction of travel (in the gap)."""
-        return Arc(self.centre, self.radius - self.sense * distance, self.first, self.last)
+        return ArcSegment(self.centre, self.radius - self.sense * distance, self.first, self.last)
 
     def length_to_circle(self, radius: float) -> float:
         """Return the way to the first point at a distance from the origin."""
@@ -120,27 +112,18 @@ class Arc:
 
 
 @dataclass(frozen=True)
-class Line:
+class LineSegment:
     """A straight part, given by its start, its direction and its length.
-
-    Attributes
-    ----------
-    start : tuple of float
-        First point [mm].
-    direction : float
-        Direction of travel [rad].
-    length : float
-        Length [mm], above 0.
 
     Examples
     --------
-    >>> Line((1.0, 2.0), 0.0, 3.0).end
+    >>> LineSegment((1.0, 2.0), 0.0, 3.0).end
     (4.0, 2.0)
     """
 
-    start: Point
-    direction: float
-    length: float
+    start: Point  # first point [mm]
+    direction: float  # direction of travel [rad]
+    length: float  # length [mm], above 0
 
     @property
     def curvature(self) -> float:
@@ -171,17 +154,17 @@ class Line:
         points: Vector = np.asarray(arc_length, dtype=float)[..., None] * unit + self.start
         return points
 
-    def shortened(self, arc_length: float) -> "Line":
+    def shortened(self, arc_length: float) -> "LineSegment":
         """Return the line's first part."""
-        return Line(self.start, self.direction, arc_length)
+        return LineSegment(self.start, self.direction, arc_length)
 
-    def offset(self, distance: float) -> "Line":
+    def offset(self, distance: float) -> "LineSegment":
         """Return the parallel line on the left of the direction of travel (in the gap)."""
         start = (
             self.start[0] - distance * math.sin(self.direction),
             self.start[1] + distance * math.cos(self.direction),
         )
-        return Line(start, self.direction, self.length)
+        return LineSegment(start, self.direction, self.length)
 
     def length_to_circle(self, radius: float) -> float:
         """Return the way to the first point at a distance from the origin."""
@@ -203,7 +186,7 @@ class Line:
         return min(max(min(found), 0.0), self.length) if found else math.inf
 
 
-Segment = Arc | Line
+Segment = ArcSegment | LineSegment
 
 
 def points_along(segments: tuple[Segment, ...], arc_length: ArrayLike) -> Vector:
@@ -211,7 +194,7 @@ def points_along(segments: tuple[Segment, ...], arc_length: ArrayLike) -> Vector
 
     Parameters
     ----------
-    segments : tuple of Arc or Line
+    segments : tuple of ArcSegment or LineSegment
         Each starts where the one before ends.
     arc_length : array_like
         Way from the first start [mm], shape (n,), from 0 to the sum of the lengths.
@@ -223,7 +206,7 @@ def points_along(segments: tuple[Segment, ...], arc_length: ArrayLike) -> Vector
 
     Examples
     --------
-    >>> row = (Line((0.0, 0.0), 0.0, 1.0), Line((1.0, 0.0), 0.5 * math.pi, 1.0))
+    >>> row = (LineSegment((0.0, 0.0), 0.0, 1.0), LineSegment((1.0, 0.0), 0.5 * math.pi, 1.0))
     >>> points_along(row, [0.5, 1.5]).round(12).tolist()
     [[0.5, 0.0], [1.0, 0.5]]
     """

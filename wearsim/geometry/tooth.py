@@ -9,8 +9,8 @@ import shapely
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.forms.evolute import Strand
-from wearsim.geometry.outline import turned
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.outline import rotated
+from wearsim.geometry.profile_points import Profile, Vector
 
 CUT_TOLERANCE = 1e-3
 """Depth [mm] by which a roller may enter the outline before the flank counts as cut."""
@@ -23,7 +23,7 @@ _SEAT_CLEARANCES = (0.005, 0.01, 0.02, 0.04)
 
 
 def sweep_path(strand: Strand, tip_radius: float, side: float) -> shapely.LineString:
-    """Return the way of a roller centre in the sprocket's frame, from the pole line out."""
+    """Return the way of a roller centre in the sprocket's frame, from the pitch line out."""
     reach = tip_radius + strand.roller_radius
     far = math.sqrt(max(reach**2 - strand.height**2, strand.roller_radius**2))
     return shapely.LineString(strand.roller_path(side * np.linspace(0.0, far, 1000)))
@@ -44,27 +44,16 @@ class Tooth:
     the mirror image of the working flank, recessed by the relief; the tip is a circle
     through the end of the working flank.
 
-    Attributes
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    flank : Profile
-        Working flank, root to tip.
-    teeth : int
-        Number of gaps of the wheel.
-    relief : float
-        Recess of the back flank along its normal [mm]; 0 makes it the mirror image.
-
     Raises
     ------
     GeometryError
         No seat clears the roller.
     """
 
-    strand: Strand
-    flank: Profile
-    teeth: int
-    relief: float
+    strand: Strand  # sprocket and line of roller centres
+    flank: Profile  # working flank, root to tip
+    teeth: int  # number of gaps of the wheel
+    relief: float  # recess of the back flank along its normal [mm]; 0 makes it the mirror image
 
     @property
     def tip_radius(self) -> float:
@@ -110,7 +99,7 @@ class Tooth:
             sweep_path(self.strand, self.tip_radius, 1.0), sweep_path(self.strand, self.tip_radius, -1.0)
         )
         pitch_angle = 2.0 * math.pi / self.teeth
-        outline = np.concatenate([turned(self.gap, i * pitch_angle) for i in (1, 0, -1)])
+        outline = np.concatenate([rotated(self.gap, i * pitch_angle) for i in (1, 0, -1)])
         return cut_depth(outline, path, self.strand.roller_radius)
 
     def thickness(self, radius: "float | Vector") -> Vector:

@@ -6,7 +6,7 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 
 def tooth_thickness(x: Vector, y: Vector, teeth: int, radius: float) -> float:

@@ -5,13 +5,13 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from wearsim.input.document import Document, Source, read_document
+from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.table import CalculationTables, Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)
 
 
-def load_calculation(source: Source, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
+def load_calculation(source: CaseSource, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
     """Return the tables of a calculation."""
     document = read_document(source, overrides)
     document.data.setdefault("title", document.name)

@@ -4,11 +4,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from wearsim.input.messages import Faults
+from wearsim.input.faults import Faults
 from wearsim.input.schema import CaseTables, Table
 
 
-class Record:
+class CaseRecord:
     """What is given, found, taken and doubted while a case is being completed."""
 
     def __init__(self, tables: Table, folder: Path, faults: Faults) -> None:
@@ -44,7 +44,7 @@ class Record:
         return found
 
 
-class Resolution(Record):
+class ChainRecord(CaseRecord):
     """The record of a drive with a chain."""
 
     def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:

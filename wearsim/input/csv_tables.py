@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from wearsim.catalogue.catalogues import nearest
-from wearsim.geometry.profile import Vector, chord_lengths
-from wearsim.input.duty_log import Log
-from wearsim.input.messages import Faults
-from wearsim.input.units import LEAST, MOST
+from wearsim.geometry.profile_points import Vector, chord_lengths
+from wearsim.input.duty_log import DutyLog
+from wearsim.input.faults import Faults
+from wearsim.input.units import LEAST, MAX
 
-_MOST_ROWS = 200_000
+_MAX_ROWS = 200_000
 
 _GAP = 10.0
 """Step of a log over the usual one above which rows must be missing."""
@@ -76,8 +76,8 @@ def _cells(
     path: Path, names: list[str], lines: list[list[str]], key: str, faults: Faults
 ) -> list[list[float]]:
     values: list[list[float]] = []
-    if len(lines) > _MOST_ROWS:
-        faults.add(key, f"{path.name}: at most {_MOST_ROWS} rows, has {len(lines)}")
+    if len(lines) > _MAX_ROWS:
+        faults.add(key, f"{path.name}: at most {_MAX_ROWS} rows, has {len(lines)}")
         return values
     for number, line in enumerate(lines, start=2):
         if not line:
@@ -93,8 +93,8 @@ def _cells(
                 row.append(math.nan)
             if not math.isfinite(row[-1]):
                 faults.add(key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})")
-            elif abs(row[-1]) > MOST:
-                text = f"{name} must be at most {MOST:g} in size (got {cell!r})"
+            elif abs(row[-1]) > MAX:
+                text = f"{name} must be at most {MAX:g} in size (got {cell!r})"
                 faults.add(key, f"{path.name}:{number}: {text}")
             elif abs(row[-1]) < LEAST:
                 # What is left of a formula that should come to 0.
@@ -159,7 +159,7 @@ def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | N
     )
 
 
-def read_log(path: Path, key: str, faults: Faults) -> Log | None:
+def read_log(path: Path, key: str, faults: Faults) -> DutyLog | None:
     """Read a log of tension and speed."""
     columns = read_columns(path, ("time_s", "tension_N", "speed_rpm"), (), key, faults)
     if not columns:
@@ -189,4 +189,4 @@ def read_log(path: Path, key: str, faults: Faults) -> Log | None:
         )
     if faults.count == before and not tension[:-1].max() > 0.0:
         faults.add(key, f"{path.name}: tension_N must be above 0 in some row")
-    return Log(step, tension[:-1], speed[:-1]) if faults.count == before else None
+    return DutyLog(step, tension[:-1], speed[:-1]) if faults.count == before else None

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
+from wearsim.input.faults import Faults
 from wearsim.input.former_words import present_key, present_tables
-from wearsim.input.messages import Faults
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class CaseText:
 _DEEPEST = 20
 """Tables and lists within one another that any input needs, and some more."""
 
-Source = str | Path | CaseText | Mapping[str, Any]
+CaseSource = str | Path | CaseText | Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Document:
     faults: Faults  # takes what is wrong with it
 
 
-def read_document(source: Source, overrides: Sequence[str]) -> Document:
+def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     """Read a TOML file, or take its text or a mapping with the same tables."""
     if isinstance(source, Mapping):
         file, name, text, folder = "case", "case", "", Path()

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 
 @dataclass(frozen=True, eq=False)
-class Log:
+class DutyLog:
     """A log whose rows hold until the next; the last row only ends the one before."""
 
     step: Vector  # time that every row holds [s], shape (rows - 1,)
@@ -28,7 +28,7 @@ class Log:
 
 
 @dataclass(frozen=True)
-class LogBlock:
+class LogBin:
     """Part of a log."""
 
     time: float  # how long it lasts [s]
@@ -36,15 +36,15 @@ class LogBlock:
     tension: float  # mean over the revolutions [N]
 
 
-def log_blocks(log: Log, tension_bins: int, speed_bins: int) -> list[LogBlock]:
+def log_bins(log: DutyLog, tension_bins: int, speed_bins: int) -> list[LogBin]:
     """Sort a log into bins of equal width between the least and the largest value.
 
     Examples
     --------
     Two rows of 10 s and 30 s at 60 rpm in one bin: 40 revolutions, mean (10 + 3 * 50)/4 N:
 
-    >>> log = Log(np.array([10.0, 30.0]), np.array([10.0, 50.0]), np.array([60.0, 60.0]))
-    >>> log_blocks(log, 1, 1)
+    >>> log = DutyLog(np.array([10.0, 30.0]), np.array([10.0, 50.0]), np.array([60.0, 60.0]))
+    >>> log_bins(log, 1, 1)
     [LogBlock(time=40.0, revolutions=40.0, tension=40.0)]
     """
     cell = _bin(log.tension, tension_bins) * speed_bins + _bin(log.speed, speed_bins)
@@ -53,9 +53,7 @@ def log_blocks(log: Log, tension_bins: int, speed_bins: int) -> list[LogBlock]:
     time, turns, work = (
         np.bincount(cell, weights, count) for weights in (log.step, revolutions, revolutions * log.tension)
     )
-    return [
-        LogBlock(float(time[i]), float(turns[i]), float(work[i] / turns[i])) for i in np.flatnonzero(turns)
-    ]
+    return [LogBin(float(time[i]), float(turns[i]), float(work[i] / turns[i])) for i in np.flatnonzero(turns)]
 
 
 def _bin(values: Vector, count: int) -> NDArray[np.int64]:
@@ -67,7 +65,7 @@ def _bin(values: Vector, count: int) -> NDArray[np.int64]:
     return cell
 
 
-def merged(blocks: list[LogBlock], most: int) -> list[LogBlock]:
+def merged(blocks: list[LogBin], greatest: int) -> list[LogBin]:
     """Join the smallest blocks with their nearest until so many are left.
 
     The nearest is that with which the least of the variance of tension and speed, each
@@ -75,7 +73,7 @@ def merged(blocks: list[LogBlock], most: int) -> list[LogBlock]:
 
     Examples
     --------
-    >>> merged([LogBlock(9.0, 9.0, 100.0), LogBlock(3.0, 3.0, 60.0)], 1)
+    >>> merged([LogBin(9.0, 9.0, 100.0), LogBin(3.0, 3.0, 60.0)], 1)
     [LogBlock(time=12.0, revolutions=12.0, tension=90.0)]
     """
     time = np.array([block.time for block in blocks])
@@ -83,7 +81,7 @@ def merged(blocks: list[LogBlock], most: int) -> list[LogBlock]:
     tension = np.array([block.tension for block in blocks])
     speed = turns / time
     ranges = [float(np.ptp(values)) or 1.0 for values in (tension, speed)]
-    while time.size > most:
+    while time.size > greatest:
         least = int(turns.argmin())
         away = ((tension - tension[least]) / ranges[0]) ** 2 + (
             (turns / time - turns[least] / time[least]) / ranges[1]
@@ -96,4 +94,4 @@ def merged(blocks: list[LogBlock], most: int) -> list[LogBlock]:
         turns[near] += turns[least]
         tension[near] = work / turns[near]
         time, turns, tension = (np.delete(values, least) for values in (time, turns, tension))
-    return [LogBlock(*map(float, values)) for values in zip(time, turns, tension, strict=True)]
+    return [LogBin(*map(float, values)) for values in zip(time, turns, tension, strict=True)]

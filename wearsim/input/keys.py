@@ -5,7 +5,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.input.kind import mechanism_of
+from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.schema.table import Table
 
 

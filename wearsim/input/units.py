@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import pint
 
 
-LEAST, MOST = 1e-30, 1e15
+LEAST, MAX = 1e-30, 1e15
 """Sizes of a quantity between which numbers stay numbers in every formula."""
 
 _NUMBER_AND_UNIT = re.compile(
@@ -88,8 +88,8 @@ def _number(value: object, info: ValidationInfo) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise ValueError("must be a finite number")
-    if number and not LEAST <= abs(number) <= MOST:
-        raise ValueError(f"must be 0 or from {LEAST:g} to {MOST:g} in size")
+    if number and not LEAST <= abs(number) <= MAX:
+        raise ValueError(f"must be 0 or from {LEAST:g} to {MAX:g} in size")
     return number
 
 

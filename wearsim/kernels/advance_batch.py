@@ -6,6 +6,16 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.controlled_steps import (
+    END,
+    FINEST,
+    LOOSEST,
+    PART_OF_TOLERANCE,
+    TIGHTEST,
+    WRITTEN,
+    between,
+    wear_in_steps,
+)
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, flank_rate
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
@@ -17,21 +27,11 @@ from wearsim.kernels.signatures import (
     int64,
     void,
 )
-from wearsim.kernels.steps import (
-    END,
-    FINEST,
-    LOOSEST,
-    PART_OF_TOLERANCE,
-    TIGHTEST,
-    WRITTEN,
-    between,
-    wear_in_steps,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""
@@ -91,7 +91,7 @@ def run_once(
     law: Vector,
     ends: int,
     tolerance: float,
-    most: int,
+    greatest: int,
     state: Vector,
     work: Vector,
     increments: Vector,
@@ -115,7 +115,7 @@ def run_once(
         numbers[LIMIT],
         tolerance,
         numbers[HORIZON_TIME],
-        most,
+        greatest,
         work,
         increments,
         clock,
@@ -153,7 +153,7 @@ def run_once(
         TABLE,
     )
 )
-def wear_many(
+def wear_flanks(
     make_step: Callable[..., float],
     contact: Callable[..., None],
     starts: Vector,
@@ -162,7 +162,7 @@ def wear_many(
     numbers: Vector,
     laws: Vector,
     ends: int,
-    most: int,
+    greatest: int,
     work: Vector,
     increments: Vector,
     clock: Vector,
@@ -198,7 +198,7 @@ def wear_many(
                 laws[i],
                 ends,
                 tolerance,
-                most,
+                greatest,
                 worn[i, :3],
                 work,
                 increments,

@@ -31,7 +31,7 @@ from wearsim.kernels.gear_rows import (
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 
 @kernel(float64(VECTOR, TABLE, float64, int64))
@@ -52,7 +52,7 @@ def worn_gap(depth: Vector, columns: Vector, place: float, near: int) -> float:
 
 
 @kernel(float64(*(float64,) * 7))
-def turned(
+def turned_by_depth(
     torque: float,
     gap: float,
     lever: float,
@@ -135,7 +135,7 @@ def gear_pair_contact(
             next_gap += worn_gap(depth, columns, place + pitch, ahead)
         if last_gap < math.inf:
             last_gap += worn_gap(depth, columns, place - pitch, behind)
-        turn = turned(
+        turn = turned_by_depth(
             torque / stiffness, own, lever, next_gap, columns[NEXT_LEVER, j], last_gap, columns[LAST_LEVER, j]
         )
         load[j] = stiffness * max(0.0, turn * lever - own)

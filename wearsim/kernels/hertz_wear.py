@@ -12,9 +12,9 @@ from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64,
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
-RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN, HORIZON, TOOTHED = range(8)
+RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN, HORIZON, SAWTOOTH = range(8)
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
@@ -62,7 +62,7 @@ def wear_depth(
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR))
-def soften(depth: Vector, law: Vector, step: Vector) -> None:
+def soften_edges(depth: Vector, law: Vector, step: Vector) -> None:
     """Multiply the steps of points below the hardened layer, ``law[4]`` deep, by ``law[5]``."""
     if law[5] != 1.0:
         for j in range(depth.size):
@@ -131,7 +131,7 @@ def flank_rate(
         work[7],
     )
     wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
-    soften(layer, law, work[9])
+    soften_edges(layer, law, work[9])
     return update_status(work[4], work[7], work[9], work[3], 0.0)
 
 
@@ -142,11 +142,11 @@ def sawtooth(depth: Vector, depth_limit: float) -> int:
     There the short second differences of five neighbours come to four times the long ones
     and 1e-3 of the depth that is allowed.
     """
-    least, most = 1e-3 * depth_limit, 0.0
+    least, greatest = 1e-3 * depth_limit, 0.0
     for j in range(2, depth.size - 2):
         short = abs(depth[j - 1] - 2.0 * depth[j] + depth[j + 1])
-        most = max(most, short - abs(depth[j - 2] - 2.0 * depth[j] + depth[j + 2]))
-    if 5.0 * most <= least:
+        greatest = max(greatest, short - abs(depth[j - 2] - 2.0 * depth[j] + depth[j + 2]))
+    if 5.0 * greatest <= least:
         return -1
     for j in range(4, depth.size - 4):
         excess = 0.0

@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften, update_status
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften_edges, update_status
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""
@@ -127,7 +127,7 @@ def run_offset_cycles(
     prepare_offset(depth, constants, columns, modulus, law, diffusion, cycles_per_update, work)
     step, n, made = work[9], depth.size, 0
     offset_step(depth, law[1], work)
-    soften(depth, law, step)
+    soften_edges(depth, law, step)
     status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
     while status == RUNNING and made < updates:
         made += 1
@@ -139,7 +139,7 @@ def run_offset_cycles(
             status = DEPTH_REACHED
         elif made < updates:
             offset_step(depth, law[1], work)
-            soften(depth, law, step)
+            soften_edges(depth, law, step)
             if offset_failures(work) > 0:
                 status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
     for j in range(n):

@@ -13,14 +13,14 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, flank_rate, soften, wear_depth
+from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, flank_rate, soften_edges, wear_depth
 from wearsim.kernels.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.tridiagonal import factorise, solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 WORK_ROWS = 19
 """Of the table to work in; its first ten are those of ``flank_rate``."""
@@ -31,7 +31,7 @@ GAMMA = 4.3586652150845900e-01
 TURN = 1e-6
 """Angle by which the normals are turned for d(rate)/d(slope) [rad]."""
 
-MOST_RATIO = 1e3
+MAX_RATIO = 1e3
 """Of the third entry of an end row to that of the row beside it, which eliminates it."""
 
 STAGES = 4
@@ -106,7 +106,7 @@ def slope_rate(
         work[7],
     )
     wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
-    soften(start[2], law, work[9])
+    soften_edges(start[2], law, work[9])
     for j in range(n):
         moved = (work[9, j] - start[3, j]) / TURN
         work[10, j] = moved if start[3, j] > 0.0 and abs(moved) < math.inf else 0.0
@@ -151,9 +151,9 @@ def wear_rows(start: Vector, slope: Vector, diffusion: float, ends: int, rows: V
         centre[0], after[0] = centre[0] - step, after[0] + step
         step = slope[n - 1] / spacing[n - 2]
         centre[n - 1], before[n - 1] = centre[n - 1] + step, before[n - 1] - step
-    if abs(before[0]) > MOST_RATIO * abs(after[1]):
+    if abs(before[0]) > MAX_RATIO * abs(after[1]):
         centre[0], after[0], before[0] = 0.0, 0.0, 0.0
-    if abs(after[n - 1]) > MOST_RATIO * abs(before[n - 2]):
+    if abs(after[n - 1]) > MAX_RATIO * abs(before[n - 2]):
         centre[n - 1], before[n - 1], after[n - 1] = 0.0, 0.0, 0.0
 
 

@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 _TABLES = types.Array(float64, 3, "C")
 _TOLERANCE = 1e-9
@@ -76,7 +76,7 @@ def wrap_events(
     touched: Vector,
     configurations: int,
     phases: int,
-    most: int,
+    greatest: int,
     count: float,
     constants: Vector,
     numbers: Vector,
@@ -138,8 +138,8 @@ def wrap_events(
                 status = SEATED if left <= LOOSEST else STALLED
             if status != SEATED:
                 return status
-            base = (configuration * phases + step) * most
-            for i in range(most):
+            base = (configuration * phases + step) * greatest
+            for i in range(greatest):
                 events[EVENT_LOAD, base + i] = 0.0
             place_rollers(loci[0], loci[bodies - 1], configuration, rollers, position, 0.0, gap_work)
             for i in range(rollers):
@@ -159,21 +159,21 @@ def wrap_events(
                 events[EVENT_SLIP, event] = ends * numbers[ARTICULATION_SLIP] / phases
     for configuration in range(configurations):
         for step in range(phases):
-            for i in range(most):
-                here = (configuration * phases + step) * most + i
+            for i in range(greatest):
+                here = (configuration * phases + step) * greatest + i
                 if events[EVENT_LOAD, here] == 0.0:
                     continue
                 way = 0.0
                 for side in range(2):
                     # In the next pitch a roller counts one more from the tight end.
-                    other, row, turned = step + 2 * side - 1, i, configuration
+                    other, row, rotated = step + 2 * side - 1, i, configuration
                     if other < 0 or other >= phases:
                         row = i + (1 if side == 1 else -1)
-                        turned = (configuration + 1) % configurations
+                        rotated = (configuration + 1) % configurations
                         other = 0 if side == 1 else phases - 1
-                    if row < 0 or row >= most:
+                    if row < 0 or row >= greatest:
                         continue
-                    there = (turned * phases + other) * most + row
+                    there = (rotated * phases + other) * greatest + row
                     if events[EVENT_LOAD, there] > 0.0:
                         dx = events[EVENT_CENTRE_X, there] - events[EVENT_CENTRE_X, here]
                         dy = events[EVENT_CENTRE_Y, there] - events[EVENT_CENTRE_Y, here]

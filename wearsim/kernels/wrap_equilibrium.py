@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 SEATED, JUMPED, STALLED = 0, 1, 2
 """What a solve ends with: an equilibrium, a roller over a tip, or neither within the iterations."""
@@ -25,8 +25,8 @@ PITCH_ANGLE, STIFFNESS, PITCH_EVEN, PITCH_ODD = 0, 1, 2, 3
 TIGHT_TENSION, SLACK_TENSION, FRICTION = 4, 5, 6
 CONSTANTS = 7
 
-_MOST_ITERATIONS = 5000
-_MOST_ROUNDS = 200
+_MAX_ITERATIONS = 5000
+_MAX_ROUNDS = 200
 _LONGEST_STEP = 12.0
 _ROUNDING = 1e-11
 _HANGING = 1e-4
@@ -213,7 +213,7 @@ def settle(
     place_rollers(locus, other, first, rollers, position, pitch_angle, work)
     energy = balance(first, rollers, constants, tight_angle, slack_angle, work, tension)
     error = residual(rollers, work)
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(_MAX_ITERATIONS):
         if error <= tolerance:
             return SEATED
         while newton_step(rollers, shift, stiffness, work) != 0:
@@ -395,7 +395,7 @@ def solve_wrap(
     for i in range(rollers):
         work[_ALOFT, i], work[_DRAG_X, i], work[_DRAG_Y, i] = 0.0, 0.0, 0.0
     status = STALLED
-    for _ in range(_MOST_ROUNDS):
+    for _ in range(_MAX_ROUNDS):
         status = settle(
             locus,
             other,

@@ -22,7 +22,7 @@ from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
 from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile import Vector
+    from wearsim.geometry.profile_points import Vector
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)
@@ -46,7 +46,7 @@ NUMBERS = 9
 AREA, HARD_AREA, PEAK_PRESSURE, UNBALANCED = range(4)
 FINDINGS = 4
 
-_MOST_ITERATIONS = 2000.0
+_MAX_ITERATIONS = 2000.0
 _NEAR = 0.25
 """Part of the reach on which a roller is pressed first."""
 
@@ -86,7 +86,7 @@ def place_roller(event: int, events: Vector, numbers: Vector, constants: Vector)
     constants[2] = numbers[MATE_RADIUS]
     constants[3], constants[4] = events[EVENT_NORMAL_X, event], events[EVENT_NORMAL_Y, event]
     constants[5], constants[6] = events[EVENT_LOAD, event], numbers[TOLERANCE]
-    constants[7] = _MOST_ITERATIONS
+    constants[7] = _MAX_ITERATIONS
 
 
 @kernel(int64(VECTOR, VECTOR, int64, int64, VECTOR, VECTOR))

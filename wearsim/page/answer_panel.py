@@ -11,7 +11,7 @@ from wearsim.page.chart_view import ChartView, SketchView
 from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
-from wearsim.report.lines import told_apart
+from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
 
 
@@ -76,7 +76,7 @@ class AnswerPanel:
             place.set_visibility(True)
             place.classes(remove="ws-old")
 
-    def paint(self, palette: Palette) -> None:
+    def draw(self, palette: Palette) -> None:
         """Draw the charts in other colours."""
         self._palette = palette
         if self._loads is not None:
@@ -125,7 +125,7 @@ class AnswerPanel:
                         _text("li", warning)
 
     def _fill_text(self, result: WearResult) -> None:
-        taken, defaults = told_apart(result.assumptions)
+        taken, defaults = stated_and_defaults(result.assumptions)
         self._text.clear()
         with self._text:
             _head("Findings")

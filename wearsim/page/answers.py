@@ -8,8 +8,8 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.geometry.scene import Scene
 from wearsim.input.document import CaseText, retitled
-from wearsim.page.file import CaseFile
-from wearsim.page.source import tables_of
+from wearsim.page.case_file import CaseFile
+from wearsim.page.toml_source import parsed_tables
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart
@@ -37,7 +37,7 @@ class Pictures:
     margins: list[Margin]  # how near every limit is
 
 
-def faults_of(error: WearsimError) -> tuple[Fault, ...]:
+def error_faults(error: WearsimError) -> tuple[Fault, ...]:
     """Return what is wrong, each as the command line prints it."""
     return error.faults if isinstance(error, CaseError) else (Fault(str(error)),)
 
@@ -45,7 +45,7 @@ def faults_of(error: WearsimError) -> tuple[Fault, ...]:
 def edited_case(source: CaseText, file: CaseFile) -> Case:
     """Return the case of an input whose title tells what is not yet in its file."""
     case = load_case(source)
-    tables, written = tables_of(source.text) or {}, tables_of(file.text) or {}
+    tables, written = parsed_tables(source.text) or {}, parsed_tables(file.text) or {}
     return replace(case, title=retitled(tables, written).get("title") or case.title)
 
 
@@ -57,9 +57,9 @@ def is_slow(case: Case) -> bool:
 def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:
     """Return a first estimate of a life that takes seconds, on few points and with long steps."""
     rough = []
-    for key, most in _ROUGH.items():
+    for key, greatest in _ROUGH.items():
         table, _, name = key.partition(".")
-        rough.append(f"{key}={min(most, case.inputs[table][name])}")
+        rough.append(f"{key}={min(greatest, case.inputs[table][name])}")
     tolerance = max(_ROUGH_TOLERANCE, case.run.life_tolerance)
     try:
         return simulate(
@@ -91,9 +91,9 @@ def pictures(case: Case, result: WearResult) -> Pictures:
 def _watch(is_stale: Callable[[], bool], progress: Callable[[float], None]) -> Callable[[float], None]:
     """Tell of progress, or end a run that nobody waits for."""
 
-    def told(part: float) -> None:
+    def report_progress(part: float) -> None:
         if is_stale():
             raise StaleError
         progress(part)
 
-    return told
+    return report_progress

@@ -30,13 +30,13 @@ def figure(chart: Chart, palette: Palette, factor: float = 1.0) -> dict[str, Any
         for trace, places in zip(traces[slider["first"] :], _enlarged(slider, factor), strict=False):
             trace["x"], trace["y"] = places
     return {
-        "data": [_painted(trace, palette) for trace in traces],
+        "data": [_coloured(trace, palette) for trace in traces],
         "layout": _furnished(content["layout"], palette),
         "config": _CONFIG,
     }
 
 
-def _painted(trace: dict[str, Any], palette: Palette) -> dict[str, Any]:
+def _coloured(trace: dict[str, Any], palette: Palette) -> dict[str, Any]:
     role, line = trace["meta"]["role"], trace.get("line", {})
     if role == "between":
         return {**trace, "fillcolor": f"{palette['worn']}55"}

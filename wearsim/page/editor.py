@@ -11,16 +11,16 @@ from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerPanel
-from wearsim.page.answers import StaleError, edited_case, estimate, faults_of, is_slow, life, pictures
+from wearsim.page.answers import StaleError, edited_case, error_faults, estimate, is_slow, life, pictures
+from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.fields import Field
-from wearsim.page.file import CaseFile
+from wearsim.page.file_saver import FileSaver
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.header import Header
-from wearsim.page.saving import Keeper
-from wearsim.page.source import shown_values, tables_of, with_table, with_value, without_table
 from wearsim.page.threads import in_thread
+from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
 from wearsim.report.answer import headline
 from wearsim.report.html.run_charts import tooth_load_chart
 from wearsim.result import WearResult
@@ -44,11 +44,11 @@ class CasePage:
         self._task: asyncio.Task[None] | None = None
         self._result: tuple[int, Case, WearResult] | None = None
         self._client = ui.context.client
-        self._keeper = Keeper(file, lambda: self._text, self._found, self._reloaded, self._named)
+        self._keeper = FileSaver(file, lambda: self._text, self._found, self._reloaded, self._named)
         ui.add_css(style(palettes()))
         ui.dark_mode(None)
         self._build()
-        ui.on("scheme", lambda event: self._paint(bool(event.args)))
+        ui.on("scheme", lambda event: self._draw(bool(event.args)))
         self._client.on_connect(self._arrived)
         self._client.on_disconnect(self._left)
         self._show_input("")
@@ -73,9 +73,9 @@ class CasePage:
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
                 self._answer = AnswerPanel(palettes()[0])
 
-    def _paint(self, dark: bool) -> None:
+    def _draw(self, dark: bool) -> None:
         self._source.set_theme("basicDark" if dark else "basicLight")
-        self._answer.paint(palettes()[dark])
+        self._answer.draw(palettes()[dark])
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
@@ -101,7 +101,7 @@ class CasePage:
         self._follow()
 
     def _show_input(self, typing: str) -> None:
-        data = tables_of(self._text)
+        data = parsed_tables(self._text)
         self._form.show(data, {} if data is None else shown_values(self._text), typing)
         if typing != "TOML" and self._source.value != self._text:
             self._source.value = self._text
@@ -142,7 +142,7 @@ class CasePage:
                     return
                 continue
             except WearsimError as error:
-                self._fail(version, faults_of(error))
+                self._fail(version, error_faults(error))
             except Exception as error:
                 text = f"this is a bug in wearsim: {type(error).__name__}: {error}"
                 self._fail(version, (Fault(text),))
@@ -150,11 +150,11 @@ class CasePage:
 
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
-        is_stale, told = self._staleness(version), self._progress(version)
+        is_stale, report_progress = self._staleness(version), self._progress(version)
         case = await self._step(version, lambda: edited_case(source, self._keeper.file))
         if is_slow(case):
             await self._show_first(version, source, case)
-        result = await self._step(version, lambda: life(case, is_stale, told))
+        result = await self._step(version, lambda: life(case, is_stale, report_progress))
         self._result = (version, case, result)
         self._show_sound(case)
         self._header.show_life(headline(result))
@@ -198,13 +198,13 @@ class CasePage:
             if not is_stale() and self._answered != version:
                 self._header.show_progress(percent)
 
-        def told(part: float) -> None:
+        def report_progress(part: float) -> None:
             percent = int(100.0 * part)
             if percent != shown[0]:
                 shown[0] = percent
                 loop.call_soon_threadsafe(_show, percent)
 
-        return told
+        return report_progress
 
     def _fail(self, version: int, faults: Sequence[Fault]) -> None:
         if self._staleness(version)():

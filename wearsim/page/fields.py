@@ -6,7 +6,7 @@ from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.catalogue.catalogues import chains, rows, wear_conditions
+from wearsim.catalogue.catalogues import catalogue_rows, chains, wear_conditions
 from wearsim.input.keys import parts, schema_fields, schema_of, tables_in, words
 from wearsim.input.schema import Table
 from wearsim.quantities import quantities
@@ -114,5 +114,5 @@ def _proposals(key: str) -> tuple[str, ...]:
     if key == "wear.condition":
         return tuple(wear_conditions())
     if key.startswith("material.") and key.endswith(".name"):
-        return tuple(row["name"] for row in rows("materials"))
+        return tuple(row["name"] for row in catalogue_rows("materials"))
     return ()

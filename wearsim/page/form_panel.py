@@ -10,7 +10,7 @@ from wearsim.errors import Fault
 from wearsim.input.keys import schema_of
 from wearsim.page.fields import Field, form_fields, table_meaning
 
-_MOST_CHOICES = 20
+_MAX_CHOICES = 20
 """Words of a catalogue that a list still shows at once."""
 
 _LOOK = "outlined dense stack-label hide-bottom-space"
@@ -180,7 +180,7 @@ class FormPanel:
 
 
 def _choices(field: Field) -> tuple[str, ...]:
-    return field.choices or (field.proposals if len(field.proposals) <= _MOST_CHOICES else ())
+    return field.choices or (field.proposals if len(field.proposals) <= _MAX_CHOICES else ())
 
 
 def _with(choices: Sequence[str], value: str) -> list[str]:

@@ -13,16 +13,18 @@ from nicegui import app, ui
 from wearsim.case.load_case import load_case
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
+from wearsim.page.case_file import CaseFile
 from wearsim.page.editor import CasePage
-from wearsim.page.file import CaseFile
-from wearsim.page.guard import Guard
+from wearsim.page.request_guard import Guard
 from wearsim.simulation import simulate
 
 _RECONNECT = 3600.0
 """Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""
 
 
-def serve(opened: Callable[[], tuple[CaseFile, str]], listener: socket.socket, warm: tuple[str, ...]) -> None:
+def serve(
+    opened: Callable[[], tuple[CaseFile, str]], server_socket: socket.socket, warm: tuple[str, ...]
+) -> None:
     """Serve pages until the program is interrupted."""
     stopping = threading.Event()
     ui.page("/", title="wearsim", dark=None)(partial(_page, opened, stopping))
@@ -31,14 +33,14 @@ def serve(opened: Callable[[], tuple[CaseFile, str]], listener: socket.socket, w
     ui.run_with(host, dark=None, reconnect_timeout=_RECONNECT, show_welcome_message=False)
     threading.Thread(target=_warm_up, args=(warm, stopping), daemon=True).start()
     settings = uvicorn.Config(
-        Guard(host, listener.getsockname()[1]),
+        Guard(host, server_socket.getsockname()[1]),
         log_config=None,
         access_log=False,
         proxy_headers=False,
         server_header=False,
         timeout_graceful_shutdown=1,
     )
-    uvicorn.Server(settings).run(sockets=[listener])
+    uvicorn.Server(settings).run(sockets=[server_socket])
 
 
 def _page(opened: Callable[[], tuple[CaseFile, str]], stopping: threading.Event) -> None:

@@ -11,7 +11,7 @@ from PIL import Image
 
 from wearsim.quantities import grouped
 from wearsim.report.animation_file import encoded
-from wearsim.report.animation_panels import Moving, depth_panel, elongation_panel, flank_panel
+from wearsim.report.animation_panels import MovingPanel, depth_panel, elongation_panel, flank_panel
 from wearsim.report.answer import ending, hours
 from wearsim.report.worn_flank import worn_flanks
 from wearsim.result import WearResult
@@ -63,7 +63,7 @@ def images(result: WearResult, heading: str, frames: int, width: int) -> Iterato
         yield Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
 
 
-def _panels(figure: Figure, result: WearResult, frames: int) -> list[Moving]:
+def _panels(figure: Figure, result: WearResult, frames: int) -> list[MovingPanel]:
     """Flanks on the left, depth and elongation against hours on the right."""
     flanks = worn_flanks(result)
     cycles = np.linspace(0.0, flanks[0].cycles[-1], frames)

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle
 from wearsim.quantities import grouped
 from wearsim.report.figures import LOOKS, draw_flank
@@ -31,7 +31,7 @@ _FAR = 4.0
 
 
 @dataclass(frozen=True)
-class Moving:
+class MovingPanel:
     """What moves in a panel."""
 
     artists: list[Artist]  # from the back to the front
@@ -40,7 +40,7 @@ class Moving:
 
 def flank_panel(
     panel: Axes, result: WearResult, flank: WornFlank, points: tuple[Vector, Vector, Vector], time: Vector
-) -> Moving:
+) -> MovingPanel:
     """Draw the new flank; the worn one moves."""
     frames = list(zip(*points, strict=True))
     still = () if flank.name == "wheel" else around_flank(result, flank)
@@ -60,7 +60,7 @@ def flank_panel(
         deepest.set_data(*deep.vertices.T)
         title.set_text(f"{lead}{grouped(time[frame])} h: {float(points[2][frame].max()):.3g} mm deep")
 
-    return Moving([between, worn, deepest, title], _show)
+    return MovingPanel([between, worn, deepest, title], _show)
 
 
 def _frame(panel: Axes, flank: WornFlank, worn: Vector) -> None:
@@ -77,7 +77,7 @@ def _frame(panel: Axes, flank: WornFlank, worn: Vector) -> None:
     panel.legend(loc="lower left", fontsize=8)
 
 
-def depth_panel(panel: Axes, result: WearResult, depths: Mapping[str, Vector], time: Vector) -> Moving:
+def depth_panel(panel: Axes, result: WearResult, depths: Mapping[str, Vector], time: Vector) -> MovingPanel:
     """Draw limits of the depth; its curves grow."""
     _limits(panel, result, ("critical_depth_mm", "wheel_critical_depth_mm"), depths.values())
     styles = {"wheel": ":"}
@@ -94,10 +94,10 @@ def depth_panel(panel: Axes, result: WearResult, depths: Mapping[str, Vector], t
         for name, curve in curves.items():
             curve.set_data(time[: frame + 1], depths[name][: frame + 1])
 
-    return Moving(list(curves.values()), _show)
+    return MovingPanel(list(curves.values()), _show)
 
 
-def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
+def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> MovingPanel:
     """Draw the limit of a chain's elongation; its curve grows."""
     hours = result.history_columns["time_hours"]
     grown = result.history_columns["elongation_percent"]
@@ -110,7 +110,7 @@ def elongation_panel(panel: Axes, result: WearResult, time: Vector) -> Moving:
         now = np.interp(time[frame], hours, grown)
         curve.set_data(np.append(hours[:rows], time[frame]), np.append(grown[:rows], now))
 
-    return Moving([curve], _show)
+    return MovingPanel([curve], _show)
 
 
 def _limits(panel: Axes, result: WearResult, names: tuple[str, ...], curves: Iterable[Vector]) -> None:

@@ -5,12 +5,12 @@ import shlex
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from wearsim.chain.selection import Finding
+from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
-from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_measures
+from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
-from wearsim.wear.accuracy import LEAST_ORDER, MOST_ORDER, GridStudy
+from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
@@ -98,7 +98,7 @@ def answer(result: WearResult, source: str) -> str:
     """Return the answer of one case as ``wearsim life`` prints it."""
     rows = [
         *findings(result),
-        ("Assumes", numbered(result.assumptions)),
+        ("Assumes", numbered_assumptions(result.assumptions)),
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
@@ -137,7 +137,7 @@ def overload_text(result: WearResult) -> str:
     return f"{found}; the hours are for wear only"
 
 
-def _rating_name(finding: Finding) -> str:
+def _rating_name(finding: RatingFinding) -> str:
     return f"{finding.name} (indicative)" if finding.note else finding.name
 
 
@@ -292,7 +292,7 @@ def grid_text(grid: "GridStudy") -> str:
     else:
         order = "no order" if math.isnan(grid.order) else f"order {grid.order:.2g}"
         found = (
-            f"{order} instead of {LEAST_ORDER:g} to {MOST_ORDER:g}, so no extrapolation: spread of the "
+            f"{order} instead of {LEAST_ORDER:g} to {MAX_ORDER:g}, so no extrapolation: spread of the "
             f"three {grid.error:.1g}"
         )
     return row("Grid", f"{nodes} nodes: {values} {unit}; {found}")

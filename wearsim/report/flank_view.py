@@ -7,7 +7,7 @@ import numpy as np
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 from wearsim.result import Life, WearResult
 from wearsim.result.folder import with_files
@@ -43,8 +43,8 @@ def snapshot(result: WearResult, index: int) -> dict[str, Vector]:
     columns = flanks(result, index)
     if "gap_kind" not in columns:
         return columns
-    most = int(result.flank_columns["depth_mm"].argmax())
-    at = columns["gap_kind"] == result.flank_columns["gap_kind"][most]
+    greatest = int(result.flank_columns["depth_mm"].argmax())
+    at = columns["gap_kind"] == result.flank_columns["gap_kind"][greatest]
     return {name: values[at] for name, values in columns.items()}
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from wearsim.case.model import Case
-from wearsim.chain.selection import Finding
+from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
 
 _WIDTH = 100
@@ -27,7 +27,7 @@ RATING_HEAD = ["rating", "value", "allowed", "margin", "used", "whose rule"]
 """Heads of the columns of `rating_cells`."""
 
 
-def rating_cells(ratings: Sequence[Finding]) -> list[list[str]]:
+def rating_cells(ratings: Sequence[RatingFinding]) -> list[list[str]]:
     """Return the ratings of a result in words, those outside marked."""
     rows = []
     for finding in ratings:
@@ -47,7 +47,7 @@ def rating_cells(ratings: Sequence[Finding]) -> list[list[str]]:
     return rows
 
 
-def rule(finding: Finding) -> str:
+def rule(finding: RatingFinding) -> str:
     """Return whose rule a rating is, which load it is about, and why it is only indicative."""
     return "; ".join(text for text in (finding.source, finding.load, finding.note) if text)
 

@@ -3,7 +3,7 @@
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.scene import Circle, Stroke
-from wearsim.geometry.wheel import WheelShape
+from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.report.flank_view import case_of, flanks, snapshot
 from wearsim.report.worn_flank import WornFlank
 from wearsim.result import WearResult

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.scene import Stroke
 from wearsim.report.flank_view import snapshot
 from wearsim.result import WearResult

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.chain.selection import Finding
+from wearsim.chain.selection import RatingFinding
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import new_folder
-from wearsim.geometry.profile import Vector
-from wearsim.input.kind import mechanism_of
+from wearsim.geometry.profile_points import Vector
+from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.quantities import quantities
-from wearsim.result.life import Life, LimitState, LowerBound
+from wearsim.result.lives import Life, LimitState, LowerBound
 
 SCHEMA_VERSION = 1
 
@@ -151,8 +151,8 @@ def _life(stored: dict[str, float]) -> Life | LowerBound:
     return Life(**stored) if "hours" in stored else LowerBound(**stored)
 
 
-def _rating(stored: dict[str, Any]) -> Finding:
-    return Finding(**{field.name: stored[field.name] for field in fields(Finding)})
+def _rating(stored: dict[str, Any]) -> RatingFinding:
+    return RatingFinding(**{field.name: stored[field.name] for field in fields(RatingFinding)})
 
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim._version import __version__
-from wearsim.chain.selection import Finding, overloading
-from wearsim.geometry.profile import Vector
+from wearsim.chain.selection import RatingFinding, overloading
+from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
-from wearsim.result.life import Life, LimitState, LowerBound, first_life, life_keys
+from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -67,7 +67,7 @@ class WearResult:
         materials are given: hours until pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
         Every limit and what its quantity has come to at the end of the life.
-    ratings : tuple of Finding
+    ratings : tuple of RatingFinding
         What the handbooks allow of the drive, on a wrap; empty otherwise.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
@@ -104,7 +104,7 @@ class WearResult:
     life_tolerance: float
     parts: Mapping[str, Life | LowerBound]
     limits: tuple[LimitState, ...]
-    ratings: tuple[Finding, ...]
+    ratings: tuple[RatingFinding, ...]
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     inputs: Mapping[str, Any]
@@ -134,7 +134,7 @@ class WearResult:
         return self.fatigue.get(self.governing or "", self.life)
 
     @property
-    def overloaded(self) -> tuple[Finding, ...]:
+    def overloaded(self) -> tuple[RatingFinding, ...]:
         """Those of `ratings` that overload the drive; the lives do not count them."""
         return overloading(self.ratings)
 
@@ -280,6 +280,6 @@ def environment() -> dict[str, str]:
     }
 
 
-def _rating(finding: Finding) -> dict[str, Any]:
+def _rating(finding: RatingFinding) -> dict[str, Any]:
     more = {"margin": finding.margin, "used_percent": 100.0 * finding.used, "ok": finding.ok}
     return {**asdict(finding), **more}

@@ -13,7 +13,7 @@ from wearsim.catalogue.catalogues import nearest
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
 from wearsim.input.keys import schema_fields, schema_of
-from wearsim.input.kind import WRAP_PROFILES
+from wearsim.input.mechanism_registry import WRAP_PROFILES
 from wearsim.input.schema.table import is_number, without_numbers
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import FILE_KEYS

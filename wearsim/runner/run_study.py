@@ -15,14 +15,17 @@ from wearsim.runner.workers import Workers
 _AHEAD = 3
 """Shards that wait with every worker."""
 
-_MOST_LOSSES = 3
+_MAX_LOSSES = 3
 """Times in a row that workers may die before anything is finished."""
 
-Told = Callable[[int, int], None]
+ProgressCount = Callable[[int, int], None]
 
 
 def run_study(
-    design: Design, workers: Workers, store: Store | None = None, told: Told = lambda done, count: None
+    design: Design,
+    workers: Workers,
+    store: Store | None = None,
+    progress: ProgressCount = lambda done, count: None,
 ) -> pd.DataFrame:
     """Run the cases of a study that are not finished yet."""
     done: dict[int, Rows] = {}
@@ -34,19 +37,19 @@ def run_study(
         else:
             done[shard.first] = rows
     count = sum(len(rows["case_index"]) for rows in done.values())
-    told(count, len(design.rows))
+    progress(count, len(design.rows))
     losses = 0
     while waiting:
         before = len(done)
         for shard, rows in _run(waiting, workers):
             if store is not None:
-                store.keep(shard, rows)
+                store.save(shard, rows)
             done[shard.first] = rows
             count += shard.count
-            told(count, len(design.rows))
+            progress(count, len(design.rows))
         waiting = [shard for shard in waiting if shard.first not in done]
         losses = losses + 1 if len(done) == before else 0
-        if losses == _MOST_LOSSES:
+        if losses == _MAX_LOSSES:
             raise StudyError(
                 f"workers died {losses} times before they had finished anything: take fewer of them "
                 "or give them more memory; what is finished is kept"

@@ -10,7 +10,7 @@ import numpy as np
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import Document, read_document
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.result.folder import FILE_KEYS
@@ -26,7 +26,7 @@ WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([
 
 
 @dataclass(frozen=True)
-class Scatter:
+class ScatteredKey:
     """A key that scatters."""
 
     key: str  # its dotted name
@@ -36,13 +36,13 @@ class Scatter:
 
 
 @dataclass(frozen=True)
-class Scattered:
+class ScatteredCase:
     """A case and what of it scatters."""
 
     path: Path  # its file
     case: Case  # with the values of the file
     document: Document  # the file without [uncertainty], the wear coefficient by its own key
-    scatters: tuple[Scatter, ...]  # what scatters, independently of one another
+    scatters: tuple[ScatteredKey, ...]  # what scatters, independently of one another
     assumptions: tuple[str, ...]  # what is taken for granted about that
 
     @property
@@ -68,7 +68,7 @@ class Scattered:
         return design(self.document, self.keys, rows, str(self.path))
 
 
-def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | None = None) -> Scattered:
+def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | None = None) -> ScatteredCase:
     """Return a case and what of it scatters by its table [uncertainty]."""
     document = read_document(path, overrides)
     case = load_case(path, overrides).with_horizon(least_horizon or 0.0)
@@ -86,7 +86,7 @@ def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | 
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
-    return Scattered(path, case, plain_document(document, case), scatters, tuple(assumptions))
+    return ScatteredCase(path, case, plain_document(document, case), scatters, tuple(assumptions))
 
 
 def coefficient_key(case: Case) -> str:
@@ -105,12 +105,12 @@ def _given(case: Case) -> dict[str, Distribution]:
     return {key: Distribution.model_validate(entry) for key, entry in table.items()}
 
 
-def _scatter(case: Case, key: str, distribution: Distribution) -> Scatter:
+def _scatter(case: Case, key: str, distribution: Distribution) -> ScatteredKey:
     if key.startswith("run."):
         text = "keys of [run] tell how a life is calculated and cannot scatter: remove it"
         raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
     value = case.wear.coefficient if key == coefficient_key(case) else _value(case, key)
-    return Scatter(key, distribution, value, described(distribution, value))
+    return ScatteredKey(key, distribution, value, described(distribution, value))
 
 
 def _value(case: Case, key: str) -> float:

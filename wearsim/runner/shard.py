@@ -14,7 +14,7 @@ from wearsim.errors import StudyError, WearsimError
 from wearsim.result import Life
 from wearsim.result.folder import with_files
 from wearsim.runner.design import Design, Engine, content_hash, engine
-from wearsim.simulation.simulate_many import CaseLife, simulate_many
+from wearsim.simulation.batch_lives import CaseLife, simulate_many
 
 COLUMNS = (
     "case_index",

@@ -59,7 +59,7 @@ class Store:
             path.unlink()
         return None
 
-    def keep(self, shard: Shard, rows: Rows) -> None:
+    def save(self, shard: Shard, rows: Rows) -> None:
         """Write the rows of a shard beside its place, flush them to the disk, and rename."""
         arrow = library("pyarrow", "parquet", "--out")
         from pyarrow import parquet
@@ -88,9 +88,9 @@ class Store:
             ) from None
 
 
-def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> Store:
+def open_store(folder: Path, design: Design, manifest: Mapping[str, Any], force: bool) -> Store:
     """Make the folder of a study, or open it to go on."""
-    text = _manifest(design, told)
+    text = _manifest(design, manifest)
     old = _found(folder, text, force)
     if old == text:
         return Store(folder)
@@ -101,9 +101,9 @@ def open_store(folder: Path, design: Design, told: Mapping[str, Any], force: boo
     return Store(folder)
 
 
-def check_store(folder: Path, design: Design, told: Mapping[str, Any], force: bool) -> None:
+def check_store(folder: Path, design: Design, manifest: Mapping[str, Any], force: bool) -> None:
     """Raise where a study cannot go into a folder, as `open_store` does."""
-    _found(folder, _manifest(design, told), force)
+    _found(folder, _manifest(design, manifest), force)
 
 
 def own_designs(folder: Path) -> list[Path]:
@@ -136,8 +136,8 @@ def _found(folder: Path, text: str, force: bool) -> str | None:
     return old
 
 
-def _manifest(design: Design, told: Mapping[str, Any]) -> str:
-    content = {"schema_version": 1, **told, "cases": len(design.rows), "sha256": design.address()}
+def _manifest(design: Design, manifest: Mapping[str, Any]) -> str:
+    content = {"schema_version": 1, **manifest, "cases": len(design.rows), "sha256": design.address()}
     return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -56,15 +56,15 @@ class Processes:
     def open(self) -> Iterator[tuple[Executor, int]]:
         """Give an executor and the number of its workers."""
         context = get_context("spawn")
-        with ProcessPoolExecutor(self.count, context, initializer=_deaf) as pool:
-            with _held():
+        with ProcessPoolExecutor(self.count, context, initializer=_ignore_interrupts) as pool:
+            with _interrupts_blocked():
                 for _ in range(self.count):
                     pool.submit(int)
             yield pool, self.count
 
 
 @contextmanager
-def _held() -> Iterator[None]:
+def _interrupts_blocked() -> Iterator[None]:
     """Hold Ctrl-C back while processes start, which inherit that until they are deaf to it."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -76,7 +76,7 @@ def _held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _deaf() -> None:
+def _ignore_interrupts() -> None:
     """Leave it to the parent to end on Ctrl-C, after the shards that are under way."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -122,7 +122,7 @@ class Cluster:
             yield client.get_executor(pure=False), _checked(client, dask, place)
 
 
-class KeptOpen:
+class SharedWorkers:
     """Workers that stay open from one batch of cases to the next, until one of them dies."""
 
     def __init__(self, workers: Workers) -> None:
@@ -136,7 +136,7 @@ class KeptOpen:
         return self._workers.losses
 
     @contextmanager
-    def open(self) -> Iterator[tuple["KeptOpen", int]]:
+    def open(self) -> Iterator[tuple["SharedWorkers", int]]:
         """Give these workers and their number, anew where one has died."""
         if self._lost:
             self.close()

@@ -97,11 +97,11 @@ def verify_grid(case: Case) -> "GridStudy":
 
 def new_peak_pressure(case: Case) -> float:
     """Return the highest pressure of a case on its new flanks, without a run."""
-    from wearsim.simulation.task import new_flank_pressure, wear_law
+    from wearsim.simulation.wear_task import new_flank_pressure, wear_law
 
     if case.drive.rests:
         from wearsim.simulation.wrap_life import wrap_of
-        from wearsim.wear.bodies import highest_load
+        from wearsim.wear.resting_bodies import highest_load
 
         law = wear_law(case.wear, case.wear.coefficient)
         return highest_load(wrap_of(case).contact(case), law, None)[0]

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from wearsim.case.model import Case, FatigueInput
-from wearsim.fatigue.contact_fatigue import doubtful_hardness
+from wearsim.fatigue.contact_fatigue import hardness_warnings
 from wearsim.fatigue.endurance import EnduredHours
 from wearsim.result import Life, LowerBound, life_of
 
@@ -22,7 +22,7 @@ def fatigue_parts(
     """Return the lives of a case until pitting."""
     rate = case.cycles_per_hour
     endured = case.drive.fatigue_lives(case, fatigue, stresses)
-    warnings = doubtful_hardness(fatigue.materials)
+    warnings = hardness_warnings(fatigue.materials)
     for name, found in endured.items():
         warnings += _early(name, found, life, sprocket)
     lives = {

@@ -6,19 +6,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wearsim.case.model import Case
-from wearsim.contact.engagement import Contact, Mechanism
+from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.errors import ConvergenceError, WearsimError
-from wearsim.geometry.profile import Vector, area_between, area_swept
+from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.grids import LEVELS, Search, Settled, settle
-from wearsim.simulation.task import Task, limit_states, new_flank_pressure, running_in_assumptions, task
+from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.validity import few_cycles, validity
+from wearsim.simulation.wear_task import (
+    WearTask,
+    limit_states,
+    new_flank_pressure,
+    running_in_assumptions,
+    wear_task,
+)
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
-MOST_UPDATES = 10_000_000_000
+MAX_UPDATES = 10_000_000_000
 """Updates of a cycle-by-cycle run, each of a microsecond or two on 200 points."""
 
 
@@ -26,11 +32,11 @@ def simulate_points(case: Case) -> WearResult:
     """Wear the flank of a case on a strand or under a table of loads."""
     warnings = list(case.warnings)
     new = case.drive.mechanism(case)
-    settled = _settled(case, new, warnings)
-    mechanism, asked, run = settled.mechanism, settled.run.asked, settled.run.trajectory
+    settled = _settled_life(case, new, warnings)
+    mechanism, task, run = settled.mechanism, settled.run.task, settled.run.trajectory
     history, flank = _tables(case, mechanism, run)
     warnings += validity(mechanism.contact, history, flank)
-    low, high = _band(case, asked, run, warnings)
+    low, high = _band(case, task, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
     # On the points of the case, as all that is asked of a new flank.
@@ -60,11 +66,11 @@ def simulate_points(case: Case) -> WearResult:
         numerical_error=settled.error,
         life_tolerance=case.run.life_tolerance,
         parts=fatigue,
-        limits=limit_states(asked.criteria, run.x[-1], run.y[-1], run.depth[-1]),
+        limits=limit_states(task.stop_limits, run.x[-1], run.y[-1], run.depth[-1]),
         ratings=(),
         assumptions=(
             *mechanism.assumptions(),
-            *running_in_assumptions(asked.running_in),
+            *running_in_assumptions(task.running_in),
             *settled.assumptions(),
             *case.assumptions,
         ),
@@ -80,71 +86,71 @@ def simulate_points(case: Case) -> WearResult:
 def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run a case on a strand or under a table of loads on three grids."""
     tight = replace(case, run=replace(case.run, life_tolerance=life_tolerance))
-    return grid_study(case.drive.mechanism(case).contact, lambda grid: task(tight, grid).run()[0])
+    return grid_study(case.drive.mechanism(case).contact, lambda grid: wear_task(tight, grid).run()[0])
 
 
 @dataclass(frozen=True, eq=False)
-class _GridRun:
+class _SteppedRun:
     """A run on one grid."""
 
-    asked: Task
+    task: WearTask
     trajectory: Trajectory
     step_error: float
 
     @property
     def spacing(self) -> float:
-        return self.asked.contact.end_spacing
+        return self.task.contact.end_spacing
 
     @property
     def own_error(self) -> float:
         run = self.trajectory
         return self.step_error + depth_missed(run.x[-1], run.y[-1], run.depth[-1])
 
-    def change(self, other: "_GridRun") -> float:
+    def change(self, other: "_SteppedRun") -> float:
         return difference(self.trajectory, other.trajectory)
 
 
-def _settled(case: Case, mechanism: Mechanism, warnings: list[str]) -> Settled[_GridRun]:
+def _settled_life(case: Case, mechanism: Mechanism, warnings: list[str]) -> SettledLife[_SteppedRun]:
     """Find the life on points on which it is within its tolerance, or say that it is not."""
     advances = case.run.method == "advance"
     tolerance, levels = case.run.life_tolerance, LEVELS if advances else 0
-    search: Search[_GridRun] = settle(mechanism, tolerance, levels)
+    search: GridSearch[_SteppedRun] = settle_grid(mechanism, tolerance, levels)
     contacts = next(search)
-    first = _GridRun(task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
-    found: list[_GridRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
+    first = _SteppedRun(wear_task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
+    found: list[_SteppedRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
     while True:
         try:
             contacts = search.send(found)
         except StopIteration as end:
-            settled: Settled[_GridRun] = end.value
+            settled: SettledLife[_SteppedRun] = end.value
             break
         found = [_run_on(case, contact) for contact in contacts]
     warnings += settled.warnings(tolerance)
     return settled
 
 
-def _first_run(case: Case, contact: Contact, warnings: list[str]) -> tuple[Trajectory, float]:
+def _first_run(case: Case, contact: FlankContact, warnings: list[str]) -> tuple[Trajectory, float]:
     """Return the run of a case on its own points, and the error of its steps."""
-    asked = task(case, contact)
+    task = wear_task(case, contact)
     if case.run.method == "advance":
-        run, error = asked.run()
+        run, error = task.run()
         check_fold(contact, run)
         return run, error
     from wearsim.wear.per_cycle import run_per_cycle
 
     try:
-        check, change = asked.run()
+        check, change = task.run()
     except WearsimError as reason:
         check, missing = None, str(reason)
     cycles = case.run.cycles_per_update
-    expected = asked.running_in.constant_cycles(float(check.cycles[-1])) if check else 0.0
-    if expected > MOST_UPDATES * cycles:
-        least = math.ceil(expected / MOST_UPDATES)
+    expected = task.running_in.steady_cycles(float(check.cycles[-1])) if check else 0.0
+    if expected > MAX_UPDATES * cycles:
+        least = math.ceil(expected / MAX_UPDATES)
         raise ConvergenceError(
-            f"wear: a cycle-by-cycle run must stay below {MOST_UPDATES:.0e} updates, four hours, takes "
+            f"wear: a cycle-by-cycle run must stay below {MAX_UPDATES:.0e} updates, four hours, takes "
             f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
         )
-    run = asked.run_in(run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, cycles))
+    run = task.run_in(run_per_cycle(contact, task.law, task.stop_limits, task.horizon, cycles))
     check_fold(contact, run)
     if check is None:
         warnings.append(
@@ -154,15 +160,15 @@ def _first_run(case: Case, contact: Contact, warnings: list[str]) -> tuple[Traje
     return run, change + difference(run, check)
 
 
-def _run_on(case: Case, contact: Contact) -> _GridRun | None:
+def _run_on(case: Case, contact: FlankContact) -> _SteppedRun | None:
     """Return the run on other points; None where there is none."""
-    asked = task(case, contact)
+    task = wear_task(case, contact)
     try:
-        run, error = asked.run()
+        run, error = task.run()
         check_fold(contact, run)
     except WearsimError:
         return None
-    return _GridRun(asked, run, error)
+    return _SteppedRun(task, run, error)
 
 
 def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str, Vector], dict[str, Vector]]:
@@ -205,23 +211,23 @@ def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str
 
 
 def _band(
-    case: Case, asked: Task, run: Trajectory, warnings: list[str]
+    case: Case, task: WearTask, run: Trajectory, warnings: list[str]
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
     if isinstance(life, Life):
-        constant = asked.running_in.constant_cycles(life.cycles)
+        steady = task.running_in.steady_cycles(life.cycles)
         factors = np.array([case.wear.high, case.wear.low])
-        low, high = asked.running_in.running_cycles(constant / factors).tolist()
+        low, high = task.running_in.running_cycles(steady / factors).tolist()
         return Life(low, low / case.cycles_per_hour), Life(high, high / case.cycles_per_hour)
-    law = replace(asked.law, coefficient=case.wear.high * asked.law.coefficient)
+    law = replace(task.law, coefficient=case.wear.high * task.law.coefficient)
     try:
-        worse, _ = replace(asked, law=law).run()
+        worse, _ = replace(task, law=law).run()
     except WearsimError as reason:
         # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
-        constant = asked.running_in.constant_cycles(float(run.cycles[-1])) / case.wear.high
-        cycles = float(asked.running_in.running_cycles(np.array([constant]))[0])
+        steady = task.running_in.steady_cycles(float(run.cycles[-1])) / case.wear.high
+        cycles = float(task.running_in.running_cycles(np.array([steady]))[0])
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
 
@@ -235,8 +241,8 @@ def _fatigue(
     from wearsim.simulation.pitting import fatigue_parts
 
     highest = case.fatigue.load_factor**0.5 * peak_pressure
-    most = max((block.tension for block in case.drive.duty), default=1.0)
-    stresses = [(highest * (block.tension / most) ** 0.5, block.share) for block in case.drive.duty]
+    greatest = max((block.tension for block in case.drive.duty), default=1.0)
+    stresses = [(highest * (block.tension / greatest) ** 0.5, block.share) for block in case.drive.duty]
     lives, found = fatigue_parts(case, case.fatigue, stresses or [(highest, 1.0)], life, life)
     warnings += found
     return lives

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from wearsim.contact.engagement import Contact
+from wearsim.contact.engagement import FlankContact
 from wearsim.contact.hertz import half_width
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 _FEW_CYCLES = 1000
 """Life below which a coefficient is doubtful."""
@@ -23,7 +23,7 @@ def few_cycles(cycles: float) -> list[str]:
     return [f"the life is only {cycles:.3g} cycles: check the wear coefficient and its unit"]
 
 
-def wide_contact(contact: Contact, half_width: float) -> list[str]:
+def wide_contact(contact: FlankContact, half_width: float) -> list[str]:
     """Return a warning of a contact too wide for half-spaces."""
     if half_width <= _WIDE * contact.roller_radius:
         return []
@@ -53,7 +53,7 @@ def low_contact_ratio_in_the_end(ratio: float) -> list[str]:
     return [f"the worn contact ratio is {ratio:.3f} in the end, below 1: {_EDGE}"]
 
 
-def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
+def validity(contact: FlankContact, history: dict[str, Vector], flank: dict[str, Vector]) -> list[str]:
     """Return a warning for every limit of the theory that a run passes."""
     load, relative = flank["load_per_width_N_per_mm"], flank["relative_curvature_per_mm"]
     # Between two steps an interpolated flank may conform where those of both steps do not.
@@ -71,7 +71,7 @@ def validity(contact: Contact, history: dict[str, Vector], flank: dict[str, Vect
     return found + low_contact_ratio(history["time_hours"], history["worn_contact_ratio"])
 
 
-def _bridged(contact: Contact, hours: Vector, relative: Vector, load: Vector) -> list[str]:
+def _bridged(contact: FlankContact, hours: Vector, relative: Vector, load: Vector) -> list[str]:
     """Return warnings of hollows that the mate bridges, and of ridges between them."""
     shape = hours.size, contact.arc_length.size
     curvature, loaded = relative.reshape(shape), load.reshape(shape) > 0.0

@@ -9,27 +9,27 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
-from wearsim.contact.criteria import Criterion
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ConvergenceError
-from wearsim.geometry.profile import Vector, area_between
+from wearsim.geometry.profile_points import Vector, area_between
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.task import limit_states, running_in, running_in_assumptions, wear_law
+from wearsim.simulation.wear_task import case_running_in, limit_states, running_in_assumptions, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
-from wearsim.wear.bodies import Rows, Start, highest_load
-from wearsim.wear.halving import advance_dwelling
-from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
-from wearsim.wear.law import Law
+from wearsim.wear.implicit_steps import RestingTrajectory, reported_progress, run_resting
+from wearsim.wear.law import WearLaw
+from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.running_in import RunningIn
+from wearsim.wear.step_halving import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
 
-_MOST_UPDATES = 200_000
+_MAX_UPDATES = 200_000
 """Updates of a cycle-by-cycle run, each of some milliseconds."""
 
 
@@ -46,14 +46,14 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     """
     drive = wrap_of(case)
     contact = drive.contact(case)
-    law, criteria, horizon = wrap_problem(case, contact)
-    warp = law.running_in
+    law, stop_limits, horizon = wrap_problem(case, contact)
+    running_in = law.running_in
     ratings = drive.ratings(case)
     warnings = [*case.warnings, *rating_warnings(ratings)]
-    run, error = _run(case, contact, law, criteria, horizon, warnings, progress)
+    run, error = _run(case, contact, law, stop_limits, horizon, warnings, progress)
     warnings += _gave_up(run, horizon)
-    run = replace(run, cycles=warp.running_cycles(run.cycles))
-    chain = _chain_life(case, contact, horizon, warp)
+    run = replace(run, cycles=running_in.running_cycles(run.cycles))
+    chain = _chain_life(case, contact, horizon, running_in)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run, law)
@@ -64,8 +64,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         case=case.name,
         title=case.title,
         life=life,
-        life_low=_scaled(life, case.wear.high, case, warp),
-        life_high=_scaled(life, case.wear.low, case, warp),
+        life_low=_scaled(life, case.wear.high, case, running_in),
+        life_high=_scaled(life, case.wear.low, case, running_in),
         band=f"{case.wear.band}, of teeth and joints alike",
         stop=stop,
         stop_value=stop_value,
@@ -86,9 +86,9 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts=parts,
-        limits=_limits(contact, drive, criteria, run, life),
+        limits=_limits(contact, drive, stop_limits, run, life),
         ratings=ratings,
-        assumptions=(*contact.assumptions(), *running_in_assumptions(warp), *case.assumptions),
+        assumptions=(*contact.assumptions(), *running_in_assumptions(running_in), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -98,46 +98,50 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     )
 
 
-def wrap_problem(case: Case, contact: WrapContact) -> tuple[Law, tuple[Criterion, ...], float]:
+def wrap_problem(case: Case, contact: WrapContact) -> tuple[WearLaw, tuple[StopLimit, ...], float]:
     """Return what a wrap asks of the wear engine."""
-    warp = running_in(case.wear, contact.sliding_per_cycle)
-    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=warp)
-    criteria = wrap_of(case).gap_limits(case, contact.mechanism.path)
-    return law, criteria, warp.constant_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    running_in = case_running_in(case.wear, contact.sliding_per_cycle)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=running_in)
+    stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
+    return law, stop_limits, running_in.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
 
 
 def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run the sprocket of a wrapped case on three grids."""
     contact = wrap_of(case).contact(case)
     run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
-    return grid_study(contact.thinned(), run_on)
+    return grid_study(contact.with_fewer_phases(), run_on)
 
 
 def _on_grid(
-    law: Law, criteria: tuple[Criterion, ...], horizon: float, life_tolerance: float, grid: Dwelling
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
+    horizon: float,
+    life_tolerance: float,
+    grid: RestingContact,
 ) -> Trajectory:
-    run, _ = advance_dwelling(grid, law, criteria, horizon, life_tolerance)
+    run, _ = advance_resting(grid, law, stop_limits, horizon, life_tolerance)
     return replace(run, cycles=law.running_in.running_cycles(run.cycles))
 
 
 def _run(
     case: Case,
     contact: WrapContact,
-    law: Law,
-    criteria: tuple[Criterion, ...],
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
     horizon: float,
     warnings: list[str],
     progress: Callable[[float], None],
-) -> tuple[DwellingTrajectory, float]:
+) -> tuple[RestingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
-    run, error = advance_dwelling(
-        contact.thinned(), law, criteria, horizon, tolerance / amplification, progress=progress
+    run, error = advance_resting(
+        contact.with_fewer_phases(), law, stop_limits, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
         check, end = run, float(run.cycles[-1])
         until = horizon if check.met else end
-        run = _per_cycle(case, contact, law, criteria, until, end, progress)
+        run = _per_cycle(case, contact, law, stop_limits, until, end, progress)
         error += difference(run, check)
     error *= amplification
     if error > tolerance:
@@ -147,7 +151,7 @@ def _run(
     return run, error
 
 
-def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
+def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     """Warn of a run that ended neither at a limit nor at its horizon."""
     if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
         return []
@@ -160,34 +164,34 @@ def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
 def _per_cycle(
     case: Case,
     contact: WrapContact,
-    law: Law,
-    criteria: tuple[Criterion, ...],
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
     horizon: float,
     expected: float,
     progress: Callable[[float], None],
-) -> DwellingTrajectory:
+) -> RestingTrajectory:
     """Run the case with steps of given cycles; about so many are expected in all."""
     cycles = float(case.run.cycles_per_update)
-    if expected > _MOST_UPDATES * cycles:
-        least = math.ceil(expected / _MOST_UPDATES)
+    if expected > _MAX_UPDATES * cycles:
+        least = math.ceil(expected / _MAX_UPDATES)
         raise ConvergenceError(
-            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MOST_UPDATES} updates, takes "
+            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MAX_UPDATES} updates, takes "
             f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
         )
-    return run_dwelling(contact, law, criteria, horizon, 0, cycles, reporting(progress))
+    return run_resting(contact, law, stop_limits, horizon, 0, cycles, reported_progress(progress))
 
 
-def _chain_life(case: Case, contact: WrapContact, horizon: float, warp: RunningIn) -> Life | LowerBound:
+def _chain_life(case: Case, contact: WrapContact, horizon: float, running_in: RunningIn) -> Life | LowerBound:
     """Life of a chain: apart from running-in its joints wear at a constant rate."""
     cycles = contact.cycles_per_chain
-    run = float(warp.running_cycles(np.array([min(cycles, horizon)]))[0])
+    run = float(running_in.running_cycles(np.array([min(cycles, horizon)]))[0])
     return life_of(run, case.cycles_per_hour, cycles <= horizon)
 
 
 def _first(
     case: Case,
     drive: WrapDrive,
-    run: DwellingTrajectory,
+    run: RestingTrajectory,
     chain: Life | LowerBound,
     sprocket: Life | LowerBound,
 ) -> tuple[Life | LowerBound, str, float]:
@@ -199,17 +203,17 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def _scaled(life: Life | LowerBound, factor: float, case: Case, warp: RunningIn) -> Life | LowerBound:
+def _scaled(life: Life | LowerBound, factor: float, case: Case, running_in: RunningIn) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
-    constant = warp.constant_cycles(life.cycles_run)
-    scaled = warp.running_cycles(np.array([constant / factor]))
+    steady = running_in.steady_cycles(life.cycles_run)
+    scaled = running_in.running_cycles(np.array([steady / factor]))
     return life_of(float(scaled[0]), case.cycles_per_hour, isinstance(life, Life))
 
 
 def _fatigue(
     case: Case,
     contact: WrapContact,
-    law: Law,
+    law: WearLaw,
     wear: tuple[Life | LowerBound, Life | LowerBound],
     warnings: list[str],
 ) -> dict[str, Life | LowerBound]:
@@ -231,14 +235,14 @@ def _fatigue(
 def _limits(
     contact: WrapContact,
     drive: WrapDrive,
-    criteria: tuple[Criterion, ...],
-    run: DwellingTrajectory,
+    stop_limits: tuple[StopLimit, ...],
+    run: RestingTrajectory,
     life: Life | LowerBound,
 ) -> tuple[LimitState, ...]:
     """Return what every limit has come to when the life ends."""
     at = int(np.searchsorted(run.cycles, life.cycles_run * (1.0 - 1e-9)))
     at = min(at, run.cycles.size - 1)
-    worn = limit_states(criteria, run.x[at], run.y[at], run.depth[at])
+    worn = limit_states(stop_limits, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
     wear = ChainWear(elongation, float(run.roller_wear[at]))
     least = _smallest_slack_tension(contact, run.all_depth[at], wear)
@@ -257,15 +261,15 @@ def _limits(
 def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: ChainWear) -> float:
     """Slack tension below which the chain jumps on worn gaps [N]."""
     worn = contact.worn_paths(*contact.profile.receded(depth), wear)
-    return contact.gripping.smallest_slack_tension(wear.elongation, worn)
+    return contact.heaviest_rollers.smallest_slack_tension(wear.elongation, worn)
 
 
 def _tables(
-    case: Case, contact: WrapContact, drive: WrapDrive, run: DwellingTrajectory, law: Law
+    case: Case, contact: WrapContact, drive: WrapDrive, run: RestingTrajectory, law: WearLaw
 ) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Return the columns of history.csv and flank.csv."""
     profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
-    pressure, speed = highest_load(contact, law, Start(run.all_depth[0], NEW_CHAIN, 1))
+    pressure, speed = highest_load(contact, law, StartState(run.all_depth[0], NEW_CHAIN, 1))
     history = {
         "cycles": run.cycles,
         "time_hours": run.cycles / case.cycles_per_hour,

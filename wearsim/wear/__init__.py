@@ -1,1 +1,1 @@
-"""Wear of a flank under any contact: law, cycle loop, advance, criteria, hours."""
+"""Wear of a flank under any contact: law, cycle loop, advance, stop limits, hours."""

@@ -7,12 +7,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from wearsim.contact.engagement import Contact
-from wearsim.contact.resting_engagement import Dwelling
-from wearsim.geometry.profile import Vector
+from wearsim.contact.engagement import FlankContact
+from wearsim.contact.resting_engagement import RestingContact
+from wearsim.geometry.profile_points import Vector
 from wearsim.wear.trajectory import Trajectory, depth_at
 
-AnyContact = TypeVar("AnyContact", Contact, Dwelling)
+AnyContact = TypeVar("AnyContact", FlankContact, RestingContact)
 
 SAFETY = 1.1
 """On the error of a grid: with it the stated error holds for 98 of 100 random drives."""
@@ -112,31 +112,20 @@ def depth_missed(x: Vector, y: Vector, depth: Vector) -> float:
 
 @dataclass(frozen=True)
 class GridStudy:
-    """What a run comes to on three grids, each with half the points of the one before.
+    """What a run comes to on three grids, each with half the points of the one before."""
 
-    Attributes
-    ----------
-    points : tuple of int
-        Of the grids, the finest first.
-    quantity : str
-        What is compared: ``cycles``, or ``max_depth_mm`` when the first ends where a run ends at
-        the horizon.
-    values : tuple of float
-        On each grid.
-    order : float
-        Observed order of convergence, log2 of the ratio of the two differences; nan where these
-        have different signs or vanish.
-    """
-
-    points: tuple[int, ...]
+    points: tuple[int, ...]  # of the grids, the finest first
+    # what is compared: `cycles`, or `max_depth_mm` when the first ends where a run ends at the horizon
     quantity: str
-    values: tuple[float, ...]
+    values: tuple[float, ...]  # on each grid
+    # observed order of convergence, log2 of the ratio of the two differences; nan where these have different
+    # signs or vanish
     order: float
 
     @property
     def extrapolates(self) -> bool:
         """Whether the order is near enough to 2 for Richardson's extrapolation."""
-        return LEAST_ORDER <= self.order <= MOST_ORDER
+        return LEAST_ORDER <= self.order <= MAX_ORDER
 
     @property
     def error(self) -> float:
@@ -148,7 +137,7 @@ class GridStudy:
         return spread / fine
 
 
-LEAST_ORDER, MOST_ORDER = 1.5, 2.5
+LEAST_ORDER, MAX_ORDER = 1.5, 2.5
 """Orders between which an error may be extrapolated; kinks of the load share give about 0."""
 
 

@@ -16,14 +16,12 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.criteria import Criterion
-from wearsim.contact.engagement import Contact
-from wearsim.contact.resting_engagement import Dwelling
+from wearsim.contact.engagement import FlankContact
+from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
-from wearsim.geometry.profile import Vector
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, TOOTHED, VANISHED
-from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
-from wearsim.kernels.steps import (
+from wearsim.geometry.profile_points import Vector
+from wearsim.kernels.controlled_steps import (
     CLOCK,
     END,
     FINEST,
@@ -36,14 +34,16 @@ from wearsim.kernels.steps import (
     states_between,
     wear_in_steps,
 )
-from wearsim.wear.law import Law
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, SAWTOOTH, VANISHED
+from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
+from wearsim.wear.law import WearLaw
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _CONFORMS = 1e-5
 """Relative curvature over that of the roller at which a run that does not get on has come to a flank
 that conforms: the width of the contact is then several roller radii."""
 
-_CHUNK, MOST_STEPS = 64, 10_000
+_CHUNK, MAX_STEPS = 64, 10_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
 
 Table = NDArray[np.float64]
@@ -53,9 +53,9 @@ Table = NDArray[np.float64]
 class _Problem:
     """A flank with its law of coefficient 1, its limits and the end in cycles times coefficient."""
 
-    contact: Contact
-    law: Law
-    criteria: tuple[Criterion, ...]
+    contact: FlankContact
+    law: WearLaw
+    stop_limits: tuple[StopLimit, ...]
     horizon: float
 
     @property
@@ -79,7 +79,7 @@ class _Solution:
     times: Vector
     path: Table
     end: float
-    met: Criterion | None
+    met: StopLimit | None
     rates: int
 
     def states(self, times: Vector) -> Table:
@@ -123,12 +123,12 @@ class _Solve:
     def run(self) -> _Solution:
         """Go on until a limit or the horizon ends it; raise what else does."""
         status, failing = RUNNING, None
-        while status == RUNNING and failing is None and self._states() <= MOST_STEPS:
+        while status == RUNNING and failing is None and self._states() <= MAX_STEPS:
             status = self._go_on()
             failing = self._first_failing()
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
             self._refuse(status)
-        met = self.problem.criteria[0] if status == DEPTH_REACHED else None
+        met = self.problem.stop_limits[0] if status == DEPTH_REACHED else None
         end, rates = float(self.clock[END]), int(self.clock[RATES])
         if failing is not None:
             times, path = self.chunks[-1]
@@ -156,7 +156,7 @@ class _Solve:
             problem.law.unit_numbers(contact.kind),
             problem.diffusion,
             int(not contact.offset_form),
-            problem.criteria[0].limit,
+            problem.stop_limits[0].limit,
             self.tolerance,
             problem.horizon,
             _CHUNK,
@@ -175,9 +175,9 @@ class _Solve:
 
     def _first_failing(self) -> int | None:
         """Return the first state of the last chunk at which a limit other than the depth fails."""
-        others = self.problem.criteria[1:]
+        others = self.problem.stop_limits[1:]
         for place, (x, y, depth) in enumerate(self.chunks[-1][1][:, :3]):
-            if any(criterion.margin(x, y, depth) <= 0.0 for criterion in others):
+            if any(stop_limit.margin(x, y, depth) <= 0.0 for stop_limit in others):
                 return place
         return None
 
@@ -186,13 +186,13 @@ class _Solve:
         from scipy.optimize import brentq  # takes 0.1 s, and most runs end on the depth
 
         low, high = solution.times[-2:] if solution.times.size > 1 else (0.0, 0.0)
-        for criterion in self.problem.criteria[1:]:
-            if criterion.margin(*solution.path[-1, :3]) > 0.0:
+        for stop_limit in self.problem.stop_limits[1:]:
+            if stop_limit.margin(*solution.path[-1, :3]) > 0.0:
                 continue
-            margin = partial(_margin, solution, criterion)
+            margin = partial(_margin, solution, stop_limit)
             time = brentq(margin, low, high, rtol=1e-14, xtol=1e-300) if margin(low) > 0.0 else low
             if time < solution.end or (time == solution.end and solution.met is None):
-                solution = replace(solution, end=float(time), met=criterion)
+                solution = replace(solution, end=float(time), met=stop_limit)
         return solution
 
     def _refuse(self, status: int) -> NoReturn:
@@ -203,8 +203,8 @@ class _Solve:
             check_touch(contact, x, y, depth, cycles, _CONFORMS / contact.roller_radius)
         if status == VANISHED:
             raise no_sliding(cycles)
-        if status == TOOTHED:
-            check_sawtooth(contact, depth, cycles, self.problem.criteria[0].limit)
+        if status == SAWTOOTH:
+            check_sawtooth(contact, depth, cycles, self.problem.stop_limits[0].limit)
         broken = ~np.isfinite(self.work[9])
         place = contact.arc_length[int((broken if broken.any() else path[-1, 3]).argmax())]
         kind = _TooManyStepsError if status == RUNNING else ConvergenceError
@@ -214,29 +214,29 @@ class _Solve:
         )
 
 
-def _margin(solution: _Solution, criterion: Criterion, time: float) -> float:
-    return criterion.margin(*solution.state(time))
+def _margin(solution: _Solution, stop_limit: StopLimit, time: float) -> float:
+    return stop_limit.margin(*solution.state(time))
 
 
 def run_advance(
-    contact: Contact | Dwelling,
-    law: Law,
-    criteria: tuple[Criterion, ...],
+    contact: FlankContact | RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
     horizon: float,
     life_tolerance: float,
 ) -> tuple[Trajectory, float]:
-    """Wear a flank with step control until a criterion is met or the horizon is reached.
+    """Wear a flank with step control until a stop limit is met or the horizon is reached.
 
     The solve is repeated with a tenth of the error per step until two successive lives
     differ by less than a tenth of the asked tolerance. A contact error counts only where
     the tightest solve meets it too.
     """
-    if not isinstance(contact, Contact):
+    if not isinstance(contact, FlankContact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.halving import advance_dwelling
+        from wearsim.wear.step_halving import advance_resting
 
-        return advance_dwelling(contact, law, criteria, horizon, life_tolerance)
-    problem = _Problem(contact, law, criteria, horizon * law.coefficient)
+        return advance_resting(contact, law, stop_limits, horizon, life_tolerance)
+    problem = _Problem(contact, law, stop_limits, horizon * law.coefficient)
     x, y, depth = problem.start()
     check_touch(contact, x, y, depth, 0.0)
     tolerance = float(np.clip(PART_OF_TOLERANCE * life_tolerance, FINEST, LOOSEST))

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.criteria import Criterion, first_met, jump_criterion
-from wearsim.contact.resting_engagement import ChainWear, Dwelling
+from wearsim.contact.resting_engagement import ChainWear, RestingContact
+from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
 from wearsim.errors import JumpError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
-from wearsim.wear.bodies import Bodies, Start, State
-from wearsim.wear.law import Law
+from wearsim.wear.law import WearLaw
+from wearsim.wear.resting_bodies import StartState, WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 
 Rows = NDArray[np.float64]
@@ -38,49 +38,34 @@ _ELONGATION_STEPS = 160
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
-_MOST_STEPS = 10_000
+_MAX_STEPS = 10_000
 """Steps of one run at level 0, those of about 60 chains; a run of more ends there, at no limit."""
 
 
 @dataclass(frozen=True, eq=False)
-class DwellingTrajectory(Trajectory):
-    """Several outlines and the chain as they wear; ``x``, ``y``, ``depth`` are those worn most.
+class RestingTrajectory(Trajectory):
+    """Several outlines and the chain as they wear; ``x``, ``y``, ``depth`` are those worn most."""
 
-    Attributes
-    ----------
-    all_depth : numpy.ndarray
-        Depth of every body [mm], shape (snapshots, bodies, points).
-    elongation : numpy.ndarray
-        Relative elongation of the chain in use, shape (snapshots,).
-    roller_wear : numpy.ndarray
-        Depth worn off its rollers [mm], shape (snapshots,).
-    chains : numpy.ndarray
-        Number of the chain in use from 1, shape (snapshots,).
-    peak_pressure, sliding_speed : numpy.ndarray
-        Highest pressure [MPa] and sliding speed [mm/s] of the step that led to each snapshot,
-        after its wear; 0 at the start; shape (snapshots,).
-    area : float
-        Worn off all bodies by the events [mm2].
-    """
-
-    all_depth: Rows
-    elongation: Vector
-    roller_wear: Vector
-    chains: Vector
+    all_depth: Rows  # depth of every body [mm], shape (snapshots, bodies, points)
+    elongation: Vector  # relative elongation of the chain in use, shape (snapshots,)
+    roller_wear: Vector  # depth worn off its rollers [mm], shape (snapshots,)
+    chains: Vector  # number of the chain in use from 1, shape (snapshots,)
+    # peak_pressure, sliding_speed: highest pressure [MPa] and sliding speed [mm/s] of the step that led to
+    # each snapshot, after its wear; 0 at the start; shape (snapshots,)
     peak_pressure: Vector
     sliding_speed: Vector
-    area: float
+    area: float  # worn off all bodies by the events [mm2]
 
 
-class _Record:
+class _Snapshots:
     """Snapshots, thinned out as they become too many; ends of chains stay."""
 
     def __init__(self) -> None:
-        self.states: list[State] = []
-        self.ends: list[State] = []
+        self.states: list[WornState] = []
+        self.ends: list[WornState] = []
         self.stride, self.count = 1, 0
 
-    def add(self, bodies: Bodies, last: bool = False) -> None:
+    def add(self, bodies: WornBodies, last: bool = False) -> None:
         repeated = bool(self.states) and self.states[-1].cycles == bodies.cycles
         if (last or self.count % self.stride == 0) and not repeated:
             self.states.append(bodies.state())
@@ -90,15 +75,15 @@ class _Record:
             self.states = [state for i, state in enumerate(self.states) if i % 2 == 0 or id(state) in stay]
             self.stride *= 2
 
-    def end_chain(self, bodies: Bodies) -> None:
+    def end_chain(self, bodies: WornBodies) -> None:
         self.add(bodies, last=True)
         self.ends.append(self.states[-1])
 
-    def trajectory(self, bodies: Bodies, met: Criterion | None) -> DwellingTrajectory:
+    def trajectory(self, bodies: WornBodies, met: StopLimit | None) -> RestingTrajectory:
         states = self.states
         x, y, depth = (np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth"))
         worst = int(depth[-1].max(axis=1).argmax())
-        return DwellingTrajectory(
+        return RestingTrajectory(
             cycles=np.array([state.cycles for state in states]),
             x=x[:, worst],
             y=y[:, worst],
@@ -115,7 +100,7 @@ class _Record:
         )
 
 
-class _Pace:
+class _StepSize:
     """How many cycles the next step takes: as given, or as many as wear off so much."""
 
     def __init__(self, depth_limit: float, level: int, cycles_per_step: float) -> None:
@@ -128,7 +113,7 @@ class _Pace:
         """Begin with the smallest step again."""
         self.depth = _FIRST_STEP * self.limit / self.refined
 
-    def cycles(self, bodies: Bodies, law: Law) -> float:
+    def cycles(self, bodies: WornBodies, law: WearLaw) -> float:
         """Return the cycles of the next step, not beyond the life of the chain in use."""
         cycles = self.given or self._by_depth(bodies, law)
         limit = bodies.contact.elongation_limit
@@ -138,18 +123,18 @@ class _Pace:
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
         return cycles
 
-    def is_spent(self, bodies: Bodies) -> bool:
+    def is_spent(self, bodies: WornBodies) -> bool:
         """Whether the run has taken all of its steps."""
-        return not self.given and bodies.updates >= _MOST_STEPS * self.refined
+        return not self.given and bodies.updates >= _MAX_STEPS * self.refined
 
-    def _by_depth(self, bodies: Bodies, law: Law) -> float:
+    def _by_depth(self, bodies: WornBodies, law: WearLaw) -> float:
         cycles = self.depth / (self.rate or _first_rate(bodies, law))
         longest = _LONGEST_STEP * self.limit / self.refined
         self.depth = min(self.depth * _GROWTH ** (1.0 / self.refined), longest)
         return max(cycles, 1.0 / self.refined)
 
 
-def _first_rate(bodies: Bodies, law: Law) -> float:
+def _first_rate(bodies: WornBodies, law: WearLaw) -> float:
     """Depth per cycle of the worst event under the Hertz pressure on a flat, about."""
     contact = bodies.contact
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
@@ -162,19 +147,19 @@ def _first_rate(bodies: Bodies, law: Law) -> float:
     return float(worn.max())
 
 
-def _margins(criteria: tuple[Criterion, ...], bodies: Bodies) -> float:
+def _margins(stop_limits: tuple[StopLimit, ...], bodies: WornBodies) -> float:
     return min(
-        criterion.margin(bodies.x[body], bodies.y[body], bodies.depth[body])
-        for criterion in criteria
+        stop_limit.margin(bodies.x[body], bodies.y[body], bodies.depth[body])
+        for stop_limit in stop_limits
         for body in range(bodies.contact.bodies)
     )
 
 
-def _done(criteria: tuple[Criterion, ...], bodies: Bodies, horizon: float) -> float:
-    return min(1.0, max(float(bodies.depth.max()) / criteria[0].limit, bodies.cycles / horizon))
+def _done(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, horizon: float) -> float:
+    return min(1.0, max(float(bodies.depth.max()) / stop_limits[0].limit, bodies.cycles / horizon))
 
 
-def reporting(progress: Callable[[float], None]) -> Watch:
+def reported_progress(progress: Callable[[float], None]) -> Watch:
     """Return a watch over a run that only tells how much of it is done."""
 
     def _goes_on(part: float) -> bool:
@@ -184,38 +169,38 @@ def reporting(progress: Callable[[float], None]) -> Watch:
     return _goes_on
 
 
-def _met(criteria: tuple[Criterion, ...], bodies: Bodies) -> Criterion | None:
+def _met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies) -> StopLimit | None:
     found = [
-        first_met(criteria, bodies.x[body], bodies.y[body], bodies.depth[body])
+        first_limit_met(stop_limits, bodies.x[body], bodies.y[body], bodies.depth[body])
         for body in range(bodies.contact.bodies)
     ]
-    return next((criterion for criterion in found if criterion is not None), None)
+    return next((stop_limit for stop_limit in found if stop_limit is not None), None)
 
 
-def run_dwelling(
-    contact: Dwelling,
-    law: Law,
-    criteria: tuple[Criterion, ...],
+def run_resting(
+    contact: RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
     horizon: float,
     level: int,
     cycles_per_step: float = 0.0,
     watch: Watch = lambda part: True,
-    start: Start | None = None,
-) -> DwellingTrajectory:
-    """Wear outlines and chain until a criterion is met or the horizon is reached.
+    start: StartState | None = None,
+) -> RestingTrajectory:
+    """Wear outlines and chain until a stop limit is met or the horizon is reached.
 
     At its elongation limit the chain is replaced by a new one. A run by depth that takes too
     many steps, those of about 60 chains, ends before its horizon.
     """
-    bodies, record = Bodies(contact, law, start), _Record()
-    pace = _Pace(criteria[0].limit, level, cycles_per_step)
+    bodies, record = WornBodies(contact, law, start), _Snapshots()
+    pace = _StepSize(stop_limits[0].limit, level, cycles_per_step)
     record.add(bodies)
     met, end = None, horizon * (1.0 - 1e-12)
     while (
         met is None
         and bodies.cycles < end
         and not pace.is_spent(bodies)
-        and watch(_done(criteria, bodies, horizon))
+        and watch(_done(stop_limits, bodies, horizon))
     ):
         before = bodies.state()
         cycles = min(pace.cycles(bodies, law), horizon - bodies.cycles)
@@ -225,8 +210,8 @@ def run_dwelling(
             if bodies.cycles == 0.0:
                 raise
             record.add(bodies, last=True)
-            return record.trajectory(bodies, jump_criterion(contact.slack_tension))
-        met = _limit_met(criteria, bodies, before)
+            return record.trajectory(bodies, jump_limit(contact.slack_tension))
+        met = _limit_met(stop_limits, bodies, before)
         if met is None and bodies.chain_is_worn:
             record.end_chain(bodies)
             bodies.replace_chain()
@@ -237,18 +222,18 @@ def run_dwelling(
     return record.trajectory(bodies, met)
 
 
-def _limit_met(criteria: tuple[Criterion, ...], bodies: Bodies, before: State) -> Criterion | None:
+def _limit_met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, before: WornState) -> StopLimit | None:
     """Return the limit that the last step has met, if any, and go back to where it was met."""
-    contact, met = bodies.contact, _met(criteria, bodies)
+    contact, met = bodies.contact, _met(stop_limits, bodies)
     if met is not None:
-        _cut(bodies, before, lambda: _margins(criteria, bodies) > 0.0)
+        _cut(bodies, before, lambda: _margins(stop_limits, bodies) > 0.0)
     if not contact.holds(bodies.x, bodies.y, bodies.wear):
-        met = jump_criterion(contact.slack_limit)
+        met = jump_limit(contact.slack_limit)
         _cut(bodies, before, lambda: contact.holds(bodies.x, bodies.y, bodies.wear))
     return met
 
 
-def _cut(bodies: Bodies, before: State, allowed: Callable[[], bool]) -> None:
+def _cut(bodies: WornBodies, before: WornState, allowed: Callable[[], bool]) -> None:
     """Go back on the last step to the place up to which it was allowed."""
     after = bodies.state()
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.contact.engagement import Kind
-from wearsim.geometry.profile import Vector
-from wearsim.wear.running_in import CONSTANT, RunningIn
+from wearsim.contact.engagement import ContactKind
+from wearsim.geometry.profile_points import Vector
+from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 
 
 def mean_pressure_factor(exponent: float) -> float:
@@ -41,7 +41,7 @@ def mean_pressure_factor(exponent: float) -> float:
 
 
 @dataclass(frozen=True)
-class Law:
+class WearLaw:
     """Depth per unit of sliding = coefficient * sigma_H^m * v_s^n, with sigma in MPa, v in mm/s.
 
     Equations physics.md (L1) and (L3).
@@ -68,16 +68,16 @@ class Law:
     speed_exponent: float
     case_depth: float = math.inf
     core_factor: float = 1.0
-    running_in: RunningIn = CONSTANT
+    running_in: RunningIn = NO_RUNNING_IN
 
-    def numbers(self, kind: Kind) -> Vector:
+    def numbers(self, kind: ContactKind) -> Vector:
         """Return the law as the kernel takes it.
 
         Equations physics.md (L1), for m = 1 (L5), and (L3).
 
         Parameters
         ----------
-        kind : Kind
+        kind : ContactKind
             How the contact meets the points.
 
         Returns
@@ -88,17 +88,17 @@ class Law:
             c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
         """
         m, n = self.pressure_exponent, self.speed_exponent
-        if kind is Kind.LOCAL:
+        if kind is ContactKind.LOCAL:
             return np.array([self.coefficient, m, 0.0, n, self.case_depth, self.core_factor])
         factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
         return np.array([factor, m - 1.0, 1.0, n, self.case_depth, self.core_factor])
 
-    def unit_numbers(self, kind: Kind) -> Vector:
+    def unit_numbers(self, kind: ContactKind) -> Vector:
         """Return the law as the kernel takes it, with the coefficient 1.
 
         Parameters
         ----------
-        kind : Kind
+        kind : ContactKind
             How the contact meets the points.
 
         Returns
@@ -108,14 +108,14 @@ class Law:
         """
         return replace(self, coefficient=1.0).numbers(kind)
 
-    def diffusion(self, kind: Kind, slip_curvature_exponent: float) -> float:
+    def diffusion(self, kind: ContactKind, slip_curvature_exponent: float) -> float:
         """Return e = d(ln depth)/d(ln relative curvature), which decides stability.
 
         Equation physics.md (A2).
 
         Parameters
         ----------
-        kind : Kind
+        kind : ContactKind
             How the contact meets the points.
         slip_curvature_exponent : float
             d(ln slip)/d(ln relative curvature) of the mechanism.
@@ -125,11 +125,11 @@ class Law:
         float
             (m+1)/2 on a strand, m/2 with a given path, (m-1)/2 with a given slip ratio.
         """
-        swept = self.pressure_exponent if kind is Kind.LOCAL else self.pressure_exponent - 1.0
+        swept = self.pressure_exponent if kind is ContactKind.LOCAL else self.pressure_exponent - 1.0
         return 0.5 * swept + slip_curvature_exponent
 
 
-def archard(specific_wear_rate: float) -> Law:
+def archard(specific_wear_rate: float) -> WearLaw:
     """Return Archard's linear law.
 
     Equation physics.md (L4).
@@ -145,10 +145,10 @@ def archard(specific_wear_rate: float) -> Law:
     Law
         With m = 1, n = 0.
     """
-    return Law(specific_wear_rate, 1.0, 0.0)
+    return WearLaw(specific_wear_rate, 1.0, 0.0)
 
 
-def power(coefficient: float, pressure_exponent: float) -> Law:
+def power(coefficient: float, pressure_exponent: float) -> WearLaw:
     """Return the power law I = K sigma^m.
 
     Equation physics.md (L4).
@@ -165,7 +165,7 @@ def power(coefficient: float, pressure_exponent: float) -> Law:
     Law
         With n = 0.
     """
-    return Law(coefficient, pressure_exponent, 0.0)
+    return WearLaw(coefficient, pressure_exponent, 0.0)
 
 
 def drozdov(
@@ -174,7 +174,7 @@ def drozdov(
     hardness: float,
     reference_speed: float,
     speed_exponent: float,
-) -> Law:
+) -> WearLaw:
     """Return the Kragelsky/Drozdov form I = K (sigma_H/H)^m (v/v0)^n.
 
     Equation physics.md (L4).
@@ -198,30 +198,21 @@ def drozdov(
         With the hardness and the speed taken into the coefficient.
     """
     scale = hardness**pressure_exponent * reference_speed**speed_exponent
-    return Law(coefficient / scale, pressure_exponent, speed_exponent)
+    return WearLaw(coefficient / scale, pressure_exponent, speed_exponent)
 
 
 @dataclass(frozen=True)
-class DutyPart:
-    """A part of a duty, relative to the load and speed that a contact is made for.
+class RelativeLoad:
+    """A part of a duty, relative to the load and speed that a contact is made for."""
 
-    Attributes
-    ----------
-    share : float
-        Of the cycles.
-    load, speed : float
-        Over those of the contact.
-    wear_factor : float
-        On the wear coefficient.
-    """
-
-    share: float
+    share: float  # of the cycles
+    # load, speed: over those of the contact
     load: float
     speed: float
-    wear_factor: float
+    wear_factor: float  # on the wear coefficient
 
 
-def equivalent_factor(law: Law, kind: Kind, parts: Iterable[DutyPart]) -> float:
+def equivalent_factor(law: WearLaw, kind: ContactKind, parts: Iterable[RelativeLoad]) -> float:
     """Return the factor on the coefficient that puts one constant load in the place of a duty.
 
     Where load and sliding speed at every point are proportional to those of the drive and the
@@ -234,11 +225,11 @@ def equivalent_factor(law: Law, kind: Kind, parts: Iterable[DutyPart]) -> float:
 
     Parameters
     ----------
-    law : Law
+    law : WearLaw
         The wear law.
-    kind : Kind
+    kind : ContactKind
         How the contact meets the points; not one that dwells.
-    parts : iterable of DutyPart
+    parts : iterable of RelativeLoad
         The duty, shares summing to 1.
 
     Returns
@@ -250,8 +241,8 @@ def equivalent_factor(law: Law, kind: Kind, parts: Iterable[DutyPart]) -> float:
     --------
     Half of the cycles at a quarter of the load, m = 2: (1 + 0.25^1.5)/2
 
-    >>> parts = [DutyPart(0.5, 1.0, 1.0, 1.0), DutyPart(0.5, 0.25, 1.0, 1.0)]
-    >>> equivalent_factor(Law(1e-12, 2.0, 0.0), Kind.TRAVELLING, parts)
+    >>> parts = [RelativeLoad(0.5, 1.0, 1.0, 1.0), RelativeLoad(0.5, 0.25, 1.0, 1.0)]
+    >>> equivalent_factor(WearLaw(1e-12, 2.0, 0.0), ContactKind.TRAVELLING, parts)
     0.5625
     """
     pressure, load, speed = (float(number) for number in law.numbers(kind)[1:4])

@@ -9,13 +9,13 @@ from types import FrameType
 
 import numpy as np
 
-from wearsim.contact.criteria import Criterion, first_met
-from wearsim.contact.engagement import Contact
-from wearsim.contact.resting_engagement import Dwelling
+from wearsim.contact.engagement import FlankContact
+from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.stop_limits import StopLimit, first_limit_met
 from wearsim.errors import ConvergenceError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
-from wearsim.wear.law import Law
+from wearsim.wear.law import WearLaw
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _BLOCK = 50_000
@@ -39,21 +39,23 @@ def _interrupts_held() -> Iterator[None]:
         before(*held[0])
 
 
-def _compiled_loop(contact: Contact) -> tuple[int, Callable[..., int]]:
+def _compiled_loop(contact: FlankContact) -> tuple[int, Callable[..., int]]:
     """Return the rows to work in and the loop, which compiles where it is imported first."""
     if contact.offset_form:
         from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
 
         return OFFSET_ROWS, run_offset_cycles
-    from wearsim.kernels.cycles import CYCLES_ROWS, run_cycles
+    from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 
     return CYCLES_ROWS, partial(run_cycles, contact.kernel)
 
 
-class _Run:
+class _CycleRun:
     """State of the flank between blocks of compiled updates."""
 
-    def __init__(self, contact: Contact, law: Law, cycles_per_update: int, depth_limit: float) -> None:
+    def __init__(
+        self, contact: FlankContact, law: WearLaw, cycles_per_update: int, depth_limit: float
+    ) -> None:
         self.depth_limit = depth_limit
         self.contact = contact
         self.cycles_per_update = float(cycles_per_update)
@@ -122,8 +124,8 @@ class _Run:
         allowed = spacing_squared * relative / (2.0 * self.diffusion)
         point = int(np.argmax(self.last_step / allowed))
         step, limit = self.last_step[point], allowed[point]
-        most = int(self.cycles_per_update * limit / step)
-        remedy = f"cycles_per_update = {most}" if most else "fewer nodes"
+        most_rollers = int(self.cycles_per_update * limit / step)
+        remedy = f"cycles_per_update = {most_rollers}" if most_rollers else "fewer nodes"
         raise ConvergenceError(
             f"wear at cycle {self.ran:.6g}, {self.contact.arc_length[point]:.4g} mm from the root: "
             f"the depth per update must stay below spacing^2/(2 e rho_H) = {limit:.3g} mm, is "
@@ -133,37 +135,37 @@ class _Run:
 
 
 def run_per_cycle(
-    contact: Contact | Dwelling,
-    law: Law,
-    criteria: tuple[Criterion, ...],
+    contact: FlankContact | RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
     horizon: float,
     cycles_per_update: int,
 ) -> Trajectory:
-    """Wear a flank update by update until a criterion is met or the horizon is reached."""
-    if not isinstance(contact, Contact):
+    """Wear a flank update by update until a stop limit is met or the horizon is reached."""
+    if not isinstance(contact, FlankContact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.implicit_steps import run_dwelling
+        from wearsim.wear.implicit_steps import run_resting
 
-        return run_dwelling(contact, law, criteria, horizon, 0, float(cycles_per_update))
-    run = _Run(contact, law, cycles_per_update, criteria[0].limit)
+        return run_resting(contact, law, stop_limits, horizon, 0, float(cycles_per_update))
+    run = _CycleRun(contact, law, cycles_per_update, stop_limits[0].limit)
     check_touch(contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
-    most = int(horizon / cycles_per_update)
-    if most == 0:
+    most_rollers = int(horizon / cycles_per_update)
+    if most_rollers == 0:
         raise ConvergenceError(
             f"wear: the horizon of {horizon:.6g} cycles must hold at least one update of "
             f"{cycles_per_update} cycles: take fewer cycles_per_update or more horizon_hours"
         )
     met, interval = None, 0.0
-    while met is None and run.updates < most:
+    while met is None and run.updates < most_rollers:
         before = kept[-1], run.updates
         target = run.depth.max() + interval if interval else 0.0
-        run.wear(target, most - run.updates)
+        run.wear(target, most_rollers - run.updates)
         if not interval:
-            interval = float(min(run.depth_limit, run.depth.max() * most)) / SNAPSHOTS
-        met = first_met(criteria, run.x, run.y, run.depth)
+            interval = float(min(run.depth_limit, run.depth.max() * most_rollers)) / SNAPSHOTS
+        met = first_limit_met(stop_limits, run.x, run.y, run.depth)
         if met is not None and run.updates - before[1] > 1:
-            _retreat(run, criteria, *before)
+            _retreat(run, stop_limits, *before)
         kept.append((run.cycles, run.x.copy(), run.y.copy(), run.depth.copy()))
     if met is not None:
         kept[-1] = _on_limit(run, met)
@@ -172,25 +174,28 @@ def run_per_cycle(
 
 
 def _retreat(
-    run: _Run, criteria: tuple[Criterion, ...], snapshot: tuple[float, Vector, Vector, Vector], start: int
+    run: _CycleRun,
+    stop_limits: tuple[StopLimit, ...],
+    snapshot: tuple[float, Vector, Vector, Vector],
+    start: int,
 ) -> None:
     """Go back to the last snapshot and stop right after the first update that meets a limit."""
     low, high = 0, run.updates - start
     while high - low > 1:
         middle = (low + high) // 2
         _replay(run, snapshot, start, middle)
-        met = first_met(criteria, run.x, run.y, run.depth)
+        met = first_limit_met(stop_limits, run.x, run.y, run.depth)
         low, high = (low, middle) if met is not None else (middle, high)
     _replay(run, snapshot, start, high)
 
 
-def _replay(run: _Run, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
+def _replay(run: _CycleRun, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
     run.x[:], run.y[:], run.depth[:] = snapshot[1:]
     run.updates = start
     run.wear(np.inf, updates)
 
 
-def _on_limit(run: _Run, met: Criterion) -> tuple[float, Vector, Vector, Vector]:
+def _on_limit(run: _CycleRun, met: StopLimit) -> tuple[float, Vector, Vector, Vector]:
     """Interpolate the last update to the place where the margin vanishes."""
     step = run.last_step
     x, y = run.x + step * run.work[0], run.y + step * run.work[1]

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
-_MOST_STEPS = 1000
+_MAX_STEPS = 1000
 """Steps of Newton's method; it takes about the logarithm of the factor."""
 
 _GRID = np.geomspace(0.1, 1e4, 1000)
@@ -36,7 +36,7 @@ class RunningIn:
     --------
     After many times N_r cycles the excess has cost (f - 1) N_r of them:
 
-    >>> RunningIn(3.0, 100.0).constant_cycles(1e6)
+    >>> RunningIn(3.0, 100.0).steady_cycles(1e6)
     1000200.0
     """
 
@@ -65,7 +65,7 @@ class RunningIn:
         rate = n * (1.0 + excess * np.exp(-n))
         return float(((n - excess * np.expm1(-n)) / rate).max())
 
-    def constant_cycles(self, cycles: float) -> float:
+    def steady_cycles(self, cycles: float) -> float:
         """Return the cycles of constant coefficient that wear as much.
 
         Equation physics.md (R2).
@@ -104,7 +104,7 @@ class RunningIn:
             return tau
         excess = self.factor - 1.0
         cycles = tau / self.factor
-        for _ in range(_MOST_STEPS):
+        for _ in range(_MAX_STEPS):
             rest = np.exp(-cycles / self.cycles)
             worn = cycles - excess * self.cycles * np.expm1(-cycles / self.cycles)
             step = (tau - worn) / (1.0 + excess * rest)
@@ -136,15 +136,15 @@ class RunningIn:
         if self.factor == 1.0 or new_at == 0.0:
             return until - new_at
         start, end = self.running_cycles(np.array([new_at, until]))
-        return self.constant_cycles(float(end - start))
+        return self.steady_cycles(float(end - start))
 
     def until_renewed(self, new_at: float, worn: float) -> float:
         """Return when a part that was new later has worn so much, the inverse of ``renewed``."""
         if self.factor == 1.0 or new_at == 0.0:
             return new_at + worn
         start, run = self.running_cycles(np.array([new_at, worn]))
-        return self.constant_cycles(float(start + run))
+        return self.steady_cycles(float(start + run))
 
 
-CONSTANT = RunningIn(1.0, 1.0)
+NO_RUNNING_IN = RunningIn(1.0, 1.0)
 """No running-in."""

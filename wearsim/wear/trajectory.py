@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.criteria import Criterion
-from wearsim.contact.engagement import Contact
+from wearsim.contact.engagement import FlankContact
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.hertz_wear import sawtooth
 
 SNAPSHOTS = 180
@@ -17,26 +17,15 @@ SNAPSHOTS = 180
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Worn flanks over the cycles of a run.
+    """Worn flanks over the cycles of a run."""
 
-    Attributes
-    ----------
-    cycles : numpy.ndarray
-        Loading cycles, increasing from 0, shape (snapshots,).
-    x, y, depth : numpy.ndarray
-        The flank at each of them [mm], shape (snapshots, points).
-    met : Criterion or None
-        The limit that ended the run at the last of them; None where the horizon did.
-    updates : int
-        Evaluations of the wear rate.
-    """
-
-    cycles: Vector
+    cycles: Vector  # loading cycles, increasing from 0, shape (snapshots,)
+    # x, y, depth: the flank at each of them [mm], shape (snapshots, points)
     x: Vector
     y: Vector
     depth: Vector
-    met: Criterion | None
-    updates: int
+    met: StopLimit | None  # the limit that ended the run at the last of them; None where the horizon did
+    updates: int  # evaluations of the wear rate
 
 
 def difference(run: Trajectory, other: Trajectory) -> float:
@@ -53,7 +42,7 @@ def depth_at(run: Trajectory, cycles: float) -> float:
 
 
 def check_touch(
-    contact: Contact, x: Vector, y: Vector, depth: Vector, cycles: float, least: float = 0.0
+    contact: FlankContact, x: Vector, y: Vector, depth: Vector, cycles: float, least: float = 0.0
 ) -> None:
     """Raise where the contact of a worn flank is outside Hertz's theory or gone."""
     touch = contact.engage(x, y, depth)
@@ -92,11 +81,11 @@ def no_sliding(cycles: float) -> ContactError:
     )
 
 
-def check_fold(contact: Contact, run: Trajectory) -> None:
+def check_fold(contact: FlankContact, run: Trajectory) -> None:
     """Raise where the worn flank crosses itself."""
-    turned = turned_over(run.x, run.y)
-    if turned.any():
-        shot, point = np.argwhere(turned)[0]
+    rotated = overturned(run.x, run.y)
+    if rotated.any():
+        shot, point = np.argwhere(rotated)[0]
         raise ConvergenceError(
             f"wear at cycle {run.cycles[shot]:.6g}, {contact.arc_length[point]:.4g} mm from the root: the "
             "worn flank must run the same way as the new one, but is worn beyond its centre of "
@@ -113,14 +102,14 @@ def check_fold(contact: Contact, run: Trajectory) -> None:
             )
 
 
-def turned_over(x: Vector, y: Vector) -> NDArray[np.bool_]:
+def overturned(x: Vector, y: Vector) -> NDArray[np.bool_]:
     """Return where a piece between two points runs against that of the new flank."""
     dx, dy = np.diff(x, axis=1), np.diff(y, axis=1)
     against: NDArray[np.bool_] = dx * dx[0] + dy * dy[0] <= 0.0
     return against
 
 
-def check_sawtooth(contact: Contact, depth: Vector, cycles: float, depth_limit: float) -> None:
+def check_sawtooth(contact: FlankContact, depth: Vector, cycles: float, depth_limit: float) -> None:
     """Raise where the depth alternates from point to point, the mark of an unstable run.
 
     The second difference over one spacing is compared with that over two, which an

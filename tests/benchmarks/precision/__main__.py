@@ -25,7 +25,7 @@ from problems import (
 from report import report
 from wrap import wrap_levels
 
-from wearsim.contact.criteria import depth_criterion
+from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
 
 FOLDER = Path(__file__).parents[3] / "reports" / "reference"
@@ -109,12 +109,12 @@ def seconds_for(lives):
     """Fastest whole ``run_advance`` of B9 on 500 nodes for each of some lives, runs in turn."""
     problem, times = b9(500), dict.fromkeys(lives, math.inf)
     time = PACKAGE(problem, 1e-6).life * problem.law.coefficient
-    criteria = (depth_criterion(problem.limit),)
+    stop_limits = (depth_limit(problem.limit),)
     for _ in range(8 * ROUNDS):
         for life in lives:
             law = replace(problem.law, coefficient=time / life)
             begin = perf_counter()
-            run, _ = run_advance(problem.contact, law, criteria, 1e14, 1e-4)
+            run, _ = run_advance(problem.contact, law, stop_limits, 1e14, 1e-4)
             times[life] = min(times[life], perf_counter() - begin)
             assert abs(run.cycles[-1] / life - 1.0) < 1e-4
     return times

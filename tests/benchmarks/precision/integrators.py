@@ -7,13 +7,27 @@ rates it has evaluated. The matrix is the package's, along the normals at the st
 import math
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.controlled_steps import (
+    END,
+    FIRST_STEP,
+    LEAST,
+    LEAST_STEP,
+    MAX,
+    RATES,
+    SAFETY,
+    TIME,
+    copy_removed,
+    part_to_depth,
+    write_state,
+)
+from wearsim.kernels.controlled_steps import STEP as NEXT_STEP
 from wearsim.kernels.hertz_wear import (
     BROKEN,
     CONFORMING,
     DEPTH_REACHED,
     HORIZON,
     RUNNING,
-    TOOTHED,
+    SAWTOOTH,
     flank_rate,
     sawtooth,
 )
@@ -29,20 +43,6 @@ from wearsim.kernels.signatures import (
     int64,
     void,
 )
-from wearsim.kernels.steps import (
-    END,
-    FIRST_STEP,
-    LEAST,
-    LEAST_STEP,
-    MOST,
-    RATES,
-    SAFETY,
-    TIME,
-    keep_removed,
-    part_to_depth,
-    write_state,
-)
-from wearsim.kernels.steps import STEP as NEXT_STEP
 from wearsim.kernels.tridiagonal import factorise, solve
 
 WORK_ROWS, REPORT = 20, 19
@@ -284,8 +284,8 @@ def wear_under_control(
         if status != RUNNING:
             return status
         if sawtooth(state[2], depth_limit) >= 0:
-            return TOOTHED
-        grown = MOST
+            return SAWTOOTH
+        grown = MAX
         while True:
             step = clock[NEXT_STEP]
             error = make_step(
@@ -304,7 +304,7 @@ def wear_under_control(
             ) / (tolerance * depth_limit)
             clock[RATES] += work[REPORT, 0]
             if error <= 1.0:
-                error = math.nan if keep_removed(here, state, step) > 0 else error
+                error = math.nan if copy_removed(here, state, step) > 0 else error
                 status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
                 clock[RATES] += 1.0
             if error <= 1.0 and status not in (CONFORMING, BROKEN):

@@ -13,15 +13,15 @@ import numpy as np
 from scipy.integrate import LSODA, RK45
 
 from wearsim.case.load_case import load_case
-from wearsim.contact.criteria import depth_criterion
-from wearsim.contact.engagement import Contact, Kind
-from wearsim.kernels.cycles import run_cycles
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.flank_geometry import flank_frame
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften, wear_depth
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften_edges, wear_depth
+from wearsim.kernels.per_cycle_loop import run_cycles
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
-from wearsim.kernels.steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
-from wearsim.wear.law import Law, archard, power
+from wearsim.wear.law import WearLaw, archard, power
 from wearsim.wear.per_cycle import run_per_cycle
 
 HORIZON = 1e12
@@ -49,8 +49,8 @@ STEPS = {
 class Problem:
     """A flank, its wear law, the depth that ends its life, 1 where its end points bend as they wear."""
 
-    contact: Contact
-    law: Law
+    contact: FlankContact
+    law: WearLaw
     limit: float
     ends: int
 
@@ -80,7 +80,7 @@ def b9(nodes):
     """Benchmark B9; its lives with 200 and 500 nodes were confirmed cycle by cycle."""
     u = np.linspace(0.0, 1.0, nodes)
     mechanism = PrescribedMechanism(
-        kind=Kind.LOCAL,
+        kind=ContactKind.LOCAL,
         arc_length=6.0 * u,
         load_per_width=100.0 * (0.2 + 0.8 * np.cos(0.5 * np.pi * u)),
         slip=0.05 + 0.4 * u,
@@ -167,7 +167,7 @@ class Rate:
         # A trial of the solver may conform where the solution does not.
         np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
         wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.pressure, self.step)
-        soften(depth, self.numbers, self.step)
+        soften_edges(depth, self.numbers, self.step)
         rate = np.empty((self.step.size, 3))
         rate[:, 0], rate[:, 1], rate[:, 2] = -self.step * normal_x, -self.step * normal_y, self.step
         return rate.ravel()
@@ -215,7 +215,7 @@ def by_rk45(problem, tolerance):
 def every_cycle(problem):
     """The package's loop over all cycles, whole."""
     begin = perf_counter()
-    run = run_per_cycle(problem.contact, problem.law, (depth_criterion(problem.limit),), HORIZON, 1)
+    run = run_per_cycle(problem.contact, problem.law, (depth_limit(problem.limit),), HORIZON, 1)
     return Run(float(run.cycles[-1]), run.updates, perf_counter() - begin)
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 from time import perf_counter
 
 from wearsim.case.load_case import load_case
-from wearsim.contact.criteria import depth_criterion
-from wearsim.wear.implicit_steps import run_dwelling
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.law import archard
 
 CASE = Path(__file__).parents[3] / "cases" / "520-15t-wrap.toml"
@@ -28,12 +28,12 @@ class Level:
 def wrap_levels():
     """Run the sprocket of a motorcycle on the thinned contact, as production does."""
     case = load_case(CASE)
-    contact, law = case.drive.contact(case).thinned(), archard(case.wear.coefficient)
-    criteria = (depth_criterion(case.critical_depth),)
+    contact, law = case.drive.contact(case).with_fewer_phases(), archard(case.wear.coefficient)
+    stop_limits = (depth_limit(case.critical_depth),)
     found = []
     for level in range(LEVELS):
         begin = perf_counter()
-        run = run_dwelling(contact, law, criteria, 1e12, level)
+        run = run_resting(contact, law, stop_limits, 1e12, level)
         found.append(Level(float(run.cycles[-1]), run.updates, perf_counter() - begin))
     return found
 

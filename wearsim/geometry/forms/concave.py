@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import head_arc, pitch_diameter
-from wearsim.geometry.segments import Arc, Line, Point, Segment
+from wearsim.geometry.segments import ArcSegment, LineSegment, Point, Segment
 
 
 @dataclass(frozen=True)
@@ -17,22 +17,16 @@ class ConcaveTooth:
     The two standards differ in two numbers, given by the class of each. Coordinates are
     those of the right half of the gap, from the seat's centre, y outwards.
 
-    Attributes
-    ----------
-    pitch, roller_diameter : float
-        p and d1 [mm], above 0.
-    teeth : int
-        z; below 5 (ANSI) or 6 (GOST) the straight part has no length.
-
     Raises
     ------
     GeometryError
         Working arc and head overlap.
     """
 
+    # pitch, roller_diameter: p and d1 [mm], above 0
     pitch: float
     roller_diameter: float
-    teeth: int
+    teeth: int  # z; below 5 (ANSI) or 6 (GOST) the straight part has no length
 
     seat_allowance: ClassVar[float]
     """Part of the seat radius that does not depend on the roller [mm]."""
@@ -123,12 +117,12 @@ class ConcaveTooth:
         centre = (aside + self.working_centre[0], seat_height + self.working_centre[1])
         head = (aside + self.head_centre[0], seat_height + self.head_centre[1])
         down = -0.5 * math.pi
-        working = Arc(centre, self.working_radius, down + seat_end, down + working_end)
+        working = ArcSegment(centre, self.working_radius, down + seat_end, down + working_end)
         flank = (
-            Arc(seat, self.seat_radius, down, down + seat_end),
+            ArcSegment(seat, self.seat_radius, down, down + seat_end),
             working,
-            Line(working.end, working_end, self.straight_length),
+            LineSegment(working.end, working_end, self.straight_length),
             head_arc(head, self.head_radius, working_end),
         )
-        bottom = Line((0.0, seat_height - self.seat_radius), 0.0, aside)
+        bottom = LineSegment((0.0, seat_height - self.seat_radius), 0.0, aside)
         return (bottom, *flank) if aside > 0.0 else flank

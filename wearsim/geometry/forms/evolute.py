@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 
 _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(6)
 
@@ -20,17 +20,8 @@ _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(6)
 class Strand:
     """A sprocket and the straight line of roller centres that runs past it.
 
-    The sprocket turns clockwise about the origin, the strand moves along +x, the pole
-    is (0, centrode radius); a roller is called by its distance x before the pole line.
-
-    Attributes
-    ----------
-    centrode_radius : float
-        R = p z / (2 pi engaged_every) [mm].
-    roller_radius : float
-        r = d1 / 2 [mm].
-    offset : float
-        Evolute offset h [mm], 0 < h < R: the line of roller centres is y = R - h.
+    The sprocket turns clockwise about the origin, the strand moves along +x, the pitch point
+    is (0, centrode radius); a roller is called by its distance x before the pitch line.
 
     Examples
     --------
@@ -39,24 +30,24 @@ class Strand:
     9.428571428571429
     """
 
-    centrode_radius: float
-    roller_radius: float
-    offset: float
+    centrode_radius: float  # R = p z / (2 pi engaged_every) [mm]
+    roller_radius: float  # r = d1 / 2 [mm]
+    offset: float  # evolute offset h [mm], 0 < h < R: the line of roller centres is y = R - h
 
     @property
     def height(self) -> float:
         """Height of the line of roller centres above the sprocket's axis, R - h [mm]."""
         return self.centrode_radius - self.offset
 
-    def pole_distance(self, x: ArrayLike) -> Vector:
-        """Return the distance l = sqrt(x^2 + h^2) of the roller centre from the pole.
+    def pitch_point_distance(self, x: ArrayLike) -> Vector:
+        """Return the distance l = sqrt(x^2 + h^2) of the roller centre from the pitch point.
 
         Equation physics.md (S1).
 
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pole line [mm].
+            Distance of the roller centre before the pitch line [mm].
 
         Returns
         -------
@@ -73,7 +64,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pole line [mm].
+            Distance of the roller centre before the pitch line [mm].
 
         Returns
         -------
@@ -90,20 +81,20 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pole line [mm].
+            Distance of the roller centre before the pitch line [mm].
 
         Returns
         -------
         numpy.ndarray
             Radius of the concave flank [mm] (Euler-Savary).
         """
-        distance = self.pole_distance(x)
+        distance = self.pitch_point_distance(x)
         return self.roller_radius + distance**3 / (self.centrode_radius * self.offset + distance**2)
 
     def roller_path(self, x: ArrayLike) -> Vector:
         """Return the roller centre in the sprocket's frame."""
         x = np.asarray(x, dtype=float)
-        return self._turned(-x, np.full_like(x, self.height), x)
+        return self._rotated(-x, np.full_like(x, self.height), x)
 
     def conjugate_points(self, x: ArrayLike) -> Vector:
         """Return the points of the conjugate flank in the sprocket's frame, in closed form.
@@ -113,7 +104,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pole line at contact [mm].
+            Distance of the roller centre before the pitch line at contact [mm].
 
         Returns
         -------
@@ -121,8 +112,8 @@ class Strand:
             Coordinates [mm], shape (n, 2).
         """
         x = np.asarray(x, dtype=float)
-        distance = self.pole_distance(x)
-        return self._turned(
+        distance = self.pitch_point_distance(x)
+        return self._rotated(
             -x - self.roller_radius * x / distance,
             self.height - self.roller_radius * self.offset / distance,
             x,
@@ -136,45 +127,35 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pole line at contact [mm].
+            Distance of the roller centre before the pitch line at contact [mm].
 
         Returns
         -------
         numpy.ndarray
             Coordinates [mm], shape (n, 2): on the common normal between roller
-            centre and pole, at the distance l / (1 + l^2 / (R h)) from the pole.
+            centre and pitch point, at the distance l / (1 + l^2 / (R h)) from the pitch point.
         """
         x = np.asarray(x, dtype=float)
-        distance = self.pole_distance(x)
+        distance = self.pitch_point_distance(x)
         part = (self.flank_radius(x) - self.roller_radius) / distance
-        return self._turned(-x + part * x, self.height + part * self.offset, x)
+        return self._rotated(-x + part * x, self.height + part * self.offset, x)
 
-    def _turned(self, x_fixed: Vector, y_fixed: Vector, x: Vector) -> Vector:
+    def _rotated(self, x_fixed: Vector, y_fixed: Vector, x: Vector) -> Vector:
         cosine, sine = np.cos(x / self.centrode_radius), np.sin(x / self.centrode_radius)
         return np.column_stack([x_fixed * cosine + y_fixed * sine, -x_fixed * sine + y_fixed * cosine])
 
     def _direction_rate(self, x: Vector) -> Vector:
         """d(alpha - psi)/dx: how fast the normal turns in the sprocket's frame [rad/mm]."""
-        return -(self.offset / self.pole_distance(x) ** 2 + 1.0 / self.centrode_radius)
+        return -(self.offset / self.pitch_point_distance(x) ** 2 + 1.0 / self.centrode_radius)
 
 
 @dataclass(frozen=True)
 class EvoluteFlank:
-    """An evolute flank with, at every node, the roller position that touches it.
+    """An evolute flank with, at every node, the roller position that touches it."""
 
-    Attributes
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    contact_distance : numpy.ndarray
-        Distance x of the roller centre before the pole line [mm], root to tip.
-    profile : Profile
-        The flank in the sprocket's frame.
-    """
-
-    strand: Strand
-    contact_distance: Vector
-    profile: Profile
+    strand: Strand  # sprocket and line of roller centres
+    contact_distance: Vector  # distance x of the roller centre before the pitch line [mm], root to tip
+    profile: Profile  # the flank in the sprocket's frame
 
 
 def evolute_flank(strand: Strand, contact_end: float, contact_start: float, nodes: int) -> EvoluteFlank:
@@ -205,7 +186,7 @@ def evolute_flank(strand: Strand, contact_end: float, contact_start: float, node
     Raises
     ------
     GeometryError
-        The range of contact is empty or reaches the pole line.
+        The range of contact is empty or reaches the pitch line.
     """
     if not 0.0 < contact_end < contact_start:
         raise GeometryError(

@@ -10,26 +10,16 @@ from typing import Literal
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import Gap, SeatCentre, head_arc, pitch_diameter, seat_height
-from wearsim.geometry.segments import Arc
+from wearsim.geometry.segments import ArcSegment
 
 
 @dataclass(frozen=True)
 class GapForm:
-    """The three numbers that make a gap of ISO 606.
+    """The three numbers that make a gap of ISO 606."""
 
-    Attributes
-    ----------
-    flank_radius : float
-        re of the convex flank [mm].
-    seat_radius : float
-        ri of the seat [mm], above d1/2.
-    seating_angle : float
-        alpha [rad].
-    """
-
-    flank_radius: float
-    seat_radius: float
-    seating_angle: float
+    flank_radius: float  # re of the convex flank [mm]
+    seat_radius: float  # ri of the seat [mm], above d1/2
+    seating_angle: float  # alpha [rad]
 
 
 def re_small(roller_diameter: float, teeth: int) -> float:
@@ -327,7 +317,7 @@ def iso606_gap(
     apart = r + flank_radius
     flank_centre = (apart * math.sin(theta), height - apart * math.cos(theta))
     segments = (
-        Arc((0.0, height), r, -0.5 * math.pi, -0.5 * math.pi + theta),
+        ArcSegment((0.0, height), r, -0.5 * math.pi, -0.5 * math.pi + theta),
         head_arc(flank_centre, flank_radius, theta),
     )
     name = "ISO 606" if isinstance(form, GapForm) else f"ISO 606 {form} form"

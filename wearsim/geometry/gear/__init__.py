@@ -1,1 +1,1 @@
-"""Gears: flanks, mesh, lines of action."""
+"""Gears: flanks, mesh, paths of contact."""

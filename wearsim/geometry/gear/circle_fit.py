@@ -6,27 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from wearsim.geometry.gear.convex_concave_flank import Flank
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
+from wearsim.geometry.profile_points import Vector
 
 
 @dataclass(frozen=True)
 class CircleFit:
-    """The circle whose distances from some points are least in their squares.
+    """The circle whose distances from some points are least in their squares."""
 
-    Attributes
-    ----------
-    radius : float
-        Radius [mm].
-    centre : tuple of float
-        Coordinates [mm].
-    rms : float
-        Root of the weighted mean of the squared distances [mm].
-    """
-
-    radius: float
-    centre: tuple[float, float]
-    rms: float
+    radius: float  # radius [mm]
+    centre: tuple[float, float]  # coordinates [mm]
+    rms: float  # root of the weighted mean of the squared distances [mm]
 
     def distances(self, points: Vector) -> Vector:
         """Return the distances of points from the circle."""
@@ -77,12 +67,12 @@ def fit_circle(points: Vector, weights: Vector | None = None) -> CircleFit:
     return CircleFit(radius, (float(x + middle[0]), float(y + middle[1])), math.sqrt(2.0 * found.cost))
 
 
-def rack_arc(flank: Flank, end: float) -> CircleFit:
-    """Return the arc that replaces the rack's flank from the pole to its end.
+def rack_arc(flank: ConvexConcaveFlank, end: float) -> CircleFit:
+    """Return the arc that replaces the rack's flank from the pitch point to its end.
 
     Squares are summed over the length of the flank (Gauss points; the flank turns with alpha,
     so that ds = rho d alpha).
     """
     nodes, weights = np.polynomial.legendre.leggauss(48)
-    alpha = flank.pole_angle + 0.5 * (end - flank.pole_angle) * (nodes + 1.0)
+    alpha = flank.pitch_point_angle + 0.5 * (end - flank.pitch_point_angle) * (nodes + 1.0)
     return fit_circle(flank.rack_points(alpha), weights * flank.rack_radius(alpha))

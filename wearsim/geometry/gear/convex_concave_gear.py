@@ -8,8 +8,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.convex_concave_flank import Flank, Part
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank, Part
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.worn_tooth import measurement_over_pins
 
 _TOUCHING = 1e-9
@@ -17,52 +17,23 @@ _TOUCHING = 1e-9
 
 
 @dataclass(frozen=True)
-class Roller:
-    """A roller in a gap, and what a gauge finds over two of them.
+class MeasuringRoller:
+    """A roller in a gap, and what a gauge finds over two of them."""
 
-    Attributes
-    ----------
-    diameter : float
-        Diameter D [mm].
-    part : str
-        ``head`` or ``foot``: where it rests.
-    alpha : float
-        Pressure angle of the point where it rests [rad].
-    centre_radius : float
-        Distance R_c of its centre from the axis [mm].
-    over : float
-        Measurement M over rollers in the most opposite gaps [mm].
-    """
-
-    diameter: float
-    part: Part
-    alpha: float
-    centre_radius: float
-    over: float
+    diameter: float  # diameter D [mm]
+    part: Part  # `head` or `foot`: where it rests
+    alpha: float  # pressure angle of the point where it rests [rad]
+    centre_radius: float  # distance R_c of its centre from the axis [mm]
+    over: float  # measurement M over rollers in the most opposite gaps [mm]
 
 
 @dataclass(frozen=True)
 class ConvexConcaveGear:
     """Pinion or wheel of a convex-concave pair.
 
-    The working flank passes through the pole on +y where the tooth is half a pitch thick. A
+    The working flank passes through the pitch point on +y where the tooth is half a pitch thick. A
     thinner tooth has both flanks turned about the axis towards its centre line, which keeps
     them conjugate; the x-shift of the source (XBV in its listing) is right for the rack only.
-
-    Attributes
-    ----------
-    teeth : int
-        Number z.
-    module : float
-        Module m [mm].
-    pole_angle : float
-        Pressure angle alpha_C in the pole [rad].
-    head_arc, foot_arc : float
-        Radii r_k of the arcs of the line of action that head and foot belong to [mm].
-    addendum : float
-        Height of the tip above the pitch circle, and of the flank below it [mm].
-    thinning : float
-        What the tooth is thinner than half the pitch, along the pitch circle [mm].
 
     Raises
     ------
@@ -78,13 +49,14 @@ class ConvexConcaveGear:
     87.609417
     """
 
-    teeth: int
-    module: float
-    pole_angle: float
+    teeth: int  # number z
+    module: float  # module m [mm]
+    pitch_point_angle: float  # pressure angle alpha_C in the pitch point [rad]
+    # head_arc, foot_arc: radii r_k of the arcs of the path of contact that head and foot belong to [mm]
     head_arc: float
     foot_arc: float
-    addendum: float
-    thinning: float = 0.0
+    addendum: float  # height of the tip above the pitch circle, and of the flank below it [mm]
+    thinning: float = 0.0  # what the tooth is thinner than half the pitch, along the pitch circle [mm]
 
     def __post_init__(self) -> None:
         if not self.foot_angle < self.foot.last_angle:
@@ -114,14 +86,14 @@ class ConvexConcaveGear:
         return self.pitch_radius + self.addendum
 
     @cached_property
-    def head(self) -> Flank:
+    def head(self) -> ConvexConcaveFlank:
         """Flank outside the pitch circle."""
-        return Flank(self.pitch_radius, self.head_arc, self.pole_angle, "head")
+        return ConvexConcaveFlank(self.pitch_radius, self.head_arc, self.pitch_point_angle, "head")
 
     @cached_property
-    def foot(self) -> Flank:
+    def foot(self) -> ConvexConcaveFlank:
         """Flank inside the pitch circle."""
-        return Flank(self.pitch_radius, self.foot_arc, self.pole_angle, "foot")
+        return ConvexConcaveFlank(self.pitch_radius, self.foot_arc, self.pitch_point_angle, "foot")
 
     @cached_property
     def tip_angle(self) -> float:
@@ -133,7 +105,7 @@ class ConvexConcaveGear:
         """Pressure angle at the end of the foot [rad], which a rack of the same addendum reaches."""
         return self.foot.angle_at_depth(self.addendum)
 
-    def flanks(self) -> tuple[tuple[Flank, float], tuple[Flank, float]]:
+    def flanks(self) -> tuple[tuple[ConvexConcaveFlank, float], tuple[ConvexConcaveFlank, float]]:
         """Return head and foot, each with the pressure angle at which it ends."""
         return (self.head, self.tip_angle), (self.foot, self.foot_angle)
 
@@ -168,7 +140,7 @@ class ConvexConcaveGear:
         """Direction across the gap, from its centre line to the flank."""
         return np.array([math.cos(self.half_gap), math.sin(self.half_gap)])
 
-    def seated_diameter(self, flank: Flank, alpha: float) -> float:
+    def seated_diameter(self, flank: ConvexConcaveFlank, alpha: float) -> float:
         """Return the diameter of the roller that rests on a point of the flank in the gap's middle.
 
         With the gap's centre line under an angle theta to the radius through the flank at the
@@ -180,22 +152,22 @@ class ConvexConcaveGear:
 
     def _clear(self, centre: Vector) -> float:
         """Least distance of the flank from a point."""
-        points = [flank.points(np.linspace(self.pole_angle, end, 201)) for flank, end in self.flanks()]
+        points = [flank.points(np.linspace(self.pitch_point_angle, end, 201)) for flank, end in self.flanks()]
         return float(np.hypot(*(np.concatenate(points) - centre).T).min())
 
-    def over_rollers(self, diameter: float) -> Roller:
+    def over_rollers(self, diameter: float) -> MeasuringRoller:
         """Return the measurement over two rollers.
 
         2 R_c cos(90 deg / z) + D for odd z, 2 R_c + D for even z.
         """
         (head, tip), (foot, end) = self.flanks()
-        least, most = self.seated_diameter(foot, end), self.seated_diameter(head, tip)
-        if not least <= diameter <= most:
+        least, greatest = self.seated_diameter(foot, end), self.seated_diameter(head, tip)
+        if not least <= diameter <= greatest:
             raise GeometryError(
-                f"roller_diameters_mm: must be from {least:.5g} to {most:.5g} mm to rest on the flanks of "
-                f"z = {self.teeth}, is {diameter:g} mm: take a diameter between"
+                f"roller_diameters_mm: must be from {least:.5g} to {greatest:.5g} mm to rest on the flanks "
+                f"of z = {self.teeth}, is {diameter:g} mm: take a diameter between"
             )
-        c = self.pole_angle
+        c = self.pitch_point_angle
         on_foot = diameter < self.seated_diameter(foot, c)
         flank, last = (foot, end) if on_foot else (head, tip)
         alpha = float(brentq(lambda a: self.seated_diameter(flank, a) - diameter, c, last, xtol=1e-15))
@@ -208,4 +180,4 @@ class ConvexConcaveGear:
             )
         radius = math.hypot(*centre)
         over = measurement_over_pins(radius, diameter, self.teeth)
-        return Roller(diameter, flank.part, alpha, radius, over)
+        return MeasuringRoller(diameter, flank.part, alpha, radius, over)

@@ -12,10 +12,10 @@ import shapely
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.convex_concave import ConvexConcave
-from wearsim.geometry.gear.convex_concave_flank import Flank
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
 from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
-from wearsim.geometry.outline import Outline, turned
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.outline import Outline, rotated
+from wearsim.geometry.profile_points import Vector
 
 RootForm = Literal["radial", "fillet"]
 
@@ -44,7 +44,7 @@ def gear_outline(gear: ConvexConcaveGear, clearance: float | None, root: RootFor
     tooth = np.concatenate([half[:0:-1] * (-1.0, 1.0), half[:1] * (-1.0, 1.0), half[:-1]])
     tooth_bulges = np.concatenate([half_bulges[::-1], [math.tan(0.25 * tip)], half_bulges])
     pitch, first = 2.0 * math.pi / gear.teeth, -0.5 * math.pi / gear.teeth
-    teeth = [turned(tooth, first + k * pitch) for k in range(gear.teeth)]
+    teeth = [rotated(tooth, first + k * pitch) for k in range(gear.teeth)]
     return Outline(np.concatenate(teeth), np.tile(tooth_bulges, gear.teeth))
 
 
@@ -55,19 +55,19 @@ def half_tooth(
     vertices, bulges = _flank(gear)
     radius = root_radius(gear, clearance, root)
     below, below_bulges = (_radial if root == "radial" else _fillet)(gear, radius)
-    half = turned(np.concatenate([vertices, below]), gear.half_tooth)
+    half = rotated(np.concatenate([vertices, below]), gear.half_tooth)
     return half, np.concatenate([bulges, below_bulges]), len(bulges)
 
 
 def _flank(gear: ConvexConcaveGear) -> tuple[Vector, Vector]:
     """Flank from tip to foot, and the bulges between its points from the turn of its normal."""
 
-    def part(flank: Flank, first: float, last: float) -> tuple[Vector, Vector]:
+    def part(flank: ConvexConcaveFlank, first: float, last: float) -> tuple[Vector, Vector]:
         alpha = np.linspace(first, last, _FLANK_POINTS)
         return flank.points(alpha), alpha + flank.roll_angle(alpha)
 
-    head, head_turn = part(gear.head, gear.tip_angle, gear.pole_angle)
-    foot, foot_turn = part(gear.foot, gear.pole_angle, gear.foot_angle)
+    head, head_turn = part(gear.head, gear.tip_angle, gear.pitch_point_angle)
+    foot, foot_turn = part(gear.foot, gear.pitch_point_angle, gear.foot_angle)
     turns = np.concatenate([np.diff(head_turn), np.diff(foot_turn)])
     return np.concatenate([head, foot[1:]]), np.tan(-0.25 * turns)
 
@@ -104,9 +104,9 @@ def _fillet(gear: ConvexConcaveGear, root: float) -> tuple[Vector, Vector]:
     """Arc from the end of the flank, in its direction, that touches the root circle."""
     least = _joining_root(gear)
     if root < least:
-        most = math.floor(1e4 * (gear.pitch_radius - gear.addendum - least) / gear.module) / 1e4
+        greatest = math.floor(1e4 * (gear.pitch_radius - gear.addendum - least) / gear.module) / 1e4
         raise GeometryError(
-            f"root_clearance_ratio: must be at most {most:g} for a fillet to fit into the gap of "
+            f"root_clearance_ratio: must be at most {greatest:g} for a fillet to fit into the gap of "
             f'z = {gear.teeth}, is more: lower it, leave it out or take root_form = "radial"'
         )
     point = gear.foot.points(gear.foot_angle)
@@ -136,9 +136,9 @@ def _entered(gear: ConvexConcaveGear, mate: ConvexConcaveGear, polygon: Vector) 
     )
     turn = math.atan2(corner[0], corner[1]) + np.linspace(-reach, reach, 1001)
     # Turned by its angle, into the frame of the mate half round, and back by the mate's angle.
-    there = np.stack([turned(corner, angle) for angle in turn]) * -1.0 + (0.0, centre)
+    there = np.stack([rotated(corner, angle) for angle in turn]) * -1.0 + (0.0, centre)
     back = turn * gear.pitch_radius / mate.pitch_radius
-    path = np.stack([turned(at, angle) for at, angle in zip(there, back, strict=True)])
-    solid = shapely.Polygon(turned(polygon, mate.turn))
+    path = np.stack([rotated(at, angle) for at, angle in zip(there, back, strict=True)])
+    solid = shapely.Polygon(rotated(polygon, mate.turn))
     inside = shapely.points(path[shapely.contains_xy(solid, path)])
     return max((float(d) for d in shapely.distance(inside, solid.exterior)), default=0.0)

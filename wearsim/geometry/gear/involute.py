@@ -10,31 +10,18 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute_function import angle_of_involute, involute_function
 from wearsim.geometry.gear.mesh import Mesh, check_contact_ratio, check_tip
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 
 
 @dataclass(frozen=True)
 class InvolutePair:
     """A pinion and a wheel with straight teeth that mesh without backlash.
 
-    All along the path of contact is counted from the point where the line of action leaves the
+    All along the path of contact is counted from the point where the path of contact leaves the
     base circle of the pinion: there the radius of curvature of the pinion's flank is the way
     itself, that of the wheel's what is left of ``line_length``. The pinion drives, so a tooth
     meets from the tip of the wheel, ``path_start``, to the tip of the pinion, ``path_end``
     (ISO 21771).
-
-    Attributes
-    ----------
-    teeth : tuple of int
-        z1 and z2.
-    module : float
-        m [mm].
-    pressure_angle : float
-        alpha of the basic rack [rad].
-    profile_shift : tuple of float
-        x1 and x2, in modules.
-    tip_radius : tuple of float
-        ra1 and ra2 [mm].
 
     Examples
     --------
@@ -47,11 +34,11 @@ class InvolutePair:
     1.605176092
     """
 
-    teeth: tuple[int, int]
-    module: float
-    pressure_angle: float
-    profile_shift: tuple[float, float]
-    tip_radius: tuple[float, float]
+    teeth: tuple[int, int]  # z1 and z2
+    module: float  # m [mm]
+    pressure_angle: float  # alpha of the basic rack [rad]
+    profile_shift: tuple[float, float]  # x1 and x2, in modules
+    tip_radius: tuple[float, float]  # ra1 and ra2 [mm]
 
     @property
     def ratio(self) -> float:
@@ -67,7 +54,7 @@ class InvolutePair:
 
     @property
     def base_pitch(self) -> float:
-        """Distance of successive flanks along the line of action, p_b = pi m cos(alpha) [mm]."""
+        """Distance of successive flanks along the path of contact, p_b = pi m cos(alpha) [mm]."""
         return math.pi * self.module * math.cos(self.pressure_angle)
 
     @cached_property
@@ -89,12 +76,12 @@ class InvolutePair:
 
     @property
     def line_length(self) -> float:
-        """Length of the line of action between the base circles, a sin(alpha_w) [mm]."""
+        """Length of the path of contact between the base circles, a sin(alpha_w) [mm]."""
         return self.centre_distance * math.sin(self.working_angle)
 
     @property
-    def pole(self) -> float:
-        """Place of the pole on the path, rb1 tan(alpha_w) [mm]."""
+    def pitch_point(self) -> float:
+        """Place of the pitch point on the path, rb1 tan(alpha_w) [mm]."""
         return self.base_radius[0] * math.tan(self.working_angle)
 
     @property
@@ -109,13 +96,13 @@ class InvolutePair:
 
     @property
     def approach(self) -> float:
-        """Length of the path before the pole [mm], to the wheel's tip or the pinion's base circle."""
-        return self.pole - max(self.path_start, 0.0)
+        """Length of the path before the pitch point [mm], to the wheel's tip or the pinion's base circle."""
+        return self.pitch_point - max(self.path_start, 0.0)
 
     @property
     def recess(self) -> float:
-        """Length of the path after the pole [mm], to the pinion's tip or the wheel's base circle."""
-        return min(self.path_end, self.line_length) - self.pole
+        """Length of the path after the pitch point [mm], to the pinion's tip or the wheel's base circle."""
+        return min(self.path_end, self.line_length) - self.pitch_point
 
     @property
     def contact_ratio(self) -> float:
@@ -130,7 +117,7 @@ class InvolutePair:
         Parameters
         ----------
         place : numpy.ndarray
-            xi, on the line of action [mm].
+            xi, on the path of contact [mm].
 
         Returns
         -------
@@ -181,8 +168,8 @@ class InvolutePair:
         return PitchCircles(self.centre_distance, self.ratio)
 
     @property
-    def pole_angle(self) -> float:
-        """Pressure angle in the pole, alpha_w [rad]."""
+    def pitch_point_angle(self) -> float:
+        """Pressure angle in the pitch point, alpha_w [rad]."""
         return self.working_angle
 
     def mesh(self, points: int) -> Mesh:
@@ -193,7 +180,7 @@ class InvolutePair:
         return Mesh(
             place=place,
             pitch=self.base_pitch,
-            pole_distance=place - self.pole,
+            pitch_point_distance=place - self.pitch_point,
             lever=lever,
             rolling=np.array([place, rest / self.ratio]),
             curvature=1.0 / np.array([place, rest]),
@@ -210,7 +197,7 @@ class InvolutePair:
         """Return how far a pair of teeth beyond the ends of the path is apart.
 
         Before A the corner of the wheel's tip is next to the pinion's flank, after E that of
-        the pinion's to the wheel's; the gap is measured along the line of action.
+        the pinion's to the wheel's; the gap is measured along the path of contact.
         """
         base, tips, line = self.base_radius, self.tip_radius, self.line_length
         before = _corner_gap(place, base, tips[1], line)

@@ -1,4 +1,4 @@
-"""The way of a pair of teeth through contact, whatever its line of action looks like."""
+"""The way of a pair of teeth through contact, whatever its path of contact looks like."""
 
 import math
 from dataclasses import dataclass
@@ -7,9 +7,9 @@ from typing import Protocol
 import numpy as np
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.line_of_action import LineOfAction
+from wearsim.geometry.gear.path_of_contact import PathOfContact
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 
 _INTERFERES = 1e-5
 """Angle [rad] by which the corner of a tip may seem to cut into a flank between two of its points."""
@@ -19,42 +19,23 @@ _NOT_ROLLING = "is not above 0 everywhere on the line of action, the contact run
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A pair of teeth from the start of contact to its end, with those before and after it.
+    """A pair of teeth from the start of contact to its end, with those before and after it."""
 
-    Attributes
-    ----------
-    place : numpy.ndarray
-        Coordinate of the points that grows evenly with the turn [mm].
-    pitch : float
-        From one pair of teeth to the next, in that coordinate [mm].
-    pole_distance : numpy.ndarray
-        Signed distance l of the contact from the pole [mm], negative before it.
-    lever : numpy.ndarray
-        Arm of the common normal about the pinion's axis [mm].
-    rolling : numpy.ndarray
-        Way of the contact along the flanks of pinion and wheel per turn of the pinion
-        [mm/rad], shape (2, points).
-    curvature : numpy.ndarray
-        Of both flanks, convex positive [1/mm], shape (2, points).
-    arc : numpy.ndarray
-        Way along both flanks from the first point [mm], shape (2, points).
-    flank, mate : Profile
-        Pinion's flank, and the wheel's in reverse order: both from root to tip.
-    gaps, levers : numpy.ndarray
-        Gap along its normal [mm] and lever [mm] of the pairs one pitch ahead and behind, shape
-        (2, points); beyond the ends of the path that of a tip's corner, infinite where that
-        meets no flank.
-    """
-
-    place: Vector
-    pitch: float
-    pole_distance: Vector
-    lever: Vector
+    place: Vector  # coordinate of the points that grows evenly with the turn [mm]
+    pitch: float  # from one pair of teeth to the next, in that coordinate [mm]
+    # signed distance l of the contact from the pitch point [mm], negative before it
+    pitch_point_distance: Vector
+    lever: Vector  # arm of the common normal about the pinion's axis [mm]
+    # way of the contact along the flanks of pinion and wheel per turn of the pinion [mm/rad], shape (2,
+    # points)
     rolling: Vector
-    curvature: Vector
-    arc: Vector
+    curvature: Vector  # of both flanks, convex positive [1/mm], shape (2, points)
+    arc: Vector  # way along both flanks from the first point [mm], shape (2, points)
+    # flank, mate: pinion's flank, and the wheel's in reverse order: both from root to tip
     flank: Profile
     mate: Profile
+    # gaps, levers: gap along its normal [mm] and lever [mm] of the pairs one pitch ahead and behind, shape
+    # (2, points); beyond the ends of the path that of a tip's corner, infinite where that meets no flank
     gaps: Vector
     levers: Vector
 
@@ -70,7 +51,7 @@ class Mesh:
 
 
 class ToothPair(Protocol):
-    """A pair of gears with its line of action."""
+    """A pair of gears with its path of contact."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -81,17 +62,17 @@ class ToothPair(Protocol):
         """The pitch circles."""
 
     @property
-    def pole_angle(self) -> float:
-        """Pressure angle in the pole [rad]."""
+    def pitch_point_angle(self) -> float:
+        """Pressure angle in the pitch point [rad]."""
 
     def mesh(self, points: int) -> Mesh:
         """Return the way through contact at so many points, both ends included."""
 
 
-def mesh_on(line: LineOfAction, teeth: tuple[int, int]) -> Mesh:
-    """Return the way of a pair of teeth along a line of action.
+def mesh_on(line: PathOfContact, teeth: tuple[int, int]) -> Mesh:
+    """Return the way of a pair of teeth along a path of contact.
 
-    The places are lengths that the pitch circles roll on each other, from the pole.
+    The places are lengths that the pitch circles roll on each other, from the pitch point.
     """
     contacts = line.contacts
     circles = contacts.circles
@@ -114,7 +95,7 @@ def mesh_on(line: LineOfAction, teeth: tuple[int, int]) -> Mesh:
     return Mesh(
         place=place,
         pitch=pitch,
-        pole_distance=contacts.pole_distance,
+        pitch_point_distance=contacts.pitch_point_distance,
         lever=lever,
         rolling=rolling,
         curvature=np.array([contacts.pinion_curvature, contacts.wheel_curvature]),
@@ -126,7 +107,7 @@ def mesh_on(line: LineOfAction, teeth: tuple[int, int]) -> Mesh:
     )
 
 
-def _check_tips(line: LineOfAction, teeth: tuple[int, int]) -> None:
+def _check_tips(line: PathOfContact, teeth: tuple[int, int]) -> None:
     """Raise where both flanks of a tooth, half a pitch apart on the pitch circle, cross below its tip."""
     corners = line.pinion_profile[-1] * (-1.0, 1.0), line.wheel_profile[0] * (1.0, -1.0)
     for name, (x, y), count in zip(("pinion", "wheel"), corners, teeth, strict=True):
@@ -152,7 +133,7 @@ def check_contact_ratio(ratio: float) -> None:
         )
 
 
-def _separation(line: LineOfAction, circles: PitchCircles, place: Vector) -> Vector:
+def _separation(line: PathOfContact, circles: PitchCircles, place: Vector) -> Vector:
     """Gap along its normal of a pair of teeth at a place, 0 on the path.
 
     Before the path the corner of the wheel's tip is next to the pinion's flank, after it that

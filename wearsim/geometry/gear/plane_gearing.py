@@ -1,12 +1,12 @@
-"""Plane gearing: what a point of contact and the direction of the line of action fix.
+"""Plane gearing: what a point of contact and the direction of the path of contact fix.
 
 The source (D.T. Babichev and co-authors, Kharkov 2012, source document 000) survives in its
 conclusions only: fields of indices over the plane of mesh, and two pairs of profiles for one
 reduced curvature. The equations here are derived from the law of gearing and Euler-Savary.
 
-The pole is (0, 0), the pinion's axis (0, -r1), the wheel's (0, r2). The pinion turns clockwise;
-the contact lies at l (cos(alpha), sin(alpha)), l negative before the pole, and the common
-normal is its line to the pole, so that alpha is the pressure angle there.
+The pitch point is (0, 0), the pinion's axis (0, -r1), the wheel's (0, r2). The pinion turns clockwise;
+the contact lies at l (cos(alpha), sin(alpha)), l negative before the pitch point, and the common
+normal is its line to the pitch point, so that alpha is the pressure angle there.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 Family = Literal[1, -1]
 """Of the two pairs of profiles for one reduced radius: 1 with great radii, -1 with small ones."""
@@ -25,13 +25,6 @@ Family = Literal[1, -1]
 class PitchCircles:
     """The pitch circles of an external pair.
 
-    Attributes
-    ----------
-    centre_distance : float
-        Distance a_w of the axes [mm], above 0.
-    gear_ratio : float
-        u, speed of the pinion over that of the wheel, above 0.
-
     Examples
     --------
     >>> pair = PitchCircles(centre_distance=135.0, gear_ratio=1.5)
@@ -39,8 +32,8 @@ class PitchCircles:
     (54.0, 81.0)
     """
 
-    centre_distance: float
-    gear_ratio: float
+    centre_distance: float  # distance a_w of the axes [mm], above 0
+    gear_ratio: float  # u, speed of the pinion over that of the wheel, above 0
 
     @property
     def pinion_radius(self) -> float:
@@ -62,15 +55,19 @@ class PitchCircles:
         """B = (1/r2 - 1/r1)/2 [1/mm]."""
         return 0.5 * (1.0 / self.wheel_radius - 1.0 / self.pinion_radius)
 
-    def pole_radius(self, pressure_angle: ArrayLike) -> Vector:
-        """Return the reduced radius of any regular pair of profiles that touches in the pole.
+    def pitch_point_radius(self, pressure_angle: ArrayLike) -> Vector:
+        """Return the reduced radius of any regular pair of profiles that touches in the pitch point.
 
         s = sin(alpha)/A.
         """
         return np.sin(pressure_angle) / self.curvature_sum
 
     def turn(
-        self, pole_distance: ArrayLike, pressure_angle: ArrayLike, reduced_radius: ArrayLike, family: Family
+        self,
+        pitch_point_distance: ArrayLike,
+        pressure_angle: ArrayLike,
+        reduced_radius: ArrayLike,
+        family: Family,
     ) -> Vector:
         """Return how fast the normal turns where the profiles have a given reduced radius.
 
@@ -80,7 +77,7 @@ class PitchCircles:
 
         Parameters
         ----------
-        pole_distance : array_like
+        pitch_point_distance : array_like
             l [mm], not 0.
         pressure_angle : array_like
             alpha [rad].
@@ -95,15 +92,15 @@ class PitchCircles:
             Radians per radian of the pinion; nan where no profiles have that radius (R^2 < 0,
             which takes alpha < 0).
         """
-        l, radius = np.asarray(pole_distance, float), np.asarray(reduced_radius, float)
-        root = np.sqrt(l**2 + 4.0 * self.pole_radius(pressure_angle) * radius)
+        l, radius = np.asarray(pitch_point_distance, float), np.asarray(reduced_radius, float)
+        root = np.sqrt(l**2 + 4.0 * self.pitch_point_radius(pressure_angle) * radius)
         leaning = 0.5 * family * self.curvature_sum * root - np.sin(pressure_angle)
         return np.asarray(self.pinion_radius * (self.curvature_bias + leaning / l))
 
-    def pole_turn(self, pressure_angle: float, by_distance: float, by_angle: float) -> float:
-        """Return how fast the normal turns in the pole itself, on the way through it.
+    def pitch_point_turn(self, pressure_angle: float, by_distance: float, by_angle: float) -> float:
+        """Return how fast the normal turns in the pitch point itself, on the way through it.
 
-        The limit of ``turn`` for the family 1 with rho = s in the pole:
+        The limit of ``turn`` for the family 1 with rho = s in the pitch point:
         d(alpha)/d(phi1) = r1 cos(alpha) (2 B + A rho_l)/(3 cos(alpha) - A rho_alpha).
 
         Equations synthesise.md (13) times (1).
@@ -111,7 +108,7 @@ class PitchCircles:
         Parameters
         ----------
         pressure_angle : float
-            alpha in the pole [rad].
+            alpha in the pitch point [rad].
         by_distance, by_angle : float
             Partial derivatives rho_l and rho_alpha [mm] of the reduced radius asked for.
 
@@ -129,20 +126,9 @@ class PitchCircles:
 class Contacts:
     """Points of contact with the direction in which each moves.
 
-    Attributes
-    ----------
-    circles : PitchCircles
-        The pair.
-    pole_distance : numpy.ndarray
-        l [mm], any shape.
-    pressure_angle : numpy.ndarray
-        alpha [rad], same shape.
-    turn : numpy.ndarray
-        d(alpha)/d(phi1), radians per radian of the pinion; 0 on the involute.
-
     Examples
     --------
-    An involute at 20 deg, 8 mm after the pole: l + r1 sin(alpha) and r2 sin(alpha) - l:
+    An involute at 20 deg, 8 mm after the pitch point: l + r1 sin(alpha) and r2 sin(alpha) - l:
 
     >>> pair = PitchCircles(135.0, 1.5)
     >>> touch = Contacts(pair, np.array(8.0), np.radians(20.0), np.array(0.0))
@@ -150,16 +136,16 @@ class Contacts:
     26.469088 19.703632
     """
 
-    circles: PitchCircles
-    pole_distance: Vector
-    pressure_angle: Vector
-    turn: Vector
+    circles: PitchCircles  # the pair
+    pitch_point_distance: Vector  # l [mm], any shape
+    pressure_angle: Vector  # alpha [rad], same shape
+    turn: Vector  # d(alpha)/d(phi1), radians per radian of the pinion; 0 on the involute
 
     @classmethod
     def of_radius(
         cls,
         circles: PitchCircles,
-        pole_distance: Vector,
+        pitch_point_distance: Vector,
         pressure_angle: Vector,
         reduced_radius: ArrayLike,
         family: Family,
@@ -176,7 +162,7 @@ class Contacts:
         ----------
         circles : PitchCircles
             The pair.
-        pole_distance, pressure_angle : numpy.ndarray
+        pitch_point_distance, pressure_angle : numpy.ndarray
             l [mm], not 0, and alpha [rad].
         reduced_radius : array_like
             rho [mm], above 0.
@@ -188,12 +174,12 @@ class Contacts:
         Contacts
             At those points; nan where no profiles have that radius.
         """
-        turn = circles.turn(pole_distance, pressure_angle, reduced_radius, family)
-        return cls(circles, pole_distance, pressure_angle, turn)
+        turn = circles.turn(pitch_point_distance, pressure_angle, reduced_radius, family)
+        return cls(circles, pitch_point_distance, pressure_angle, turn)
 
     @classmethod
     def of_direction(
-        cls, circles: PitchCircles, pole_distance: Vector, pressure_angle: Vector, direction: float
+        cls, circles: PitchCircles, pitch_point_distance: Vector, pressure_angle: Vector, direction: float
     ) -> "Contacts":
         """Return contacts that move at a given angle to the common normal.
 
@@ -205,7 +191,7 @@ class Contacts:
         ----------
         circles : PitchCircles
             The pair.
-        pole_distance, pressure_angle : numpy.ndarray
+        pitch_point_distance, pressure_angle : numpy.ndarray
             l [mm], not 0, and alpha [rad].
         direction : float
             mu [rad], between -pi/2 and pi/2.
@@ -215,27 +201,29 @@ class Contacts:
         Contacts
             At those points.
         """
-        turn = circles.pinion_radius * np.cos(pressure_angle) * np.tan(direction) / pole_distance
-        return cls(circles, pole_distance, pressure_angle, turn)
+        turn = circles.pinion_radius * np.cos(pressure_angle) * np.tan(direction) / pitch_point_distance
+        return cls(circles, pitch_point_distance, pressure_angle, turn)
 
     @property
     def points(self) -> Vector:
-        """Points of contact beside the pole [mm], shape (..., 2)."""
+        """Points of contact beside the pitch point [mm], shape (..., 2)."""
         angle = self.pressure_angle
-        return np.stack([self.pole_distance * np.cos(angle), self.pole_distance * np.sin(angle)], axis=-1)
+        return np.stack(
+            [self.pitch_point_distance * np.cos(angle), self.pitch_point_distance * np.sin(angle)], axis=-1
+        )
 
     @property
     def direction(self) -> Vector:
-        """Angle mu of the line of action to the common normal [rad], tan(mu) = l d(alpha)/dl.
+        """Angle mu of the path of contact to the common normal [rad], tan(mu) = l d(alpha)/dl.
 
         Equation synthesise.md (2).
         """
         advance = self.circles.pinion_radius * np.cos(self.pressure_angle)
-        return np.arctan(self.pole_distance * self.turn / advance)
+        return np.arctan(self.pitch_point_distance * self.turn / advance)
 
     @property
     def slope(self) -> Vector:
-        """Slope d(alpha)/dl of the line of action [rad/mm]; dl/d(phi1) = r1 cos(alpha).
+        """Slope d(alpha)/dl of the path of contact [rad/mm]; dl/d(phi1) = r1 cos(alpha).
 
         Equation synthesise.md (1).
         """
@@ -247,7 +235,7 @@ class Contacts:
 
         Equation synthesise.md (6).
         """
-        return self._foot + self.pole_distance * (1.0 + self.turn)
+        return self._foot + self.pitch_point_distance * (1.0 + self.turn)
 
     @property
     def wheel_rolling(self) -> Vector:
@@ -255,7 +243,7 @@ class Contacts:
 
         Equation synthesise.md (6).
         """
-        return self._foot + self.pole_distance * (self.turn - 1.0 / self.circles.gear_ratio)
+        return self._foot + self.pitch_point_distance * (self.turn - 1.0 / self.circles.gear_ratio)
 
     @property
     def sliding(self) -> Vector:
@@ -263,7 +251,7 @@ class Contacts:
 
         Equation synthesise.md (7).
         """
-        return (1.0 + 1.0 / self.circles.gear_ratio) * self.pole_distance
+        return (1.0 + 1.0 / self.circles.gear_ratio) * self.pitch_point_distance
 
     @property
     def pinion_specific_sliding(self) -> Vector:
@@ -310,5 +298,5 @@ class Contacts:
 
     @property
     def _foot(self) -> Vector:
-        """Distance of the pole from the foot of the pinion's perpendicular on the normal."""
+        """Distance of the pitch point from the foot of the pinion's perpendicular on the normal."""
         return self.circles.pinion_radius * np.sin(self.pressure_angle)

@@ -14,7 +14,7 @@ import shapely
 from numpy.typing import NDArray
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -51,7 +51,7 @@ _MILLIMETRES = {
 _FARTHEST = 1e6
 """Distance of edges from the origin, and length of curves [mm], beyond which nothing is a sprocket's."""
 
-_MOST_PARTS = 2000.0
+_MAX_PARTS = 2000.0
 """Into which an edge is cut."""
 
 _UNREADABLE = (
@@ -379,8 +379,8 @@ def _filled(chain: _Chain) -> Vector:
     beside = np.maximum(lengths[:-2] * ~sharp[:-1], lengths[2:] * ~sharp[1:])
     is_straight = (np.abs(bent) * length**2 < 8.0 * _FLAT) | (length > 3.0 * beside)
     bent[is_straight] = 0.0
-    fine = np.ceil(np.minimum(length / _LINE_STEP, _MOST_PARTS))
-    alike = (length // max(_LINE_STEP, float(np.median(length)))).clip(1.0, _MOST_PARTS)
+    fine = np.ceil(np.minimum(length / _LINE_STEP, _MAX_PARTS))
+    alike = (length // max(_LINE_STEP, float(np.median(length)))).clip(1.0, _MAX_PARTS)
     steps = np.where(is_straight, fine, alike).astype(int)
     edge = np.repeat(np.arange(steps.size), steps)
     share = (np.arange(edge.size) - np.repeat(np.cumsum(steps) - steps, steps)) / steps[edge]
@@ -533,8 +533,8 @@ def _between_tips(points: Vector, bottom: int) -> _Gap:
     turn = 0.5 * math.pi - middle
     cosine, sine = math.cos(turn), math.sin(turn)
     outline = np.concatenate([right[::-1], left[1:]])
-    turned = outline @ np.array([[cosine, sine], [-sine, cosine]])
-    return _Gap(turned, math.remainder(-turn, 2.0 * math.pi))
+    rotated = outline @ np.array([[cosine, sine], [-sine, cosine]])
+    return _Gap(rotated, math.remainder(-turn, 2.0 * math.pi))
 
 
 def _up_to_tip(side: Vector) -> Vector:

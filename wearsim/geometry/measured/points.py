@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.geometry.forms.evolute import Strand
-from wearsim.geometry.profile import Profile, Vector, chord_lengths
+from wearsim.geometry.profile_points import Profile, Vector, chord_lengths
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -86,7 +86,7 @@ def working_side(profile: Profile) -> Profile:
     return Profile(-profile.x, profile.y)
 
 
-def phase_error(profile: Profile, strand: Strand) -> float:
+def gap_rotation(profile: Profile, strand: Strand) -> float:
     """Return by how much a flank is turned against the gap's centre line on +y.
 
     The sprocket turns by psi = x/R while the roller comes in, so the turn at which a point

@@ -7,12 +7,12 @@ import numpy as np
 import shapely
 
 from wearsim.errors import GeometryError
-from wearsim.geometry.profile import Profile, Vector, chord_lengths
+from wearsim.geometry.profile_points import Profile, Vector, chord_lengths
 
 Freedom = Literal["none", "turn", "free"]
 """How points may be moved: not at all, turned about the axis, turned and shifted."""
 
-_MOST_STEPS = 50
+_MAX_STEPS = 50
 _SETTLED = 1e-8
 """Largest movement of the last step [mm]."""
 
@@ -22,32 +22,19 @@ not gone: that along an arc by its own radius is one."""
 
 
 @dataclass(frozen=True, eq=False)
-class Registered:
-    """Points on a nominal profile.
+class RegisteredProfile:
+    """Points on a nominal profile."""
 
-    Attributes
-    ----------
-    arc_length : numpy.ndarray
-        Where their feet lie along the nominal profile [mm], shape (n,).
-    recess : numpy.ndarray
-        Distance from the nominal profile into the material [mm], shape (n,).
-    moves : numpy.ndarray
-        What a further movement changes of the recess over what is expected, a column for each
-        way to move, shape (n, 0, 1 or 3): turn, by the way of the outermost point, then shifts
-        along x and y.
-    turn, shift_x, shift_y : float
-        The movement that was found: about the axis [rad], then along x and y [mm].
-    left_out : int
-        Points beyond the ends of the nominal profile.
-    """
-
-    arc_length: Vector
-    recess: Vector
+    arc_length: Vector  # where their feet lie along the nominal profile [mm], shape (n,)
+    recess: Vector  # distance from the nominal profile into the material [mm], shape (n,)
+    # what a further movement changes of the recess over what is expected, a column for each way to move,
+    # shape (n, 0, 1 or 3): turn, by the way of the outermost point, then shifts along x and y
     moves: Vector
+    # turn, shift_x, shift_y: the movement that was found: about the axis [rad], then along x and y [mm]
     turn: float
     shift_x: float
     shift_y: float
-    left_out: int
+    left_out: int  # points beyond the ends of the nominal profile
 
 
 def feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector]:
@@ -80,7 +67,7 @@ def feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector]:
 
 def register(
     nominal: Profile, x: Vector, y: Vector, freedom: Freedom, expected: Vector | None = None
-) -> Registered:
+) -> RegisteredProfile:
     """Lay measured points on a nominal profile, or on one that has worn as is expected.
 
     The movement of least squared distances, by Gauss-Newton steps on the distances to the
@@ -92,7 +79,7 @@ def register(
     chords = chord_lengths(nominal.x, nominal.y)
     recessed = np.zeros(chords.size) if expected is None else expected
     slopes = np.gradient(recessed, chords)
-    for _ in range(_MOST_STEPS):
+    for _ in range(_MAX_STEPS):
         cos, sin = np.cos(turn), np.sin(turn)
         at_x, at_y = cos * x - sin * y + shift[0], sin * x + cos * y + shift[1]
         places, recess, normal_x, normal_y = _feet(nominal, at_x, at_y)
@@ -112,7 +99,7 @@ def register(
         if np.abs(step).sum() < _SETTLED:
             left_out = int((~on).sum())
             shift_x, shift_y = shift.tolist()
-            return Registered(places[on], recess[on], moves[on], turn, shift_x, shift_y, left_out)
+            return RegisteredProfile(places[on], recess[on], moves[on], turn, shift_x, shift_y, left_out)
         angle = step[0] / float(np.hypot(at_x, at_y).max())
         c, s = np.cos(angle), np.sin(angle)
         turn, shift = turn + angle, np.array([[c, -s], [s, c]]) @ shift + step[1:]

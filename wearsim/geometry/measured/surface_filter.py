@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
 """At this constant the filter passes half the amplitude of a wave of the cut-off's length."""

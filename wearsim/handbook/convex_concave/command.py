@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("convex-concave", "Flanks, contact and outlines of convex-concave gears.")
-def convex_concave(case: Path, settings: tuple[str, ...]) -> "Sheet":
-    """Lay out the convex-concave gears of CASE, whose line of action is two circular arcs.
+def convex_concave(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
+    """Lay out the convex-concave gears of CASE, whose path of contact is two circular arcs.
 
     Radii of curvature, contact ratio and reduced radius beside the involute pair of the same size,
     the sign conditions, an arc for the rack's flank, and the measurement over rollers. --out

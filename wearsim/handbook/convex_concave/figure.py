@@ -6,9 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from wearsim.geometry.outline import turned
-from wearsim.handbook.convex_concave.model import Layout
-from wearsim.report.lines import literal
+from wearsim.geometry.outline import rotated
+from wearsim.handbook.convex_concave.model import PairLayout
+from wearsim.report.text_lines import literal
 
 _TOLERANCE = 1e-3
 _PITCHES_SHOWN = 1.8
@@ -16,8 +16,8 @@ _HEIGHT = 0.72
 _ANGLES = 201
 
 
-def convex_concave_figure(title: str, layout: Layout) -> Figure:
-    """Return the teeth in contact in the pole, and the reduced radius beside the involute's."""
+def convex_concave_figure(title: str, layout: PairLayout) -> Figure:
+    """Return the teeth in contact in the pitch point, and the reduced radius beside the involute's."""
     figure = Figure(figsize=(10.4, 5.0), layout=ConstrainedLayoutEngine(w_pad=0.1))
     mesh, along = figure.subplots(1, 2, width_ratios=[1.15, 1.0])
     _draw_mesh(mesh, layout)
@@ -26,8 +26,8 @@ def convex_concave_figure(title: str, layout: Layout) -> Figure:
     return figure
 
 
-def _draw_mesh(panel: Axes, layout: Layout) -> None:
-    """Draw the teeth around the pole, which is the origin."""
+def _draw_mesh(panel: Axes, layout: PairLayout) -> None:
+    """Draw the teeth around the pitch point, which is the origin."""
     pair = layout.pair
     across = _PITCHES_SHOWN * np.pi * pair.module
     high = _HEIGHT * across
@@ -36,7 +36,7 @@ def _draw_mesh(panel: Axes, layout: Layout) -> None:
     colours = ("tab:blue", "tab:orange")
     for body, colour, sense in zip(layout.bodies, colours, (1.0, -1.0), strict=True):
         gear = body.gear
-        points = turned(body.outline.polygon(_TOLERANCE), gear.turn) - (0.0, gear.pitch_radius)
+        points = rotated(body.outline.polygon(_TOLERANCE), gear.turn) - (0.0, gear.pitch_radius)
         for piece in shapely.get_parts(shapely.Polygon(sense * points) & window):
             outline = shapely.get_coordinates(piece.exterior).T
             panel.fill(*outline, facecolor=colour, alpha=0.35, linewidth=0.0)
@@ -59,7 +59,7 @@ def _draw_mesh(panel: Axes, layout: Layout) -> None:
     _legend_below(panel)
 
 
-def _draw_radius(panel: Axes, layout: Layout) -> None:
+def _draw_radius(panel: Axes, layout: PairLayout) -> None:
     """Draw the reduced radius of the pair and of the involute over the path."""
     for zone, style in zip(layout.pair.zones, ("-", "--"), strict=True):
         alpha = zone.angles(_ANGLES)
@@ -74,7 +74,11 @@ def _draw_radius(panel: Axes, layout: Layout) -> None:
     involute = layout.involute
     path = np.linspace(-involute.approach, involute.recess, _ANGLES)
     panel.plot(
-        path, involute.reduced_radius(involute.pole + path), color="black", linewidth=1.2, label="involute"
+        path,
+        involute.reduced_radius(involute.pitch_point + path),
+        color="black",
+        linewidth=1.2,
+        label="involute",
     )
     panel.set_ylim(bottom=0.0)
     panel.set_xlabel("distance l from the pole, mm")

@@ -7,8 +7,8 @@ import numpy as np
 
 from wearsim.geometry.gear.circle_fit import CircleFit, rack_arc
 from wearsim.geometry.gear.convex_concave import ConvexConcave, Zone
-from wearsim.geometry.gear.convex_concave_flank import Flank
-from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear, Roller
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
+from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear, MeasuringRoller
 from wearsim.geometry.gear.convex_concave_outline import gear_outline, root_radius, tip_overlap
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_over_pins
@@ -24,120 +24,60 @@ _USUAL_ROLLER = 1.728
 
 
 @dataclass(frozen=True)
-class Contact:
-    """A place of contact.
+class ZoneContact:
+    """A place of contact."""
 
-    Attributes
-    ----------
-    zone : Zone
-        Where on the line of action.
-    place : str
-        ``pole``, ``best`` (greatest reduced radius of the zone) or ``end``.
-    alpha : float
-        Pressure angle [rad].
-    involute_radius : float
-        Reduced radius of the involute pair at the same distance from the pole [mm]; nan
-        where that is out of contact.
-    """
-
-    zone: Zone
-    place: str
-    alpha: float
+    zone: Zone  # where on the path of contact
+    place: str  # `pitch_point`, `best` (greatest reduced radius of the zone) or `end`
+    alpha: float  # pressure angle [rad]
+    # reduced radius of the involute pair at the same distance from the pitch point [mm]; nan where that is
+    # out of contact
     involute_radius: float
 
 
 @dataclass(frozen=True)
 class RackArc:
-    """The arc in place of one half of the rack's flank.
+    """The arc in place of one half of the rack's flank."""
 
-    Attributes
-    ----------
-    flank : Flank
-        Flank of the pinion that this half cuts.
-    fit : CircleFit
-        The arc, in coordinates from the pole.
-    deviation : float
-        Greatest distance of the flank from it [mm].
-    """
-
-    flank: Flank
-    fit: CircleFit
-    deviation: float
+    flank: ConvexConcaveFlank  # flank of the pinion that this half cuts
+    fit: CircleFit  # the arc, in coordinates from the pitch point
+    deviation: float  # greatest distance of the flank from it [mm]
 
 
 @dataclass(frozen=True)
-class Measured:
-    """A roller in the gaps of a gear.
+class OverRollers:
+    """A roller in the gaps of a gear."""
 
-    Attributes
-    ----------
-    roller : Roller
-        Where it rests and what it measures.
-    involute_over : float
-        Measurement on the involute gear of the same size [mm]; nan where it rests on none.
-    """
-
-    roller: Roller
-    involute_over: float
+    roller: MeasuringRoller  # where it rests and what it measures
+    involute_over: float  # measurement on the involute gear of the same size [mm]; nan where it rests on none
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
-    """What a gear comes to.
+class MeasuredGear:
+    """What a gear comes to."""
 
-    Attributes
-    ----------
-    name : str
-        ``pinion`` or ``wheel``.
-    gear : ConvexConcaveGear
-        Its teeth.
-    root : float
-        Radius of the root circle [mm].
-    outline : Outline
-        All of it.
-    measured : tuple of Measured
-        By roller.
-    overlap : float
-        How deep the mate's tips enter it [mm]; up to the tolerance of the outlines nothing.
-    """
-
-    name: str
-    gear: ConvexConcaveGear
-    root: float
-    outline: Outline
-    measured: tuple[Measured, ...]
-    overlap: float
+    name: str  # `pinion` or `wheel`
+    gear: ConvexConcaveGear  # its teeth
+    root: float  # radius of the root circle [mm]
+    outline: Outline  # all of it
+    measured: tuple[OverRollers, ...]  # by roller
+    overlap: float  # how deep the mate's tips enter it [mm]; up to the tolerance of the outlines nothing
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
-    """A pair with everything that the command shows.
+class PairLayout:
+    """A pair with everything that the command shows."""
 
-    Attributes
-    ----------
-    pair : ConvexConcave
-        The pair.
-    involute : InvolutePair
-        Standard gears of the same module, teeth, addendum, and of the pressure angle in the pole.
-    contacts : tuple of Contact
-        Pole, best place and end of both zones.
-    rack_arcs : tuple of RackArc
-        Of the halves that cut the pinion's head and foot.
-    bodies : tuple of Body
-        Pinion and wheel.
-    face_width : float
-        Of the solids [mm].
-    """
-
-    pair: ConvexConcave
+    pair: ConvexConcave  # the pair
+    # standard gears of the same module, teeth, addendum, and of the pressure angle in the pitch point
     involute: InvolutePair
-    contacts: tuple[Contact, ...]
-    rack_arcs: tuple[RackArc, ...]
-    bodies: tuple[Body, Body]
-    face_width: float
+    contacts: tuple[ZoneContact, ...]  # pole, best place and end of both zones
+    rack_arcs: tuple[RackArc, ...]  # of the halves that cut the pinion's head and foot
+    bodies: tuple[MeasuredGear, MeasuredGear]  # pinion and wheel
+    face_width: float  # of the solids [mm]
 
 
-def convex_concave(tables: ConvexConcaveTables) -> Layout:
+def convex_concave(tables: ConvexConcaveTables) -> PairLayout:
     """Lay out a pair of gears.
 
     Parameters
@@ -169,9 +109,9 @@ def convex_concave(tables: ConvexConcaveTables) -> Layout:
     )
     teeth = pair.teeth
     pinion_tip, wheel_tip = (0.5 * pair.module * count + pair.addendum for count in teeth)
-    involute = InvolutePair(teeth, pair.module, pair.pole_angle, (0.0, 0.0), (pinion_tip, wheel_tip))
+    involute = InvolutePair(teeth, pair.module, pair.pitch_point_angle, (0.0, 0.0), (pinion_tip, wheel_tip))
     width = body.face_width_mm
-    return Layout(
+    return PairLayout(
         pair,
         involute,
         tuple(contact for zone in pair.zones for contact in _contacts(zone, involute)),
@@ -181,24 +121,24 @@ def convex_concave(tables: ConvexConcaveTables) -> Layout:
     )
 
 
-def _contacts(zone: Zone, involute: InvolutePair) -> list[Contact]:
+def _contacts(zone: Zone, involute: InvolutePair) -> list[ZoneContact]:
     """Pole, best place and end of a zone."""
     alpha = zone.angles(_ANGLES)
     best = alpha[zone.reduced_radius(alpha).argmax()]
     places = {"pole": alpha[0], "best": best, "end": zone.end}
     return [
-        Contact(zone, place, float(at), involute_radius(zone, float(at), involute))
+        ZoneContact(zone, place, float(at), involute_radius(zone, float(at), involute))
         for place, at in places.items()
     ]
 
 
 def involute_radius(zone: Zone, alpha: float, involute: InvolutePair) -> float:
-    """Return the reduced radius of the involute pair as far from the pole as a contact.
+    """Return the reduced radius of the involute pair as far from the pitch point as a contact.
 
     Parameters
     ----------
     zone : Zone
-        Where on the line of action.
+        Where on the path of contact.
     alpha : float
         Pressure angle [rad].
     involute : InvolutePair
@@ -212,17 +152,17 @@ def involute_radius(zone: Zone, alpha: float, involute: InvolutePair) -> float:
     path = float(zone.pinion.path_coordinate(alpha))
     if not -involute.approach <= path <= involute.recess:
         return math.nan
-    return float(involute.reduced_radius(np.array(involute.pole + path)))
+    return float(involute.reduced_radius(np.array(involute.pitch_point + path)))
 
 
-def _arc(flank: Flank, end: float) -> RackArc:
+def _arc(flank: ConvexConcaveFlank, end: float) -> RackArc:
     """Arc for the rack's flank, whose depth is the addendum of the gears."""
     fit = rack_arc(flank, end)
-    points = flank.rack_points(np.linspace(flank.pole_angle, end, _ANGLES))
+    points = flank.rack_points(np.linspace(flank.pitch_point_angle, end, _ANGLES))
     return RackArc(flank, fit, float(np.abs(fit.distances(points)).max()))
 
 
-def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[Body, Body]:
+def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[MeasuredGear, MeasuredGear]:
     gears = pair.pinion, pair.wheel
     ratio, form = body.root_clearance_ratio, body.root_form
     clearance = None if ratio is None else ratio * pair.module
@@ -231,7 +171,7 @@ def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[Body, Body]:
     overlaps = tip_overlap(pair, *polygons)
     diameters = body.roller_diameters_mm or [_USUAL_ROLLER * pair.module]
     pinion, wheel = (
-        Body(
+        MeasuredGear(
             name,
             gear,
             root_radius(gear, clearance, form),
@@ -244,6 +184,6 @@ def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[Body, Body]:
     return pinion, wheel
 
 
-def _measured(gear: ConvexConcaveGear, diameter: float) -> Measured:
-    over = involute_over_pins(gear.module, gear.teeth, gear.pole_angle, diameter, gear.thinning)
-    return Measured(gear.over_rollers(diameter), over)
+def _measured(gear: ConvexConcaveGear, diameter: float) -> OverRollers:
+    over = involute_over_pins(gear.module, gear.teeth, gear.pitch_point_angle, diameter, gear.thinning)
+    return OverRollers(gear.over_rollers(diameter), over)

@@ -8,16 +8,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.export.dxf_writer import write_dxf
 from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import SignCondition
-from wearsim.geometry.gear.convex_concave_flank import Flank
-from wearsim.geometry.outline import turned
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
+from wearsim.geometry.outline import rotated
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.convex_concave.figure import convex_concave_figure
-from wearsim.handbook.convex_concave.model import OUTLINE_TOLERANCE, Body, Contact, Layout, RackArc
-from wearsim.report.lines import numbered, row
+from wearsim.handbook.convex_concave.model import (
+    OUTLINE_TOLERANCE,
+    MeasuredGear,
+    PairLayout,
+    RackArc,
+    ZoneContact,
+)
+from wearsim.report.text_lines import numbered_assumptions, row
 
 _POINTS = 101
 
@@ -32,7 +38,7 @@ _ASSUMPTIONS = (
 )
 
 
-def convex_concave_sheet(title: str, layout: Layout) -> Sheet:
+def convex_concave_sheet(title: str, layout: PairLayout) -> CalculationSheet:
     """Return what ``wearsim convex-concave`` shows."""
     pair = layout.pair
     rollers = [one for body in layout.bodies for one in _rollers(body)]
@@ -49,7 +55,7 @@ def convex_concave_sheet(title: str, layout: Layout) -> Sheet:
         "rack_arcs": [_rack_arc(one) for one in layout.rack_arcs],
         "rollers": rollers,
     }
-    return Sheet(
+    return CalculationSheet(
         text=_text(title, layout),
         content=content,
         tables=lambda: {
@@ -66,7 +72,7 @@ def convex_concave_sheet(title: str, layout: Layout) -> Sheet:
     )
 
 
-def _write_solid(layout: Layout, body: Body, path: Path) -> None:
+def _write_solid(layout: PairLayout, body: MeasuredGear, path: Path) -> None:
     write_stl(prism(body.outline.polygon(OUTLINE_TOLERANCE), layout.face_width), path)
 
 
@@ -75,7 +81,7 @@ def _known(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _gear(body: Body) -> dict[str, Any]:
+def _gear(body: MeasuredGear) -> dict[str, Any]:
     gear = body.gear
     return {
         "gear": body.name,
@@ -90,7 +96,7 @@ def _gear(body: Body) -> dict[str, Any]:
     }
 
 
-def _contact(one: Contact) -> dict[str, Any]:
+def _contact(one: ZoneContact) -> dict[str, Any]:
     zone, alpha = one.zone, one.alpha
     return {
         "zone": zone.name,
@@ -126,7 +132,7 @@ def _rack_arc(one: RackArc) -> dict[str, Any]:
     }
 
 
-def _rollers(body: Body) -> list[dict[str, Any]]:
+def _rollers(body: MeasuredGear) -> list[dict[str, Any]]:
     return [
         {
             "gear": body.name,
@@ -141,17 +147,17 @@ def _rollers(body: Body) -> list[dict[str, Any]]:
     ]
 
 
-def _flank_table(layout: Layout, body: Body) -> pd.DataFrame:
+def _flank_table(layout: PairLayout, body: MeasuredGear) -> pd.DataFrame:
     """Points of a gear's flank from the end of the foot to the tip, as finished."""
     tables = []
     (head, tip), (foot, end) = body.gear.flanks()
-    spans = [(foot, np.linspace(end, foot.pole_angle, _POINTS))]
-    spans += [(head, np.linspace(head.pole_angle, tip, _POINTS))]
+    spans = [(foot, np.linspace(end, foot.pitch_point_angle, _POINTS))]
+    spans += [(head, np.linspace(head.pitch_point_angle, tip, _POINTS))]
     for flank, alpha in spans:
-        after_pole = (flank.part == "head") == (body.name == "pinion")
-        zone = layout.pair.zones[0 if after_pole else 1]
+        after_pitch_point = (flank.part == "head") == (body.name == "pinion")
+        zone = layout.pair.zones[0 if after_pitch_point else 1]
         reduced = zone.reduced_radius(alpha)
-        points = turned(flank.points(alpha), -body.gear.turn)
+        points = rotated(flank.points(alpha), -body.gear.turn)
         tables.append(
             pd.DataFrame(
                 {
@@ -172,11 +178,11 @@ def _flank_table(layout: Layout, body: Body) -> pd.DataFrame:
     return pd.concat(tables)
 
 
-def _rack_table(layout: Layout) -> pd.DataFrame:
-    """Points of the rack's flank from the pole, the half that cuts the pinion's foot first."""
+def _rack_table(layout: PairLayout) -> pd.DataFrame:
+    """Points of the rack's flank from the pitch point, the half that cuts the pinion's foot first."""
     pinion = layout.pair.pinion
 
-    def half(flank: Flank, alpha: Vector) -> pd.DataFrame:
+    def half(flank: ConvexConcaveFlank, alpha: Vector) -> pd.DataFrame:
         points = flank.rack_points(alpha)
         return pd.DataFrame(
             {
@@ -189,11 +195,11 @@ def _rack_table(layout: Layout) -> pd.DataFrame:
             }
         )
 
-    alpha = np.linspace(pinion.pole_angle, pinion.foot_angle, _POINTS)
+    alpha = np.linspace(pinion.pitch_point_angle, pinion.foot_angle, _POINTS)
     return pd.concat([half(pinion.foot, alpha[::-1]), half(pinion.head, alpha)])
 
 
-def _text(title: str, layout: Layout) -> str:
+def _text(title: str, layout: PairLayout) -> str:
     pair = layout.pair
     ratio = (
         f"{pair.contact_ratio:.4f} ({pair.approach_ratio:.4f} before the pole, {pair.recess_ratio:.4f} "
@@ -214,12 +220,12 @@ def _text(title: str, layout: Layout) -> str:
             "",
             *_roller_lines(layout),
             "",
-            row("Assumes", numbered(_ASSUMPTIONS)),
+            row("Assumes", numbered_assumptions(_ASSUMPTIONS)),
         ]
     )
 
 
-def _gear_lines(layout: Layout) -> list[str]:
+def _gear_lines(layout: PairLayout) -> list[str]:
     names = {
         "teeth": "teeth",
         "pitch_radius_mm": "pitch radius, mm",
@@ -238,7 +244,7 @@ def _gear_lines(layout: Layout) -> list[str]:
     return lines
 
 
-def _contact_lines(layout: Layout) -> list[str]:
+def _contact_lines(layout: PairLayout) -> list[str]:
     lines = [
         f"{'zone':6s}{'place':6s}{'alpha, deg':>11s}{'l, mm':>9s}{'rho_1, mm':>12s}{'rho_2, mm':>12s}"
         f"{'rack, mm':>11s}{'rho, mm':>10s}{'involute, mm':>14s}"
@@ -256,18 +262,19 @@ def _contact_lines(layout: Layout) -> list[str]:
     return lines
 
 
-def _reduced(layout: Layout) -> str:
-    pole = layout.contacts[0]
+def _reduced(layout: PairLayout) -> str:
+    pitch_point = layout.contacts[0]
     best = max((one for one in layout.contacts if one.place == "best"), key=_radius)
     against = f", where the involute pair has {best.involute_radius:.4g} mm"
     return (
-        f"radius {_radius(pole):.4g} mm in the pole as of the involute pair, best {_radius(best):.4g} mm "
+        f"radius {_radius(pitch_point):.4g} mm in the pole as of the involute pair, best "
+        f"{_radius(best):.4g} mm "
         f"at l = {float(best.zone.pinion.path_coordinate(best.alpha)):.4g} mm"
         + ("" if math.isnan(best.involute_radius) else against)
     )
 
 
-def _radius(one: Contact) -> float:
+def _radius(one: ZoneContact) -> float:
     return float(one.zone.reduced_radius(one.alpha))
 
 
@@ -282,7 +289,7 @@ def _signs(conditions: tuple[SignCondition, ...]) -> str:
     return "; ".join(found)
 
 
-def _rack_text(layout: Layout) -> str:
+def _rack_text(layout: PairLayout) -> str:
     return "; ".join(
         f"flank that cuts the pinion's {one.flank.part}: arc of {one.fit.radius:.4f} mm about "
         f"({one.fit.centre[0]:.4f}, {one.fit.centre[1]:.4f}) mm, off by {one.deviation:.4f} mm at most, "
@@ -291,7 +298,7 @@ def _rack_text(layout: Layout) -> str:
     )
 
 
-def _roller_lines(layout: Layout) -> list[str]:
+def _roller_lines(layout: PairLayout) -> list[str]:
     lines = [
         f"{'rollers':9s}{'D, mm':>9s}  {'rests on':9s}{'alpha, deg':>11s}{'centre at, mm':>15s}"
         f"{'over rollers, mm':>18s}{'involute, mm':>14s}"
@@ -307,7 +314,7 @@ def _roller_lines(layout: Layout) -> list[str]:
     return lines
 
 
-def _warnings(layout: Layout) -> list[str]:
+def _warnings(layout: PairLayout) -> list[str]:
     pair, found = layout.pair, []
     if pair.contact_ratio < 1.0:
         found.append(
@@ -316,7 +323,7 @@ def _warnings(layout: Layout) -> list[str]:
         )
     found += [
         f"({one.number}) {one.radius} does not hold up to the end of contact: the foot is convex "
-        f"beyond {math.degrees(max(one.flank.straight_angle, pair.pole_angle)):.4g} deg; "
+        f"beyond {math.degrees(max(one.flank.straight_angle, pair.pitch_point_angle)):.4g} deg; "
         "lower the radius of its arc"
         for one in pair.sign_conditions
         if not one.holds

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("face-load", "Face load factor of a wide misaligned pair, new and run in.")
-def face_load(case: Path, settings: tuple[str, ...]) -> "Sheet":
+def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Spread the load of the pair of CASE over its face width, and wear the flanks.
 
     The part of the misalignment that is the same at every mesh runs in, the part that changes

@@ -12,29 +12,17 @@ from typing import Self
 import numpy as np
 from scipy.optimize import brentq
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 
 @dataclass(frozen=True, eq=False)
 class WideMesh:
-    """A face width cut into slices.
+    """A face width cut into slices."""
 
-    Attributes
-    ----------
-    position : numpy.ndarray
-        Of the slices from mid-face [mm]; the outer ones lie on the edges.
-    width : numpy.ndarray
-        Of the slices [mm], half for the outer ones.
-    stiffness : float
-        Load per width over deflection [N/mm2].
-    force : float
-        On the whole face [N].
-    """
-
-    position: Vector
-    width: Vector
-    stiffness: float
-    force: float
+    position: Vector  # of the slices from mid-face [mm]; the outer ones lie on the edges
+    width: Vector  # of the slices [mm], half for the outer ones
+    stiffness: float  # load per width over deflection [N/mm2]
+    force: float  # on the whole face [N]
 
     @classmethod
     def of(cls, face_width: float, slices: int, stiffness: float, force: float) -> Self:
@@ -109,7 +97,7 @@ def slice_loads(mesh: WideMesh, gap: Vector) -> Vector:
     return loads
 
 
-def moments(mesh: WideMesh, loads: Vector) -> Vector:
+def load_moments(mesh: WideMesh, loads: Vector) -> Vector:
     """Moment of the load about mid-face.
 
     Parameters
@@ -155,13 +143,13 @@ def self_aligned_gap(mesh: WideMesh, gap: Vector, share: Vector, lever: float | 
     steepest = float(np.abs(np.diff(gap) / np.diff(mesh.position)).max())
     if steepest == 0.0:
         return gap
-    most = 2.0 * steepest  # beyond the steepest gap all load is on one side of mid-face
+    greatest = 2.0 * steepest  # beyond the steepest gap all load is on one side of mid-face
 
     def _moments(tilt: float, kind: int | slice) -> Vector:
-        return moments(mesh, slice_loads(mesh, gap[kind] + tilt * mesh.position))
+        return load_moments(mesh, slice_loads(mesh, gap[kind] + tilt * mesh.position))
 
     every = slice(None)
-    mean_tilt = _root(lambda tilt: float(share @ _moments(tilt, every)), -most, most)
+    mean_tilt = _root(lambda tilt: float(share @ _moments(tilt, every)), -greatest, greatest)
     tilts = np.full(len(share), mean_tilt)
     if lever is not None:
         held = mesh.force * lever
@@ -172,7 +160,7 @@ def self_aligned_gap(mesh: WideMesh, gap: Vector, share: Vector, lever: float | 
                 def _excess(tilt: float, kind: int = kind, left: float = left) -> float:
                     return float(_moments(tilt, kind)) - left
 
-                tilts[kind] = _root(_excess, mean_tilt, math.copysign(most, moment))
+                tilts[kind] = _root(_excess, mean_tilt, math.copysign(greatest, moment))
     return gap + tilts[:, None] * mesh.position
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.face_load.face_slices import WideMesh, slice_loads
 
 _SETTLED = 1e-4
@@ -25,21 +25,11 @@ _LONGEST = 1000.0
 
 @dataclass(frozen=True)
 class WearRates:
-    """How fast the flanks open the gap under load.
+    """How fast the flanks open the gap under load."""
 
-    Attributes
-    ----------
-    common : float
-        By teeth that meet all kinds of mesh in turn, per load [mm2/N] and turn of the pinion.
-    own : float
-        By teeth that meet always the same kind [mm2/N].
-    turns_per_hour : float
-        Of the pinion.
-    """
-
-    common: float
-    own: float
-    turns_per_hour: float
+    common: float  # by teeth that meet all kinds of mesh in turn, per load [mm2/N] and turn of the pinion
+    own: float  # by teeth that meet always the same kind [mm2/N]
+    turns_per_hour: float  # of the pinion
 
     @property
     def total(self) -> float:
@@ -92,49 +82,23 @@ def opening_rate(loads: Vector, share: Vector, rates: WearRates) -> Vector:
 
 @dataclass(frozen=True, eq=False)
 class FaceState:
-    """A mesh at some running time.
+    """A mesh at some running time."""
 
-    Attributes
-    ----------
-    name : str
-        ``new``, ``after`` (the time asked for) or ``run_in``.
-    hours : float
-        Running time [h].
-    loads : numpy.ndarray
-        Load per width [N/mm], kinds of mesh by slices.
-    opening : numpy.ndarray
-        By how much wear has opened the gap, in the mean of all meshes [mm].
-    factor : float
-        K_Hbeta: greatest load per width of all meshes over the mean one.
-    """
-
-    name: str
-    hours: float
-    loads: Vector
-    opening: Vector
-    factor: float
+    name: str  # `new`, `after` (the time asked for) or `run_in`
+    hours: float  # running time [h]
+    loads: Vector  # load per width [N/mm], kinds of mesh by slices
+    opening: Vector  # by how much wear has opened the gap, in the mean of all meshes [mm]
+    factor: float  # K_Hbeta: greatest load per width of all meshes over the mean one
 
 
 @dataclass(frozen=True, eq=False)
-class RunningIn:
-    """How a mesh runs in.
+class FaceRunningIn:
+    """How a mesh runs in."""
 
-    Attributes
-    ----------
-    states : tuple of FaceState
-        New, after the time asked for, and run in.
-    hours : numpy.ndarray
-        Running times [h].
-    factors : numpy.ndarray
-        K_Hbeta at those.
-    settled : bool
-        Whether it was run in after a thousand time constants at most.
-    """
-
-    states: tuple[FaceState, ...]
-    hours: Vector
-    factors: Vector
-    settled: bool
+    states: tuple[FaceState, ...]  # new, after the time asked for, and run in
+    hours: Vector  # running times [h]
+    factors: Vector  # K_Hbeta at those
+    settled: bool  # whether it was run in after a thousand time constants at most
 
 
 def _untilted(gap: Vector) -> Vector:
@@ -143,26 +107,13 @@ def _untilted(gap: Vector) -> Vector:
 
 @dataclass(frozen=True, eq=False)
 class WearingFace:
-    """A mesh that wears; time is counted in time constants of a gap that never changes.
+    """A mesh that wears; time is counted in time constants of a gap that never changes."""
 
-    Attributes
-    ----------
-    mesh : WideMesh
-        The mesh.
-    gap : numpy.ndarray
-        Of the unworn flanks [mm], kinds of mesh by slices.
-    share : numpy.ndarray
-        Share of the meshes of each kind.
-    rates : WearRates
-        Of the flanks.
-    aligned : callable, optional
-        From the gap to that after the pinion has tilted; by default it cannot.
-    """
-
-    mesh: WideMesh
-    gap: Vector
-    share: Vector
-    rates: WearRates
+    mesh: WideMesh  # the mesh
+    gap: Vector  # of the unworn flanks [mm], kinds of mesh by slices
+    share: Vector  # share of the meshes of each kind
+    rates: WearRates  # of the flanks
+    # from the gap to that after the pinion has tilted; by default it cannot
     aligned: Callable[[Vector], Vector] = _untilted
 
     def loads(self, opening: Vector) -> Vector:
@@ -180,7 +131,7 @@ class WearingFace:
         """
         return slice_loads(self.mesh, self.aligned(self.gap + opening))
 
-    def run_in(self, hours: float) -> RunningIn:
+    def run_in(self, hours: float) -> FaceRunningIn:
         """Wear the mesh until its load changes no more.
 
         Parameters
@@ -194,9 +145,9 @@ class WearingFace:
             Complete.
         """
         unit = self.rates.hours(self.mesh.stiffness, self.rates.total)
-        asked = hours / unit
+        requested = hours / unit
         opening, end, settled = self._opening()
-        last = max(end, asked)
+        last = max(end, requested)
         times = np.append(0.0, np.geomspace(min(1e-3, 1e-3 * last), last, 60)).tolist()
 
         def _state(name: str, time: float) -> FaceState:
@@ -206,8 +157,8 @@ class WearingFace:
             factor = float(loads.max()) / self.mesh.mean_load
             return FaceState(name, time * unit, loads, self.share @ opened + further, factor)
 
-        return RunningIn(
-            states=(_state("new", 0.0), _state("after", asked), _state("run_in", end)),
+        return FaceRunningIn(
+            states=(_state("new", 0.0), _state("after", requested), _state("run_in", end)),
             hours=unit * np.array(times),
             factors=np.array([_state("", time).factor for time in times]),
             settled=settled,

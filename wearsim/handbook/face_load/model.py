@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.face_load.face_slices import WideMesh, self_aligned_gap
-from wearsim.handbook.face_load.face_wear import RunningIn, WearingFace, WearRates
+from wearsim.handbook.face_load.face_wear import FaceRunningIn, WearingFace, WearRates
 from wearsim.handbook.face_load.keys import FaceLoadTables, VariesWith
 
 _PHASES = 8
@@ -99,31 +99,19 @@ def wear_rates(
 
 @dataclass(frozen=True, eq=False)
 class FaceLoad:
-    """The load along the face of a wide pair.
+    """The load along the face of a wide pair."""
 
-    Attributes
-    ----------
-    mesh : WideMesh
-        Slices, stiffness and force.
-    share : numpy.ndarray
-        Share of the meshes of each kind.
-    fixed_hours, varying_hours : float
-        Time in which wear takes all but 1/e of a gap that is the same at every mesh, and of the
-        part that changes [h], infinite where no flank follows it.
-    lever : float or None
-        Friction lever of the pivot of a self-aligning pinion [mm]; None where it follows the mean
-        gap only.
-    fixed, self_aligning : RunningIn
-        With a pinion that cannot tilt and with one that can.
-    """
-
-    mesh: WideMesh
-    share: Vector
+    mesh: WideMesh  # slices, stiffness and force
+    share: Vector  # share of the meshes of each kind
+    # fixed_hours, varying_hours: time in which wear takes all but 1/e of a gap that is the same at every
+    # mesh, and of the part that changes [h], infinite where no flank follows it
     fixed_hours: float
     varying_hours: float
+    # friction lever of the pivot of a self-aligning pinion [mm]; None where it follows the mean gap only
     lever: float | None
-    fixed: RunningIn
-    self_aligning: RunningIn
+    # fixed, self_aligning: with a pinion that cannot tilt and with one that can
+    fixed: FaceRunningIn
+    self_aligning: FaceRunningIn
 
 
 def face_load(tables: FaceLoadTables) -> FaceLoad:

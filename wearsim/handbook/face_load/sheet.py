@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.face_load.face_slices import equivalent_misalignment
-from wearsim.handbook.face_load.face_wear import FaceState, RunningIn
+from wearsim.handbook.face_load.face_wear import FaceRunningIn, FaceState
 from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.quantities import grouped
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,7 +30,7 @@ _NAMES = {"fixed": "fixed", "self_aligning": "self-aligning"}
 _STATES = {"new": "new", "after": "after", "run_in": "run in"}
 
 
-def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Sheet:
+def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> CalculationSheet:
     """Return what ``wearsim face-load`` shows."""
     assumptions = (*_ASSUMPTIONS, _pivot(found), *defaults)
     warnings = _warnings(found)
@@ -71,7 +71,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> She
 
         return {"face_load": face_load_figure(title, found)}
 
-    return Sheet(
+    return CalculationSheet(
         text=_text(title, found, states, assumptions),
         content=content,
         tables=_made,
@@ -85,7 +85,7 @@ def _pivot(found: FaceLoad) -> str:
     return f"a self-aligning pinion is rocked into balance by starts and changes; it follows {follows}"
 
 
-def _runs(found: FaceLoad) -> Iterator[tuple[str, RunningIn]]:
+def _runs(found: FaceLoad) -> Iterator[tuple[str, FaceRunningIn]]:
     yield "fixed", found.fixed
     yield "self_aligning", found.self_aligning
 
@@ -141,7 +141,7 @@ def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumpt
         "K_Hbeta: greatest load per width of any mesh over the mean one; as F_beta: linear gap with that "
         "factor; loaded: least part of the face that carries; worn off: most of both flanks together"
     )
-    return "\n".join([*lines, "", row("Columns", notes), row("Assumes", numbered(assumptions))])
+    return "\n".join([*lines, "", row("Columns", notes), row("Assumes", numbered_assumptions(assumptions))])
 
 
 def _running_in(found: FaceLoad) -> str:

@@ -1,4 +1,4 @@
-"""``wearsim hertz-check``: contact stress at the pole against a published comparison."""
+"""``wearsim hertz-check``: contact stress at the pitch point against a published comparison."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,9 +9,9 @@ from wearsim.command.calculation_command import calculation
 from wearsim.command.options import working
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
     from wearsim.handbook.hertz_check.hertz_fem import FemContact
-    from wearsim.handbook.hertz_check.pole_contact import PoleContact
+    from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
 
 
 @calculation(
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     "Contact stress of a gear pair at the pole, against a published one and finite elements.",
     click.option("--fem", is_flag=True, help="Solve it by finite elements too (pip install 'wearsim[fem]')."),
 )
-def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "Sheet":
-    """Give contact stress and von Mises' stresses of the teeth of CASE that touch at the pole.
+def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "CalculationSheet":
+    """Give contact stress and von Mises' stresses of the teeth of CASE that touch at the pitch point.
 
     Published stresses are held against them: which inputs give them, what one input alone would
     have to be, and what is lost in the published comparison.
@@ -36,12 +36,12 @@ def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "Sheet":
     return hertz_check_sheet(tables.title, found, meshes, axis)
 
 
-def _solved(contact: "PoleContact", elements: tuple[int, ...]) -> "list[FemContact]":
+def _solved(contact: "PitchPointContact", elements: tuple[int, ...]) -> "list[FemContact]":
     from wearsim.handbook.hertz_check.hertz_fem import hertz_fem
 
     meshes = []
-    with working("finite elements") as told:
+    with working("finite elements") as report_progress:
         for place, number in enumerate(elements):
             meshes.append(hertz_fem(contact, number))
-            told(sum(n * n for n in elements[: place + 1]) / sum(n * n for n in elements))
+            report_progress(sum(n * n for n in elements[: place + 1]) / sum(n * n for n in elements))
     return meshes

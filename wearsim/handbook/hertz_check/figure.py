@@ -11,7 +11,7 @@ from wearsim.contact.line_stress import axis_shear, axis_stresses, axis_von_mise
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.model import HertzCheck
 from wearsim.handbook.hertz_check.published import AxisFile
-from wearsim.report.lines import literal
+from wearsim.report.text_lines import literal
 
 _DEEPEST = 3.0
 """Depth that is shown, in half-widths."""

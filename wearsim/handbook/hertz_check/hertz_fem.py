@@ -1,4 +1,4 @@
-"""A contact at the pole by finite elements: two elastic bodies, frictionless, in plane strain.
+"""A contact at the pitch point by finite elements: two elastic bodies, frictionless, in plane strain.
 
 Each body is half of a block (the axis of the contact is a symmetry), fixed at its base, free at
 its side, with a cylinder for its top. Displacements are biquadratic on quadrilaterals that grow
@@ -25,8 +25,8 @@ from scipy.sparse.linalg import splu
 
 from wearsim.errors import ContactError
 from wearsim.extras import library
-from wearsim.geometry.profile import Vector
-from wearsim.handbook.hertz_check.pole_contact import PoleContact
+from wearsim.geometry.profile_points import Vector
+from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
 
 _SIDE, _HEIGHT = 0.5, 1.0
 """Half the width and the height of a block, in radii of its top."""
@@ -40,27 +40,16 @@ _WIDEST = 0.1
 
 @dataclass(frozen=True, eq=False)
 class FemContact:
-    """A contact as one mesh has it.
+    """A contact as one mesh has it."""
 
-    Attributes
-    ----------
-    elements : int
-        Elements along Hertz' half-width.
-    unknowns : int
-        Displacements of both bodies.
-    seconds : float
-        That it took.
-    place, pressure : numpy.ndarray
-        Nodes from the middle of the contact [mm], and the pressure there [MPa].
-    depth, von_mises : numpy.ndarray
-        Nodes on the axis of the pinion from its surface [mm], and von Mises' stress there [MPa].
-    """
-
-    elements: int
-    unknowns: int
-    seconds: float
+    elements: int  # elements along Hertz' half-width
+    unknowns: int  # displacements of both bodies
+    seconds: float  # that it took
+    # place, pressure: nodes from the middle of the contact [mm], and the pressure there [MPa]
     place: Vector
     pressure: Vector
+    # depth, von_mises: nodes on the axis of the pinion from its surface [mm], and von Mises' stress there
+    # [MPa]
     depth: Vector
     von_mises: Vector
 
@@ -91,14 +80,14 @@ class FemContact:
         return float(self.depth[self.von_mises.argmax()])
 
 
-def hertz_fem(contact: PoleContact, elements: int) -> FemContact:
-    """Solve a contact at the pole on a mesh.
+def hertz_fem(contact: PitchPointContact, elements: int) -> FemContact:
+    """Solve a contact at the pitch point on a mesh.
 
     Equation hertz-check.md (5).
 
     Parameters
     ----------
-    contact : PoleContact
+    contact : PitchPointContact
         The contact.
     elements : int
         Equal elements along Hertz' half-width, at least 2.
@@ -195,7 +184,7 @@ def _mesh(fem: Any, radius: float, half_width: float, elements: int) -> Any:
     return fem.MeshQuad(bent, flat.t).with_boundaries(tagged.boundaries)
 
 
-def _body(fem: Any, radius: float, modulus: float, contact: PoleContact, elements: int) -> _Body:
+def _body(fem: Any, radius: float, modulus: float, contact: PitchPointContact, elements: int) -> _Body:
     from skfem.models.elasticity import lame_parameters, linear_elasticity
 
     mesh = _mesh(fem, radius, contact.half_width, elements)
@@ -245,10 +234,10 @@ def _pressure(compliance: Vector, gap: Vector, width: Vector, load: float) -> Ve
     def excess(approach: float) -> float:
         return float(width @ pressed(approach)) - load
 
-    most = float(gap[1] / width[1])
-    while excess(most) < 0.0:
-        most *= 2.0
-    return pressed(float(brentq(excess, 0.0, most, rtol=1e-12)))
+    greatest = float(gap[1] / width[1])
+    while excess(greatest) < 0.0:
+        greatest *= 2.0
+    return pressed(float(brentq(excess, 0.0, greatest, rtol=1e-12)))
 
 
 def _axis_von_mises(fem: Any, body: _Body, pressure: Vector) -> tuple[Vector, Vector]:

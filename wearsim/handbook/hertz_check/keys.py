@@ -1,4 +1,4 @@
-"""The input of ``wearsim hertz-check``: a contact at the pole and what was published about it."""
+"""The input of ``wearsim hertz-check``: a contact at the pitch point and what was published about it."""
 
 from itertools import pairwise
 from typing import Annotated
@@ -13,13 +13,13 @@ from wearsim.mechanisms.gear_pair.keys import Teeth
 def _listed(value: object) -> object:
     """Take one value for a list of it."""
     values = tuple(value) if isinstance(value, list | tuple) else (value,)
-    if not 1 <= len(values) <= _MOST:
-        raise ValueError(f"must be 1 to {_MOST} values, but are {len(values)}")
+    if not 1 <= len(values) <= _MAX:
+        raise ValueError(f"must be 1 to {_MAX} values, but are {len(values)}")
     return values
 
 
-_MOST = 20
-_SEVERAL = (BeforeValidator(_listed), Field(json_schema_extra={"minItems": 1, "maxItems": _MOST}))
+_MAX = 20
+_SEVERAL = (BeforeValidator(_listed), Field(json_schema_extra={"minItems": 1, "maxItems": _MAX}))
 Several = Annotated[tuple[Positive, ...], *_SEVERAL]
 SeveralNumbers = Annotated[tuple[PositiveNumber, ...], *_SEVERAL]
 Mesh = Annotated[int, Field(ge=2, le=32)]
@@ -27,7 +27,7 @@ Percent = Annotated[PositiveNumber, Field(lt=100.0)]
 
 
 class ContactTable(Table):
-    """A pair of straight teeth that touch at the pole."""
+    """A pair of straight teeth that touch at the pitch point."""
 
     torque_N_m: Positive
     gear_ratio: PositiveNumber
@@ -78,7 +78,7 @@ class DifferenceTable(Table):
     depth_difference_percent: Percent | None = None
 
 
-class PublishedTable(Table):
+class PublishedStressTable(Table):
     """A published comparison of Hertz' formula with finite elements."""
 
     hertz: HertzStressesTable
@@ -107,5 +107,5 @@ class HertzCheckTables(CalculationTables):
     contact: ContactTable
     teeth: TeethTable | None = None
     combinations: CombinationsTable | None = None
-    published: PublishedTable | None = None
+    published: PublishedStressTable | None = None
     finite_elements: FiniteElementsTable = FiniteElementsTable()

@@ -9,14 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from wearsim.geometry.gear.involute import InvolutePair
-from wearsim.handbook.hertz_check.keys import HertzCheckTables, PublishedTable, TeethTable
-from wearsim.handbook.hertz_check.pole_contact import (
+from wearsim.handbook.hertz_check.keys import HertzCheckTables, PublishedStressTable, TeethTable
+from wearsim.handbook.hertz_check.pitch_point_contact import (
     PRINTED_DEPTH,
     PRINTED_SURFACE,
-    Change,
-    PoleContact,
+    InputChange,
+    PitchPointContact,
     combinations,
-    pole_contact,
+    pitch_point_contact,
     single_changes,
 )
 
@@ -122,80 +122,40 @@ def _agrees(found: float, printed: float) -> bool:
 
 
 @dataclass(frozen=True)
-class Column:
-    """A column of the comparison; nan for what is not known.
+class ComparisonColumn:
+    """A column of the comparison; nan for what is not known."""
 
-    Attributes
-    ----------
-    hertz, finite_elements : float
-        As published, or completed: Hertz' by its formula, that of finite elements from the
-        difference where just one whole stress has it [MPa].
-    printed_percent : float
-        The difference as printed.
-    differences : mapping
-        By what they are relative to [percent].
-    candidates : tuple of int
-        Whole stresses of finite elements with the printed difference, where that stress is lost [MPa].
-    computed : float
-        Hertz' stress of the contact of the input by the same formula [MPa].
-    computed_difference : float
-        Of that from the finite elements', relative to the larger one [percent].
-    """
-
+    # hertz, finite_elements: as published, or completed: Hertz' by its formula, that of finite elements from
+    # the difference where just one whole stress has it [MPa]
     hertz: float
     finite_elements: float
-    printed_percent: float
-    differences: Mapping[str, float]
+    printed_percent: float  # the difference as printed
+    differences: Mapping[str, float]  # by what they are relative to [percent]
+    # whole stresses of finite elements with the printed difference, where that stress is lost [MPa]
     candidates: tuple[int, ...]
-    computed: float
-    computed_difference: float
+    computed: float  # hertz' stress of the contact of the input by the same formula [MPa]
+    computed_difference: float  # of that from the finite elements', relative to the larger one [percent]
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The published comparison.
+    """The published comparison."""
 
-    Attributes
-    ----------
-    columns : mapping
-        ``contact``, ``surface`` and ``depth``.
-    references : tuple of str
-        What all printed differences may be relative to.
-    """
-
-    columns: Mapping[str, Column]
-    references: tuple[str, ...]
+    columns: Mapping[str, ComparisonColumn]  # `contact`, `surface` and `depth`
+    references: tuple[str, ...]  # what all printed differences may be relative to
 
 
 @dataclass(frozen=True)
 class HertzCheck:
-    """What there is to say about a contact at the pole.
+    """What there is to say about a contact at the pitch point."""
 
-    Attributes
-    ----------
-    contact : PoleContact
-        The contact.
-    literal : list of PoleContact
-        The combinations of the input; empty where none are asked for.
-    teeth : TeethTable or None
-        As given.
-    contact_ratio : float
-        Of the teeth without profile shift; nan where they are not given.
-    target : float
-        The published contact stress by Hertz [MPa]; nan where none is.
-    changes : list of Change
-        What each key alone must be for it.
-    comparison : Comparison or None
-        The published comparison, where there is one.
-    """
-
-    contact: PoleContact
-    literal: list[PoleContact]
-    teeth: TeethTable | None
-    contact_ratio: float
-    target: float
-    changes: list[Change]
-    comparison: Comparison | None
+    contact: PitchPointContact  # the contact
+    literal: list[PitchPointContact]  # the combinations of the input; empty where none are asked for
+    teeth: TeethTable | None  # as given
+    contact_ratio: float  # of the teeth without profile shift; nan where they are not given
+    target: float  # the published contact stress by Hertz [MPa]; nan where none is
+    changes: list[InputChange]  # what each key alone must be for it
+    comparison: Comparison | None  # the published comparison, where there is one
 
 
 def hertz_check(tables: HertzCheckTables) -> HertzCheck:
@@ -216,11 +176,11 @@ def hertz_check(tables: HertzCheckTables) -> HertzCheck:
     GeometryError
         There are no such teeth.
     """
-    contact, asked, published = pole_contact(tables), tables.combinations, tables.published
+    contact, requested, published = pitch_point_contact(tables), tables.combinations, tables.published
     literal = []
-    if asked is not None:
-        torques = [1e3 * torque for torque in asked.torque_N_m or ()]
-        literal = combinations(contact, torques, asked.face_width_mm or (), asked.gear_ratio or ())
+    if requested is not None:
+        torques = [1e3 * torque for torque in requested.torque_N_m or ()]
+        literal = combinations(contact, torques, requested.face_width_mm or (), requested.gear_ratio or ())
     target = math.nan if published is None else published.hertz.contact_stress_MPa
     return HertzCheck(
         contact=contact,
@@ -243,14 +203,14 @@ def _contact_ratio(teeth: TeethTable | None, pressure_angle: float) -> float:
     return pair.contact_ratio
 
 
-def completed(published: PublishedTable, contact: PoleContact) -> Comparison:
+def completed(published: PublishedStressTable, contact: PitchPointContact) -> Comparison:
     """Complete a published comparison and hold the contact's own stresses against it.
 
     Parameters
     ----------
-    published : PublishedTable
+    published : PublishedStressTable
         What is legible of it.
-    contact : PoleContact
+    contact : PitchPointContact
         The contact it is about.
 
     Returns
@@ -271,7 +231,7 @@ def completed(published: PublishedTable, contact: PoleContact) -> Comparison:
     )
 
 
-def _legible(published: PublishedTable, name: str) -> tuple[float, float, float]:
+def _legible(published: PublishedStressTable, name: str) -> tuple[float, float, float]:
     """Return Hertz' stress, that of finite elements and their difference; nan for what is lost."""
     key = "contact_stress_MPa" if name == "contact" else f"{name}_von_mises_MPa"
     cells = (
@@ -293,13 +253,15 @@ def _fits(hertz: float, elements: float, percent: float, reference: str) -> bool
     return _agrees(difference(hertz, elements, reference), percent)
 
 
-def _column(hertz: float, elements: float, percent: float, reference: str, computed: float) -> Column:
+def _column(
+    hertz: float, elements: float, percent: float, reference: str, computed: float
+) -> ComparisonColumn:
     candidates: tuple[int, ...] = ()
     if math.isnan(elements) and not math.isnan(percent):
         candidates = tuple(whole_stresses(hertz, percent, reference))
         if len(candidates) == 1:
             elements = float(candidates[0])
-    return Column(
+    return ComparisonColumn(
         hertz,
         elements,
         percent,

@@ -5,33 +5,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.hertz_check.keys import HertzCheckTables
 from wearsim.input.calculation_file import checked
 from wearsim.input.csv_tables import read_columns
-from wearsim.input.document import Source, read_document
+from wearsim.input.document import CaseSource, read_document
 
 _KEY = "finite_elements.axis_file"
 
 
 @dataclass(frozen=True, eq=False)
 class AxisFile:
-    """Stresses on the axis of a contact, from a file.
+    """Stresses on the axis of a contact, from a file."""
 
-    Attributes
-    ----------
-    depth : numpy.ndarray
-        Below the surface [mm].
-    von_mises : numpy.ndarray
-        Von Mises' stress there [MPa].
-    """
-
-    depth: Vector
-    von_mises: Vector
+    depth: Vector  # below the surface [mm]
+    von_mises: Vector  # von Mises' stress there [MPa]
 
 
 def load_hertz_check(
-    source: Source, overrides: Sequence[str] = ()
+    source: CaseSource, overrides: Sequence[str] = ()
 ) -> tuple[HertzCheckTables, AxisFile | None]:
     """Return the tables of a check, and the stresses of ``finite_elements.axis_file``.
 

@@ -1,4 +1,4 @@
-"""Contact stress at the pole against published ones: rows, tables and warnings."""
+"""Contact stress at the pitch point against published ones: rows, tables and warnings."""
 
 import math
 from collections.abc import Sequence
@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.contact.line_stress import (
-    Greatest,
+    GreatestStress,
     axis_shear,
     axis_stresses,
     axis_von_mises,
@@ -19,7 +19,7 @@ from wearsim.contact.line_stress import (
 from wearsim.handbook.hertz_check.figure import hertz_check_figure
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.model import ROUNDING, Comparison, HertzCheck
-from wearsim.handbook.hertz_check.pole_contact import Change, PoleContact, share_for
+from wearsim.handbook.hertz_check.pitch_point_contact import InputChange, PitchPointContact, share_for
 from wearsim.handbook.hertz_check.published import AxisFile
 from wearsim.handbook.hertz_check.text import ASSUMPTIONS, hertz_check_text
 
@@ -32,7 +32,7 @@ _GOALS = {"peak_pressure": 3.0, "surface": 5.0, "depth": 5.0}
 
 def hertz_check_sheet(
     title: str, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None
-) -> Sheet:
+) -> CalculationSheet:
     """Return what ``wearsim hertz-check`` shows."""
     contact = check.contact
     rows = {
@@ -55,7 +55,7 @@ def hertz_check_sheet(
     tables["axis_stresses"] = _axis_stresses(contact)
     if meshes:
         tables |= _fields(meshes[-1])
-    return Sheet(
+    return CalculationSheet(
         text=hertz_check_text(title, check, head, rows),
         content={
             "title": title,
@@ -78,7 +78,7 @@ def _known(value: float) -> float | None:
 def _contact(check: HertzCheck) -> dict[str, Any]:
     contact = check.contact
     pressure, half_width = contact.peak_pressure, contact.half_width
-    mises: Greatest = greatest_von_mises(contact.poissons_ratio)
+    mises: GreatestStress = greatest_von_mises(contact.poissons_ratio)
     shear = greatest_shear()
     return {
         "normal_force_N": contact.normal_force,
@@ -110,7 +110,7 @@ def _axis_file(axis: AxisFile, theory: float) -> dict[str, float]:
     }
 
 
-def _combination(one: PoleContact, check: HertzCheck) -> dict[str, Any]:
+def _combination(one: PitchPointContact, check: HertzCheck) -> dict[str, Any]:
     row: dict[str, Any] = {
         "torque_N_m": 1e-3 * one.torque,
         "gear_ratio": one.gear_ratio,
@@ -130,7 +130,7 @@ def _combination(one: PoleContact, check: HertzCheck) -> dict[str, Any]:
     return row
 
 
-def _change(one: Change) -> dict[str, Any]:
+def _change(one: InputChange) -> dict[str, Any]:
     low, high = sorted(one.ends)
     return {
         "key": one.key,
@@ -160,7 +160,7 @@ def _comparison(comparison: Comparison) -> list[dict[str, Any]]:
     ]
 
 
-def _meshes(contact: PoleContact, meshes: Sequence[FemContact]) -> list[dict[str, Any]]:
+def _meshes(contact: PitchPointContact, meshes: Sequence[FemContact]) -> list[dict[str, Any]]:
     pressure = contact.peak_pressure
     surface = pressure * float(axis_von_mises(0.0, contact.poissons_ratio))
     depth = pressure * greatest_von_mises(contact.poissons_ratio).stress
@@ -183,7 +183,7 @@ def _meshes(contact: PoleContact, meshes: Sequence[FemContact]) -> list[dict[str
     ]
 
 
-def _axis_stresses(contact: PoleContact) -> pd.DataFrame:
+def _axis_stresses(contact: PitchPointContact) -> pd.DataFrame:
     depth, pressure = np.linspace(0.0, 3.0, 61), contact.peak_pressure
     along, across = axis_stresses(depth)
     return pd.DataFrame(
@@ -259,12 +259,12 @@ def _verdicts(check: HertzCheck) -> list[str]:
     return warnings
 
 
-def _mesh_warnings(contact: PoleContact, rows: Sequence[dict[str, Any]]) -> list[str]:
+def _mesh_warnings(contact: PitchPointContact, rows: Sequence[dict[str, Any]]) -> list[str]:
     wide = contact.half_width / min(contact.flank_radii)
     return [
         f"finite elements: the finest mesh is off by {rows[-1][f'{name}_error_percent']:+.1f} % in "
-        f"{name}, more than {most:g} %: raise finite_elements.elements_per_half_width; what stays is the "
+        f"{name}, more than {greatest:g} %: raise finite_elements.elements_per_half_width; what stays is the "
         f"size of the bodies (half-width {wide:.2g} of a radius)"
-        for name, most in _GOALS.items()
-        if rows and abs(rows[-1][f"{name}_error_percent"]) > most
+        for name, greatest in _GOALS.items()
+        if rows and abs(rows[-1][f"{name}_error_percent"]) > greatest
     ]

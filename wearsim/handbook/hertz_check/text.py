@@ -1,11 +1,11 @@
-"""Contact stress at the pole against published ones, in words."""
+"""Contact stress at the pitch point against published ones, in words."""
 
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.handbook.hertz_check.model import ROUNDING, HertzCheck
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 
 Rows = Sequence[Mapping[str, Any]]
 
@@ -29,7 +29,7 @@ def hertz_check_text(title: str, check: HertzCheck, head: Mapping[str, Any], row
         blocks.append(_comparison(check, rows["comparison"]))
     if "meshes" in rows:
         blocks.append(_meshes(rows["meshes"]))
-    blocks.append([row("Assumes", numbered(ASSUMPTIONS))])
+    blocks.append([row("Assumes", numbered_assumptions(ASSUMPTIONS))])
     return "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
 
 

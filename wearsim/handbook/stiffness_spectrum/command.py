@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("stiffness-spectrum", "Spectrum of the mesh stiffness of gears with pitch errors.")
-def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "Sheet":
+def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Give the lines of the mesh stiffness of the gear pair of CASE with its pitch errors.
 
     Harmonics of the tooth frequency fz and their sidebands at the turns f1 of the pinion and f2

@@ -57,24 +57,12 @@ def contact_ratio(pinion_teeth: int, wheel_teeth: int, pressure_angle: float) ->
 
 @dataclass(frozen=True)
 class Wheel:
-    """A wheel whose teeth stand off their places by a sine over the tooth number.
+    """A wheel whose teeth stand off their places by a sine over the tooth number."""
 
-    Attributes
-    ----------
-    teeth : int
-        z.
-    error_angle : float
-        beta, amplitude of the cumulative pitch error over the pitch radius [rad].
-    error_order : int
-        kappa, waves of the error in a turn.
-    error_phase : float
-        psi, phase of the error at the first tooth [rad].
-    """
-
-    teeth: int
-    error_angle: float
-    error_order: int = 1
-    error_phase: float = 0.0
+    teeth: int  # z
+    error_angle: float  # beta, amplitude of the cumulative pitch error over the pitch radius [rad]
+    error_order: int = 1  # kappa, waves of the error in a turn
+    error_phase: float = 0.0  # psi, phase of the error at the first tooth [rad]
 
     @property
     def tooth_angles(self) -> Floats:
@@ -95,19 +83,12 @@ class Wheel:
 
 @dataclass(frozen=True)
 class GearPair:
-    """Two wheels in mesh.
+    """Two wheels in mesh."""
 
-    Attributes
-    ----------
-    pinion, wheel : Wheel
-        The first and the second wheel.
-    contact_ratio : float
-        eps; above 1, as it is for all teeth and pressure angles that an input may have.
-    """
-
+    # pinion, wheel: the first and the second wheel
     pinion: Wheel
     wheel: Wheel
-    contact_ratio: float
+    contact_ratio: float  # eps; above 1, as it is for all teeth and pressure angles that an input may have
 
     @property
     def pinion_turns(self) -> int:
@@ -134,18 +115,10 @@ class GearPair:
 
 @dataclass(frozen=True, eq=False)
 class StepFunction:
-    """A function of period 2 pi that is constant between its edges.
+    """A function of period 2 pi that is constant between its edges."""
 
-    Attributes
-    ----------
-    edges : ndarray
-        Ascending, in [0, 2 pi).
-    values : ndarray
-        From each edge to the next; the last one holds across 2 pi up to the first edge.
-    """
-
-    edges: Floats
-    values: Floats
+    edges: Floats  # ascending, in [0, 2 pi)
+    values: Floats  # from each edge to the next; the last one holds across 2 pi up to the first edge
 
     @property
     def widths(self) -> Floats:

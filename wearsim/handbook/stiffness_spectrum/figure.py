@@ -5,8 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wearsim.handbook.stiffness_spectrum.contact_number import StepFunction
-from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
-from wearsim.report.lines import literal
+from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
+from wearsim.report.text_lines import literal
 
 _COLOURS = {
     "mesh": ("black", "tooth frequency"),
@@ -39,7 +39,9 @@ def stiffness_spectrum_figure(title: str, spectrum: StiffnessSpectrum) -> Figure
     return figure
 
 
-def _write_names(panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum, distance: float) -> None:
+def _write_names(
+    panel: Axes, lines: list[SpectrumLine], spectrum: StiffnessSpectrum, distance: float
+) -> None:
     """Name the strongest lines that are so far apart that their names do not touch."""
     named: list[float] = []
     for line in sorted(lines, key=lambda line: -line.one_sided):
@@ -58,7 +60,7 @@ def _write_names(panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum, di
             )
 
 
-def _order(line: Line, spectrum: StiffnessSpectrum) -> float:
+def _order(line: SpectrumLine, spectrum: StiffnessSpectrum) -> float:
     return line.harmonic / spectrum.pair.meshes
 
 
@@ -94,7 +96,7 @@ def _stairs(function: StepFunction, end: float) -> tuple[np.ndarray, np.ndarray]
     return x, function.at(2.0 * np.pi * (x + 1e-9))
 
 
-def _draw_lines(panel: Axes, lines: list[Line], spectrum: StiffnessSpectrum) -> None:
+def _draw_lines(panel: Axes, lines: list[SpectrumLine], spectrum: StiffnessSpectrum) -> None:
     for family, (colour, label) in _COLOURS.items():
         some = [line for line in lines if line.family == family]
         if not some:

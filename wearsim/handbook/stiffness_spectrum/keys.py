@@ -36,7 +36,7 @@ class WheelTable(Table):
         return []
 
 
-class GearPairTable(Table):
+class SpectrumPairTable(Table):
     """What both wheels share: standard teeth without profile shift."""
 
     module_mm: Positive
@@ -89,7 +89,7 @@ class StaticsTable(Table):
 class StiffnessSpectrumTables(CalculationTables):
     """The whole file."""
 
-    gear_pair: GearPairTable
+    gear_pair: SpectrumPairTable
     pinion: WheelTable
     wheel: WheelTable
     spectrum: SpectrumTable = SpectrumTable()

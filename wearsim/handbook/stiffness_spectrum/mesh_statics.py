@@ -15,30 +15,17 @@ from wearsim.handbook.stiffness_spectrum.keys import StaticsTable, StiffnessSpec
 
 
 @dataclass(frozen=True, eq=False)
-class Statics:
-    """Deflection and stiffness under load.
+class MeshStatics:
+    """Deflection and stiffness under load."""
 
-    Attributes
-    ----------
-    force : float
-        F, normal force in the mesh [N].
-    constant : float
-        B of the law force = B deflection^(p - 1) of one contact [N/mm^(p-1)].
-    exponent : float
-        p of the energy.
-    contacts, deflections, stiffnesses : ndarray
-        N, and for it delta [mm] and C [N/mm].
-    stiffness : StepFunction
-        C over the common period [N/mm].
-    """
-
-    force: float
-    constant: float
-    exponent: float
+    force: float  # F, normal force in the mesh [N]
+    constant: float  # B of the law force = B deflection^(p - 1) of one contact [N/mm^(p-1)]
+    exponent: float  # p of the energy
+    # contacts, deflections, stiffnesses: N, and for it delta [mm] and C [N/mm]
     contacts: Floats
     deflections: Floats
     stiffnesses: Floats
-    stiffness: StepFunction
+    stiffness: StepFunction  # C over the common period [N/mm]
 
 
 def hertz_constant(radius: float, mate_radius: float, youngs_modulus: float, poissons_ratio: float) -> float:
@@ -124,7 +111,7 @@ def mesh_stiffness(contacts: Floats, force: float, constant: float, exponent: fl
     return np.asarray((exponent - 1.0) * contacts * constant * delta ** (exponent - 2.0))
 
 
-def mesh_statics(tables: StiffnessSpectrumTables, contacts: StepFunction) -> Statics | None:
+def mesh_statics(tables: StiffnessSpectrumTables, contacts: StepFunction) -> MeshStatics | None:
     """Return deflection and stiffness over the number of contacts.
 
     Parameters
@@ -164,7 +151,7 @@ def mesh_statics(tables: StiffnessSpectrumTables, contacts: StepFunction) -> Sta
     law = (normal_force(given, pitch_radius, angle), constant, given.energy_exponent)
     numbers = np.union1d(contacts.values, (1.0, 2.0, 4.0))
     stiffness = StepFunction(contacts.edges, mesh_stiffness(contacts.values, *law))
-    return Statics(*law, numbers, deflection(numbers, *law), mesh_stiffness(numbers, *law), stiffness)
+    return MeshStatics(*law, numbers, deflection(numbers, *law), mesh_stiffness(numbers, *law), stiffness)
 
 
 def normal_force(given: StaticsTable, pitch_radius: float, pressure_angle: float) -> float:

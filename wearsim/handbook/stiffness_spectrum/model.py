@@ -22,7 +22,7 @@ from wearsim.handbook.stiffness_spectrum.contact_number import (
 )
 from wearsim.handbook.stiffness_spectrum.contact_number_series import Formula, one_sided, series_coefficients
 from wearsim.handbook.stiffness_spectrum.keys import SpectrumTable, StiffnessSpectrumTables, WheelTable
-from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics, mesh_statics
+from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics, mesh_statics
 
 _SERIES_HARMONICS = 6000
 
@@ -31,28 +31,14 @@ Combination = tuple[int, int, int]
 
 
 @dataclass(frozen=True)
-class Line:
-    """A line of the spectrum.
+class SpectrumLine:
+    """A line of the spectrum."""
 
-    Attributes
-    ----------
-    harmonic : int
-        h, in common periods of the pair.
-    combinations : tuple
-        Ways to it of the lowest order, at least one.
-    two_sided : float
-        |S_h|, the magnitude of the complex coefficient.
-    series : float
-        One-sided amplitude by the closed form; nan where there is none.
-    stiffness : float
-        One-sided amplitude of the stiffness [N/mm]; nan without statics.
-    """
-
-    harmonic: int
-    combinations: tuple[Combination, ...]
-    two_sided: float
-    series: float
-    stiffness: float
+    harmonic: int  # h, in common periods of the pair
+    combinations: tuple[Combination, ...]  # ways to it of the lowest order, at least one
+    two_sided: float  # |S_h|, the magnitude of the complex coefficient
+    series: float  # one-sided amplitude by the closed form; nan where there is none
+    stiffness: float  # one-sided amplitude of the stiffness [N/mm]; nan without statics
 
     @property
     def one_sided(self) -> float:
@@ -80,33 +66,17 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class StiffnessSpectrum:
-    """The whole answer.
+    """The whole answer."""
 
-    Attributes
-    ----------
-    pair : GearPair
-        The wheels.
-    contacts, ideal : StepFunction
-        Number of contacts over the common period, with the pitch errors and without.
-    lines : tuple of Line
-        By frequency, the mean apart.
-    series_mean : float
-        Mean number of contacts by the closed form; nan where there is none.
-    mesh_frequency : float
-        fz [Hz]; nan without a speed.
-    statics : Statics or None
-        Where a load is given.
-    beyond_involute : str
-        Wheel whose tips reach beyond the tangent point of the other, empty where none does.
-    """
-
-    pair: GearPair
+    pair: GearPair  # the wheels
+    # contacts, ideal: number of contacts over the common period, with the pitch errors and without
     contacts: StepFunction
     ideal: StepFunction
-    lines: tuple[Line, ...]
-    series_mean: float
-    mesh_frequency: float
-    statics: Statics | None
+    lines: tuple[SpectrumLine, ...]  # by frequency, the mean apart
+    series_mean: float  # mean number of contacts by the closed form; nan where there is none
+    mesh_frequency: float  # fz [Hz]; nan without a speed
+    statics: MeshStatics | None  # where a load is given
+    # wheel whose tips reach beyond the tangent point of the other, empty where none does
     beyond_involute: str
 
     @property
@@ -144,7 +114,7 @@ def stiffness_spectrum(tables: StiffnessSpectrumTables) -> StiffnessSpectrum:
     if statics is not None:
         stiffness = one_sided(statics.stiffness.coefficients(list(lattice)))
     lines = tuple(
-        Line(h, ways, *map(float, values))
+        SpectrumLine(h, ways, *map(float, values))
         for (h, ways), *values in zip(lattice.items(), exact, series[1:], stiffness, strict=True)
     )
     frequency = math.nan if speed is None else speed / 60.0 * tables.pinion.teeth

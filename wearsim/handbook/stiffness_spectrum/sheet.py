@@ -4,12 +4,12 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
-from wearsim.handbook.stiffness_spectrum.mesh_statics import Statics
-from wearsim.handbook.stiffness_spectrum.model import Line, StiffnessSpectrum
+from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics
+from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
 from wearsim.quantities import grouped
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,7 +27,9 @@ _ASSUMPTIONS = (
 )
 
 
-def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> Sheet:
+def stiffness_spectrum_sheet(
+    tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum
+) -> CalculationSheet:
     """Return what ``wearsim stiffness-spectrum`` shows."""
     lines = [_row(line, spectrum) for line in spectrum.lines]
     content: dict[str, Any] = {
@@ -55,7 +57,7 @@ def stiffness_spectrum_sheet(tables: StiffnessSpectrumTables, spectrum: Stiffnes
 
         return {"stiffness_spectrum": stiffness_spectrum_figure(tables.title, spectrum)}
 
-    return Sheet(
+    return CalculationSheet(
         text=_text(tables, spectrum),
         content=content,
         tables=_made,
@@ -68,7 +70,7 @@ def _plain(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _row(line: Line, spectrum: StiffnessSpectrum) -> dict[str, Any]:
+def _row(line: SpectrumLine, spectrum: StiffnessSpectrum) -> dict[str, Any]:
     order = line.harmonic / spectrum.pair.meshes
     harmonic, pinion, wheel = line.combinations[0]
     return {
@@ -86,7 +88,7 @@ def _row(line: Line, spectrum: StiffnessSpectrum) -> dict[str, Any]:
     }
 
 
-def _statics(statics: Statics) -> dict[str, Any]:
+def _statics(statics: MeshStatics) -> dict[str, Any]:
     columns = (statics.contacts, statics.deflections, statics.stiffnesses)
     return {
         "force_N": statics.force,
@@ -121,7 +123,7 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
             f"{100.0 * spectrum.variance_share:.3g} % of the variance of the contacts",
         ),
     ]
-    assumed = numbered((_COUNTED[tables.spectrum.model], *_ASSUMPTIONS))
+    assumed = numbered_assumptions((_COUNTED[tables.spectrum.model], *_ASSUMPTIONS))
     statics = [] if spectrum.statics is None else ["", *_statics_text(spectrum.statics)]
     return "\n".join(
         [tables.title, *rows, "", *_table(strongest, spectrum), *statics, "", row("Assumes", assumed)]
@@ -133,7 +135,7 @@ def _frequencies(pinion_teeth: int, wheel_teeth: int, frequency: float) -> str:
     return f"fz = {frequency:.5g} Hz; {turns}"
 
 
-def _table(lines: list[Line], spectrum: StiffnessSpectrum) -> list[str]:
+def _table(lines: list[SpectrumLine], spectrum: StiffnessSpectrum) -> list[str]:
     """Give the lines in the order of their frequency, with the columns that there are."""
     columns: dict[str, Any] = {
         "line": lambda line: line.short_name,
@@ -157,7 +159,7 @@ def _table(lines: list[Line], spectrum: StiffnessSpectrum) -> list[str]:
     ]
 
 
-def _statics_text(statics: Statics) -> list[str]:
+def _statics_text(statics: MeshStatics) -> list[str]:
     law = f"{statics.constant:.6g} N/mm^{statics.exponent - 1.0:g}"
     lines = [f"{'contacts N':12s}{'deflection, mm':>16s}{'stiffness, N/mm':>18s}"]
     found = zip(statics.contacts, statics.deflections, statics.stiffnesses, strict=True)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("strength", "Allowable stresses, life factors and fatigue life of a gear pair.")
-def strength(case: Path, settings: tuple[str, ...]) -> "Sheet":
+def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Find what the teeth of the gear pair of CASE endure, in contact, in bending, in overloads.
 
     From material, life and load spectrum follow equivalent cycles, life factors and allowable

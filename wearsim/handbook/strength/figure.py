@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wearsim.fatigue.endurance import Endurance
-from wearsim.handbook.strength.model import PairStrength, Stresses, shown_hours
-from wearsim.report.lines import literal
+from wearsim.handbook.strength.model import PairStrength, StressCheck, shown_hours
+from wearsim.report.text_lines import literal
 
 _COLOURS = {"pinion": "tab:blue", "wheel": "tab:orange"}
 
@@ -59,7 +59,7 @@ def _draw_allowable(panel: Axes, name: str, endured: Endurance, span: tuple[floa
     panel.plot(endured.hours, endured.allowable, "o", color=_COLOURS[name], markersize=5)
 
 
-def _draw_acting(panel: Axes, pair: PairStrength, stresses: Sequence[Stresses]) -> None:
+def _draw_acting(panel: Axes, pair: PairStrength, stresses: Sequence[StressCheck]) -> None:
     """Draw what acts, once where it is the same for both gears."""
     alike = len({one.lasting for one in stresses}) == 1
     for gear, one in zip(pair.gears, stresses, strict=False):

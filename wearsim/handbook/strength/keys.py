@@ -69,7 +69,7 @@ class LoadSpectrumStep(Table):
         return []
 
 
-class GearTable(Table):
+class StrengthGearTable(Table):
     """Material of pinion or wheel; what is left out follows from the treatment."""
 
     treatment: Treatment
@@ -130,7 +130,7 @@ class GearTable(Table):
         return found
 
 
-class FatigueTable(Table):
+class StrengthFatigueTable(Table):
     """How the curve of contact fatigue is read."""
 
     base_cycles: Literal["gost", "source"] = "gost"
@@ -176,9 +176,9 @@ class StrengthTables(CalculationTables):
 
     drive: StrengthDriveTable
     load_spectrum: list[LoadSpectrumStep] = Field(default_factory=list)
-    pinion: GearTable
-    wheel: GearTable
-    fatigue: FatigueTable = FatigueTable()
+    pinion: StrengthGearTable
+    wheel: StrengthGearTable
+    fatigue: StrengthFatigueTable = StrengthFatigueTable()
     overload: OverloadTable = OverloadTable()
     load: StrengthLoadTable | None = None
 

@@ -16,13 +16,13 @@ from wearsim.fatigue.endurance import (
 )
 from wearsim.fatigue.heat_treatment import Treatment, in_brinell, treatments
 from wearsim.handbook.strength.keys import (
-    FatigueTable,
-    GearTable,
     OverloadTable,
+    StrengthFatigueTable,
+    StrengthGearTable,
     StrengthLoadTable,
     StrengthTables,
 )
-from wearsim.handbook.strength.spectrum import Spectrum, load_spectrum, regime_spectrum
+from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import (
     LoadFactor,
     SpurMesh,
@@ -40,76 +40,42 @@ _GOST_TAIL = (20.0, 0.75)
 
 
 @dataclass(frozen=True)
-class Gear:
-    """Pinion or wheel with what its teeth endure.
+class GearEndurance:
+    """Pinion or wheel with what its teeth endure."""
 
-    Attributes
-    ----------
-    name : str
-        ``pinion`` or ``wheel``.
-    treatment : Treatment
-        Heat treatment.
-    hardness : float
-        Of the flank, in the treatment's scale.
-    brinell : float
-        The same in HB, 10 to 1 HRC.
-    cycles : float
-        Load cycles of a tooth over the life, N.
-    contact, bending : Endurance
-        Against pitting and against breakage.
-    """
-
-    name: str
-    treatment: Treatment
-    hardness: float
-    brinell: float
-    cycles: float
+    name: str  # `pinion` or `wheel`
+    treatment: Treatment  # heat treatment
+    hardness: float  # of the flank, in the treatment's scale
+    brinell: float  # the same in HB, 10 to 1 HRC
+    cycles: float  # load cycles of a tooth over the life, N
+    # contact, bending: against pitting and against breakage
     contact: Endurance
     bending: Endurance
 
 
 @dataclass(frozen=True)
 class ToothLoad:
-    """What the teeth carry under the largest long-acting torque.
+    """What the teeth carry under the largest long-acting torque."""
 
-    Attributes
-    ----------
-    mesh : SpurMesh
-        The pair.
-    contact_factor, bending_factor : LoadFactor
-        K_H and K_F.
-    contact_stress : float
-        That counts [MPa].
-    printed_contact_stress, corrected_contact_stress : float
-        With the tangential and with the normal force [MPa].
-    bending_stresses : tuple of float
-        Of pinion and wheel [MPa].
-    """
-
-    mesh: SpurMesh
+    mesh: SpurMesh  # the pair
+    # contact_factor, bending_factor: K_H and K_F
     contact_factor: LoadFactor
     bending_factor: LoadFactor
-    contact_stress: float
+    contact_stress: float  # that counts [MPa]
+    # printed_contact_stress, corrected_contact_stress: with the tangential and with the normal force [MPa]
     printed_contact_stress: float
     corrected_contact_stress: float
-    bending_stresses: tuple[float, float]
+    bending_stresses: tuple[float, float]  # of pinion and wheel [MPa]
 
 
 @dataclass(frozen=True)
-class Stresses:
-    """A stress held against what is endured.
+class StressCheck:
+    """A stress held against what is endured."""
 
-    Attributes
-    ----------
-    lasting, peak : float
-        Under the largest long-acting torque and in an overload [MPa].
-    endurance : Endurance
-        What is endured.
-    """
-
+    # lasting, peak: under the largest long-acting torque and in an overload [MPa]
     lasting: float
     peak: float
-    endurance: Endurance
+    endurance: Endurance  # what is endured
 
     @property
     def margin(self) -> float:
@@ -129,35 +95,21 @@ class Stresses:
 
 @dataclass(frozen=True)
 class PairStrength:
-    """Strength of a gear pair.
+    """Strength of a gear pair."""
 
-    Attributes
-    ----------
-    hours : float
-        Running time asked for [h].
-    spectrum : Spectrum
-        The loads.
-    peak : float
-        Largest torque over the largest long-acting one.
-    gears : tuple of Gear
-        Pinion and wheel.
-    load : ToothLoad or None
-        None where the case gives no load.
-    """
-
-    hours: float
-    spectrum: Spectrum
-    peak: float
-    gears: tuple[Gear, Gear]
-    load: ToothLoad | None
+    hours: float  # running time asked for [h]
+    spectrum: LoadSpectrum  # the loads
+    peak: float  # largest torque over the largest long-acting one
+    gears: tuple[GearEndurance, GearEndurance]  # pinion and wheel
+    load: ToothLoad | None  # none where the case gives no load
 
     @property
-    def contact_governs(self) -> Gear:
+    def contact_governs(self) -> GearEndurance:
         """The gear with the smaller allowable contact stress, which is the pair's."""
         return min(self.gears, key=lambda gear: gear.contact.allowable)
 
     @property
-    def stresses(self) -> tuple[tuple[Stresses, Stresses], ...]:
+    def stresses(self) -> tuple[tuple[StressCheck, StressCheck], ...]:
         """In contact and in bending, of pinion and wheel; empty where the case gives no load.
 
         In an overload the contact stress goes with the root of the torque, the bending stress
@@ -168,8 +120,8 @@ class PairStrength:
         contact = self.load.contact_stress
         return tuple(
             (
-                Stresses(contact, contact * math.sqrt(self.peak), gear.contact),
-                Stresses(bending, bending * self.peak, gear.bending),
+                StressCheck(contact, contact * math.sqrt(self.peak), gear.contact),
+                StressCheck(bending, bending * self.peak, gear.bending),
             )
             for gear, bending in zip(self.gears, self.load.bending_stresses, strict=True)
         )
@@ -237,7 +189,7 @@ def pair_strength(tables: StrengthTables) -> PairStrength:
     return PairStrength(hours, spectrum, peak, (pinion, wheel), load)
 
 
-def _spectrum(tables: StrengthTables, cycles: float) -> Spectrum:
+def _spectrum(tables: StrengthTables, cycles: float) -> LoadSpectrum:
     """Return the loads; a torque is no overload once the gear with more cycles has enough."""
     if not tables.load_spectrum:
         return regime_spectrum(tables.drive.regime or "0")
@@ -249,8 +201,13 @@ def _spectrum(tables: StrengthTables, cycles: float) -> Spectrum:
 
 
 def _gear(
-    name: str, table: GearTable, tables: StrengthTables, spectrum: Spectrum, rate: float, hours: float
-) -> Gear:
+    name: str,
+    table: StrengthGearTable,
+    tables: StrengthTables,
+    spectrum: LoadSpectrum,
+    rate: float,
+    hours: float,
+) -> GearEndurance:
     treatment = treatments()[table.treatment]
     brinell = table.hardness_HB or in_brinell(table.hardness_HRC or 0.0, "HRC")
     hardness = treatment.own_hardness(brinell)
@@ -261,7 +218,7 @@ def _gear(
     ):
         mu = spectrum.equivalence(exponent)
         found.append(Endurance(limit, curve, mu, rate, hours, greatest))
-    return Gear(name, treatment, hardness, brinell, rate * hours, *found)
+    return GearEndurance(name, treatment, hardness, brinell, rate * hours, *found)
 
 
 Fatigue = tuple[float, FatigueCurve, float, float]
@@ -269,7 +226,11 @@ Fatigue = tuple[float, FatigueCurve, float, float]
 
 
 def _contact(
-    table: GearTable, treatment: Treatment, hardness: float, brinell: float, reading: FatigueTable
+    table: StrengthGearTable,
+    treatment: Treatment,
+    hardness: float,
+    brinell: float,
+    reading: StrengthFatigueTable,
 ) -> Fatigue:
     limit = table.contact_limit_MPa or treatment.contact_limit(hardness)
     surface = table.roughness_factor * table.speed_factor
@@ -287,7 +248,9 @@ def _contact(
     return limit, curve, greatest, 0.5 * CONTACT_EXPONENT
 
 
-def _bending(table: GearTable, treatment: Treatment, hardness: float, overload: OverloadTable) -> Fatigue:
+def _bending(
+    table: StrengthGearTable, treatment: Treatment, hardness: float, overload: OverloadTable
+) -> Fatigue:
     of = table.core_hardness_HRC or hardness
     limit = table.bending_limit_MPa or treatment.bending_limit(of)
     exponent = table.bending_exponent or treatment.bending_exponent
@@ -302,7 +265,7 @@ def _bending(table: GearTable, treatment: Treatment, hardness: float, overload: 
     return limit, curve, greatest, exponent
 
 
-def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: Spectrum) -> ToothLoad:
+def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: LoadSpectrum) -> ToothLoad:
     elastic = [(gear.youngs_modulus_MPa, gear.poissons_ratio) for gear in (tables.pinion, tables.wheel)]
     mesh = SpurMesh(
         torque=1e3 * load.pinion_torque_N_m * spectrum.torque,
@@ -365,7 +328,7 @@ def shown_hours(pair: PairStrength) -> tuple[float, float]:
     tuple of float
         First and last [h]: around the life asked for and the ends of all curves.
     """
-    told = [pair.hours]
+    marks = [pair.hours]
     for gear in pair.gears:
-        told += [one.curve.flat_from / one.equivalent_cycles_at(1.0) for one in (gear.contact, gear.bending)]
-    return 0.05 * min(told), 4.0 * max(told)
+        marks += [one.curve.flat_from / one.equivalent_cycles_at(1.0) for one in (gear.contact, gear.bending)]
+    return 0.05 * min(marks), 4.0 * max(marks)

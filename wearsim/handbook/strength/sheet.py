@@ -6,12 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import Gear, PairStrength, Stresses, ToothLoad, first_life, shown_hours
+from wearsim.handbook.strength.model import (
+    GearEndurance,
+    PairStrength,
+    StressCheck,
+    ToothLoad,
+    first_life,
+    shown_hours,
+)
 from wearsim.quantities import grouped
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,7 +66,7 @@ def _columns(label: str, values: list[str]) -> str:
     return f"{label:{first}}{cells}"
 
 
-def _acting_lines(acting: list[Stresses], letter: str) -> list[str]:
+def _acting_lines(acting: list[StressCheck], letter: str) -> list[str]:
     if not acting:
         return []
     peaks = ["not known" if math.isnan(s.peak_margin) else f"{s.peak_margin:.3f}" for s in acting]
@@ -89,7 +96,7 @@ def _answer(tables: StrengthTables, pair: PairStrength) -> list[str]:
             row("Life", _lives(contact, pair, "contact")),
             row("", _lives(bending, pair, "bending")),
         ]
-    return [*lines, row("Assumes", numbered(_assumptions(tables, pair.load)))]
+    return [*lines, row("Assumes", numbered_assumptions(_assumptions(tables, pair.load)))]
 
 
 def _load_rows(load: ToothLoad) -> list[str]:
@@ -113,8 +120,8 @@ def _load_rows(load: ToothLoad) -> list[str]:
     ]
 
 
-def _lives(acting: Sequence[Stresses], pair: PairStrength, what: str) -> str:
-    """Say which gear is the first to reach its life by a criterion."""
+def _lives(acting: Sequence[StressCheck], pair: PairStrength, what: str) -> str:
+    """Say which gear is the first to reach its life by a stop limit."""
     place, life = first_life([one.life for one in acting])
     if life.bound:
         return f"{what} fatigue: {_hours(life)}, neither gear ever reaches its limit"
@@ -149,7 +156,7 @@ _LEAST_TEETH = 2.0
 """Over sin^2 of the pressure angle: teeth below which a gear without shift is undercut."""
 
 
-def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
+def strength_sheet(tables: StrengthTables, pair: PairStrength) -> CalculationSheet:
     """Return what ``wearsim strength`` shows."""
     gears = [_gear_row(gear, acting) for gear, acting in _acting(pair)]
 
@@ -164,7 +171,7 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
 
         return {"strength": strength_figure(tables.title, pair)}
 
-    return Sheet(
+    return CalculationSheet(
         text=strength_text(tables, pair),
         content={"title": tables.title, **_pair_content(pair), "gears": gears},
         tables=_made,
@@ -173,7 +180,7 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> Sheet:
     )
 
 
-def _acting(pair: PairStrength) -> list[tuple[Gear, Sequence[Stresses]]]:
+def _acting(pair: PairStrength) -> list[tuple[GearEndurance, Sequence[StressCheck]]]:
     """Return each gear with its stresses in contact and in bending, none without a load."""
     return list(zip(pair.gears, pair.stresses or ((), ()), strict=True))
 
@@ -213,7 +220,7 @@ def _pair_content(pair: PairStrength) -> dict[str, Any]:
     return content
 
 
-def _gear_row(gear: Gear, acting: Sequence[Stresses]) -> dict[str, Any]:
+def _gear_row(gear: GearEndurance, acting: Sequence[StressCheck]) -> dict[str, Any]:
     found: dict[str, Any] = {
         "gear": gear.name,
         "treatment": gear.treatment.name,
@@ -296,7 +303,7 @@ def _undercut(tables: StrengthTables) -> list[str]:
     ]
 
 
-def _strength_warnings(pair: PairStrength, gear: Gear, name: str, one: Stresses) -> list[str]:
+def _strength_warnings(pair: PairStrength, gear: GearEndurance, name: str, one: StressCheck) -> list[str]:
     found = []
     if one.margin < 1.0:
         found.append(

@@ -8,36 +8,23 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from wearsim.catalogue.catalogues import regimes, rows
+from wearsim.catalogue.catalogues import catalogue_rows, regimes
 from wearsim.errors import GeometryError
 from wearsim.handbook.strength.keys import OVERLOAD_CYCLES
 
 
 @dataclass(frozen=True)
-class Spectrum:
-    """Torques of a gear pair and how often each acts.
+class LoadSpectrum:
+    """Torques of a gear pair and how often each acts."""
 
-    Attributes
-    ----------
-    name : str
-        What it was given as.
-    blocks : tuple
-        Pairs of a torque over the largest long-acting one and its share of all cycles.
-    torque : float
-        The largest long-acting torque over the torque that the load spectrum is relative to.
-    peak : float
-        The largest torque at all over the largest long-acting one; 1 without overloads.
-    peak_cycles : float
-        For how many cycles overloads act.
-    published : mapping
-        Published factors of equivalence by exponent, which go before the sum over the blocks.
-    """
-
-    name: str
+    name: str  # what it was given as
+    # pairs of a torque over the largest long-acting one and its share of all cycles
     blocks: tuple[tuple[float, float], ...]
+    # the largest long-acting torque over the torque that the load spectrum is relative to
     torque: float = 1.0
-    peak: float = 1.0
-    peak_cycles: float = 0.0
+    peak: float = 1.0  # the largest torque at all over the largest long-acting one; 1 without overloads
+    peak_cycles: float = 0.0  # for how many cycles overloads act
+    # published factors of equivalence by exponent, which go before the sum over the blocks
     published: Mapping[int, float] = field(default_factory=dict)
 
     def equivalence(self, exponent: float) -> float:
@@ -58,7 +45,7 @@ class Spectrum:
 
         Examples
         --------
-        >>> Spectrum("two steps", ((1.0, 0.5), (0.5, 0.5))).equivalence(3)
+        >>> LoadSpectrum("two steps", ((1.0, 0.5), (0.5, 0.5))).equivalence(3)
         0.5625
         """
         for known, factor in self.published.items():
@@ -67,7 +54,7 @@ class Spectrum:
         return math.fsum(share * torque**exponent for torque, share in self.blocks)
 
 
-def regime_spectrum(name: str) -> Spectrum:
+def regime_spectrum(name: str) -> LoadSpectrum:
     """Return a typical regime of loading.
 
     Its factors for contact and for m = 6 and 9 are those printed in table 2.2; for another
@@ -90,14 +77,14 @@ def regime_spectrum(name: str) -> Spectrum:
     """
     published = {
         int(row["exponent"]): float(row["factor"])
-        for row in rows("equivalence_factors")
+        for row in catalogue_rows("equivalence_factors")
         if row["regime"] == name
     }
     title = "constant" if name == "0" else f"typical regime {name}"
-    return Spectrum(title, regimes()[name], published=published)
+    return LoadSpectrum(title, regimes()[name], published=published)
 
 
-def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Spectrum:
+def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> LoadSpectrum:
     """Return what a load spectrum comes to, its overloads set apart.
 
     Overloads are the largest torques as long as they act, together, for less than 5e4 cycles.
@@ -129,7 +116,7 @@ def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> Spectru
     acted = 0.0
     for first, (torque, cycles) in enumerate(ordered):
         if torque > 0.0 and acted + cycles >= OVERLOAD_CYCLES:
-            return Spectrum(
+            return LoadSpectrum(
                 name="load spectrum",
                 blocks=tuple((each / torque, count / total) for each, count in ordered[first:]),
                 torque=torque,

@@ -12,24 +12,12 @@ from wearsim.contact.hertz import peak_pressure
 
 @dataclass(frozen=True)
 class LoadFactor:
-    """By what the load of a tooth exceeds its nominal one.
+    """By what the load of a tooth exceeds its nominal one."""
 
-    Attributes
-    ----------
-    application : float
-        K_A, of the machine around the gears.
-    face : float
-        K_Hb or K_Fb, of the load along the face.
-    transverse : float
-        K_Ha or K_Fa, of the load between the pairs of teeth.
-    dynamic : float
-        K_Hv or K_Fv, of the mesh.
-    """
-
-    application: float
-    face: float
-    transverse: float
-    dynamic: float
+    application: float  # K_A, of the machine around the gears
+    face: float  # K_Hb or K_Fb, of the load along the face
+    transverse: float  # K_Ha or K_Fa, of the load between the pairs of teeth
+    dynamic: float  # K_Hv or K_Fv, of the mesh
 
     @property
     def total(self) -> float:
@@ -126,33 +114,15 @@ def form_factor(teeth: float) -> float:
 
 @dataclass(frozen=True)
 class SpurMesh:
-    """A pair of spur gears without profile shift.
+    """A pair of spur gears without profile shift."""
 
-    Attributes
-    ----------
-    torque : float
-        Of the pinion [N mm].
-    module : float
-        Of the teeth [mm].
-    teeth : int
-        Of the pinion.
-    ratio : float
-        u = z2/z1.
-    face_width : float
-        b [mm].
-    pressure_angle : float
-        alpha [rad].
-    contact_modulus : float
-        E* of both materials [MPa].
-    """
-
-    torque: float
-    module: float
-    teeth: int
-    ratio: float
-    face_width: float
-    pressure_angle: float
-    contact_modulus: float
+    torque: float  # of the pinion [N mm]
+    module: float  # of the teeth [mm]
+    teeth: int  # of the pinion
+    ratio: float  # u = z2/z1
+    face_width: float  # b [mm]
+    pressure_angle: float  # alpha [rad]
+    contact_modulus: float  # E* of both materials [MPa]
 
     @property
     def pinion_diameter(self) -> float:
@@ -166,12 +136,12 @@ class SpurMesh:
 
     @property
     def relative_curvature(self) -> float:
-        """1/R1 + 1/R2 of the flanks at the pole, R = (d/2) sin alpha [1/mm]."""
+        """1/R1 + 1/R2 of the flanks at the pitch point, R = (d/2) sin alpha [1/mm]."""
         first = 0.5 * self.pinion_diameter * math.sin(self.pressure_angle)
         return (1.0 + 1.0 / self.ratio) / first
 
     def contact_stress(self, factor: float, normal: bool = True) -> float:
-        """Return the contact stress at the pole, sigma_H = sqrt(q E*/(pi rho)).
+        """Return the contact stress at the pitch point, sigma_H = sqrt(q E*/(pi rho)).
 
         With one Poisson's ratio E* is E_pr/(2 (1 - nu^2)) of the source. It prints
         q = F_t K_H/b, the tangential force; teeth press with the normal one, F_t/cos alpha, which

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("synthesise", "Profiles of a gear pair with a prescribed contact stress.")
-def synthesise(case: Path, settings: tuple[str, ...]) -> "Sheet":
-    """Find lines of action and both profiles with the contact stress that CASE prescribes.
+def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
+    """Find paths of contact and both profiles with the contact stress that CASE prescribes.
 
-    Phase by phase: through the pole, or from a point beside it, where two pairs of profiles
+    Phase by phase: through the pitch point, or from a point beside it, where two pairs of profiles
     have the same stress. The involute of the same pair stands beside each; fields show where in
     the plane of mesh there are such profiles, and of which kind.
     """

@@ -1,4 +1,4 @@
-"""Pictures of a synthesis: line of action, profiles, indices along it, fields over the plane."""
+"""Pictures of a synthesis: path of contact, profiles, indices along it, fields over the plane."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from wearsim.contact.prescribed_stress import LoadedPair
-from wearsim.geometry.gear.line_of_action import LineOfAction
+from wearsim.geometry.gear.path_of_contact import PathOfContact
 from wearsim.geometry.gear.plane_gearing import Family, PitchCircles
-from wearsim.geometry.profile import Vector
-from wearsim.handbook.synthesise.model import MeshField, Phase
-from wearsim.report.lines import literal
+from wearsim.geometry.profile_points import Vector
+from wearsim.handbook.synthesise.model import MeshField, MeshPhase
+from wearsim.report.text_lines import literal
 
 _RADII = (2.0, 5.0, 10.0, 20.0, 50.0)
 _SLIDING = (-10.0, -5.0, -2.0, -1.0, -0.5, 0.0, 0.2, 0.4, 0.6, 0.8)
@@ -25,8 +25,8 @@ _STEEPEST = math.radians(65.0)
 """Pressure angle up to which contours are drawn: beyond it they crowd."""
 
 
-def line_figure(title: str, phases: Sequence[Phase]) -> Figure:
-    """Return the lines of action in the plane of mesh, and the profiles that they make."""
+def line_figure(title: str, phases: Sequence[MeshPhase]) -> Figure:
+    """Return the paths of contact in the plane of mesh, and the profiles that they make."""
     figure = Figure(figsize=(10.0, 4.6), layout="constrained")
     plane, profiles = figure.subplots(1, 2, width_ratios=(1.6, 1.0))
     for number, phase in enumerate(phases, 1):
@@ -62,7 +62,7 @@ def _draw_pitch_circles(panel: Axes, circles: PitchCircles) -> None:
         panel.plot(x, y, color="0.6", linewidth=0.8)
 
 
-def _draw_profiles(panel: Axes, phase: Phase, colour: str) -> None:
+def _draw_profiles(panel: Axes, phase: MeshPhase, colour: str) -> None:
     circles = phase.line.contacts.circles
     pinion = phase.line.pinion_profile - [0.0, circles.pinion_radius]
     wheel = phase.line.wheel_profile - [0.0, -circles.wheel_radius]
@@ -71,7 +71,7 @@ def _draw_profiles(panel: Axes, phase: Phase, colour: str) -> None:
 
 
 def indices_figure(title: str, indices: pd.DataFrame) -> Figure:
-    """Return the indices along the lines of action."""
+    """Return the indices along the paths of contact."""
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
     panels = figure.subplots(2, 3, sharex=True).ravel()
     for number, rows in indices.groupby("mesh_phase"):
@@ -110,7 +110,7 @@ _PANELS: tuple[tuple[str, dict[str, str]], ...] = (
 
 
 def field_figure(
-    title: str, pair: LoadedPair, field: MeshField, family: Family, lines: Sequence[LineOfAction]
+    title: str, pair: LoadedPair, field: MeshField, family: Family, lines: Sequence[PathOfContact]
 ) -> Figure:
     """Return the fields of indices of one family with the prescribed stress."""
     figure = Figure(figsize=(11.0, 6.4), layout="constrained")
@@ -138,7 +138,7 @@ def field_figure(
 
 
 def direction_figure(title: str, fields: Mapping[float, MeshField]) -> Figure:
-    """Return reduced radius and contact stress for lines of action with given directions."""
+    """Return reduced radius and contact stress for paths of contact with given directions."""
     figure = Figure(figsize=(1.0 + 3.4 * len(fields), 6.0), layout="constrained")
     panels = figure.subplots(2, len(fields), sharex=True, sharey=True, squeeze=False)
     for column, (mu, field) in zip(panels.T, fields.items(), strict=True):

@@ -1,4 +1,4 @@
-"""The input of ``wearsim synthesise``: a gear pair and the contact stress along its lines of action."""
+"""The input of ``wearsim synthesise``: a gear pair and the contact stress along its paths of contact."""
 
 import math
 from typing import Annotated, Literal
@@ -11,14 +11,14 @@ from wearsim.input.units import Positive, PositiveNumber, Series, Signed
 from wearsim.mechanisms.gear_pair.keys import listed, stress_conflicts
 
 
-class GearPairTable(Table):
+class SynthesisPairTable(Table):
     """The pair."""
 
     centre_distance_mm: Positive
     gear_ratio: PositiveNumber
 
 
-class GearMaterialsTable(Table):
+class PairMaterialsTable(Table):
     """What the wheels are made of; steel where nothing is given."""
 
     pinion: MaterialTable = MaterialTable()
@@ -44,7 +44,7 @@ class MeshLoadTable(Table):
 
 
 class StressTable(Table):
-    """The contact stress: one for all, or one at each of some distances from the pole."""
+    """The contact stress: one for all, or one at each of some distances from the pitch point."""
 
     contact_stress_MPa: Series
     pitch_point_distance_mm: Series | None = None
@@ -56,7 +56,7 @@ class StressTable(Table):
 
 
 class PhaseTable(Table):
-    """A line of action: through the pole, or from a point beside it."""
+    """A path of contact: through the pitch point, or from a point beside it."""
 
     family: Literal[1, -1] = 1
     first_pitch_point_distance_mm: Signed | None = None
@@ -67,7 +67,7 @@ class PhaseTable(Table):
 
     @property
     def start(self) -> tuple[float, float] | None:
-        """Distance from the pole [mm] and pressure angle [rad] of the point it starts from."""
+        """Distance from the pitch point [mm] and pressure angle [rad] of the point it starts from."""
         if self.start_x_mm is None or self.start_y_mm is None:
             return None
         distance = math.copysign(math.hypot(self.start_x_mm, self.start_y_mm), self.start_x_mm)
@@ -75,7 +75,7 @@ class PhaseTable(Table):
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Least and greatest distance from the pole [mm]."""
+        """Least and greatest distance from the pitch point [mm]."""
         first = self.start[0] if self.start else self.first_pitch_point_distance_mm
         last = self.last_pitch_point_distance_mm
         return (last, last) if first is None else (min(first, last), max(first, last))
@@ -112,7 +112,7 @@ class PhaseTable(Table):
 
 
 class InvoluteTable(Table):
-    """The involute to compare with; by default that through the pole or the start of a phase."""
+    """The involute to compare with; by default that through the pitch point or the start of a phase."""
 
     pressure_angle_deg: Annotated[Positive, Field(lt=90.0)] | None = None
 
@@ -143,8 +143,8 @@ class MeshFieldTable(Table):
 class SynthesisTables(CalculationTables):
     """The whole file."""
 
-    gears: GearPairTable
-    material: GearMaterialsTable = GearMaterialsTable()
+    gears: SynthesisPairTable
+    material: PairMaterialsTable = PairMaterialsTable()
     load: MeshLoadTable
     stress: StressTable
     phase: Annotated[list[PhaseTable], Field(min_length=1)]
@@ -163,12 +163,12 @@ class SynthesisTables(CalculationTables):
                 f"{given[-1]:g})",
             )
             for number, phase in enumerate(self.phase, start=1)
-            for low, high in [_with_pole(phase)]
+            for low, high in [_with_pitch_point(phase)]
             if not given[0] <= low <= high <= given[-1]
         ]
 
 
-def _with_pole(phase: PhaseTable) -> tuple[float, float]:
-    """Return the reach of a phase with the pole, where that is what it starts from."""
+def _with_pitch_point(phase: PhaseTable) -> tuple[float, float]:
+    """Return the reach of a phase with the pitch point, where that is what it starts from."""
     low, high = phase.reach
     return (low, high) if phase.start else (min(low, 0.0), max(high, 0.0))

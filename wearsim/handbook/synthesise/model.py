@@ -8,69 +8,44 @@ from numpy.typing import NDArray
 
 from wearsim.catalogue.catalogues import materials
 from wearsim.contact.hertz import contact_modulus
-from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
+from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.line_of_action import LineOfAction, involute
-from wearsim.geometry.gear.line_synthesis import Synthesis
+from wearsim.geometry.gear.path_of_contact import PathOfContact, involute
+from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.synthesise.keys import MeshFieldTable, MeshLoadTable, PhaseTable, SynthesisTables
 from wearsim.input.schema.wear_tables import MaterialTable
 
 _NEAREST = 1e-6
-"""Distance from the pole down to which the inner end of a line is looked for, over its start's."""
+"""Distance from the pitch point down to which the inner end of a line is looked for, over its start's."""
 
 
 @dataclass(frozen=True, eq=False)
-class Phase:
-    """A synthesised line of action.
+class MeshPhase:
+    """A synthesised path of contact."""
 
-    Attributes
-    ----------
-    family : 1 or -1
-        Which of the two pairs of profiles.
-    line : LineOfAction
-        Its points, from its first distance to its last.
-    involute : LineOfAction
-        The involute of the same pair at the same distances.
-    inner_end : tuple of float, optional
-        l [mm] and alpha [rad] where the line ends on the way from its start to the pole; none
-        for a line through the pole, and for one with no end before it or before the last stress
-        that is given.
-    through_pole : bool
-        Whether it started from the pole.
-    """
-
-    family: Family
-    line: LineOfAction
-    involute: LineOfAction
+    family: Family  # which of the two pairs of profiles
+    line: PathOfContact  # its points, from its first distance to its last
+    involute: PathOfContact  # the involute of the same pair at the same distances
+    # l [mm] and alpha [rad] where the line ends on the way from its start to the pitch point; none for a line
+    # through the pitch point, and for one with no end before it or before the last stress that is given
     inner_end: tuple[float, float] | None
-    through_pole: bool
+    through_pitch_point: bool  # whether it started from the pitch point
 
 
 @dataclass(frozen=True, eq=False)
 class MeshField:
-    """Contacts over a part of the plane of mesh; rows are y, columns x.
+    """Contacts over a part of the plane of mesh; rows are y, columns x."""
 
-    Attributes
-    ----------
-    x, y : numpy.ndarray
-        Points from the pole [mm].
-    contacts : Contacts
-        With the prescribed stress, or with one direction of the line of action.
-    contact_stress : numpy.ndarray
-        sigma_H [MPa]; nan where infeasible.
-    infeasibility : numpy.ndarray of str
-        Empty, or why there are no such profiles: "complex" (no real radii), "interference"
-        (rho not above 0), "no rolling" (pressure angle 0, where the contact stands still on a
-        profile), "no stress" (none is given for that distance), "no torque" (the normal runs
-        along the line of centres).
-    """
-
+    # x, y: points from the pitch point [mm]
     x: Vector
     y: Vector
-    contacts: Contacts
-    contact_stress: NDArray[np.float64]
+    contacts: Contacts  # with the prescribed stress, or with one direction of the path of contact
+    contact_stress: NDArray[np.float64]  # sigma_H [MPa]; nan where infeasible
+    # empty, or why there are no such profiles: "complex" (no real radii), "interference" (rho not above 0),
+    # "no rolling" (pressure angle 0, where the contact stands still on a profile), "no stress" (none is given
+    # for that distance), "no torque" (the normal runs along the line of centres)
     infeasibility: NDArray[np.str_]
 
 
@@ -95,7 +70,7 @@ def loaded_pair(tables: SynthesisTables) -> LoadedPair:
         circles,
         contact_modulus((pinion[0], wheel[0]), (pinion[1], wheel[1])),
         _line_load(tables.load, circles.pinion_radius),
-        StressLaw(np.zeros_like(stress) if distance is None else np.array(distance), stress),
+        StressProfile(np.zeros_like(stress) if distance is None else np.array(distance), stress),
         2.0 * math.pi * tables.load.pinion_speed_rpm / 60.0,
     )
 
@@ -116,8 +91,8 @@ def _elastic(table: MaterialTable) -> tuple[float, float]:
     )
 
 
-def phases(pair: LoadedPair, tables: SynthesisTables) -> tuple[Phase, ...]:
-    """Return the lines of action that an input asks for.
+def phases(pair: LoadedPair, tables: SynthesisTables) -> tuple[MeshPhase, ...]:
+    """Return the paths of contact that an input asks for.
 
     Parameters
     ----------
@@ -147,27 +122,29 @@ def phases(pair: LoadedPair, tables: SynthesisTables) -> tuple[Phase, ...]:
     return tuple(found)
 
 
-def _phase(pair: LoadedPair, table: PhaseTable, compared: float | None) -> Phase:
-    synthesis = Synthesis(pair.circles, pair.law, table.family)
+def _phase(pair: LoadedPair, table: PhaseTable, compared: float | None) -> MeshPhase:
+    synthesis = PathSynthesis(pair.circles, pair.radius_rule, table.family)
     if table.start is None:
-        crossing = pair.pole_crossing()
-        line = synthesis.through_pole(crossing, np.linspace(*table.reach, table.nodes))
+        crossing = pair.pitch_point_crossing()
+        line = synthesis.through_pitch_point(crossing, np.linspace(*table.reach, table.nodes))
         end, angle = None, crossing.pressure_angle
     else:
         along = np.linspace(table.start[0], table.last_pitch_point_distance_mm, table.nodes)
         line = synthesis.from_point(table.start, along)
         end, angle = _inner_end(pair, synthesis, table.start), table.start[1]
-    straight = involute(pair.circles, angle if compared is None else compared, line.contacts.pole_distance)
-    return Phase(table.family, line, straight, end, table.start is None)
+    straight = involute(
+        pair.circles, angle if compared is None else compared, line.contacts.pitch_point_distance
+    )
+    return MeshPhase(table.family, line, straight, end, table.start is None)
 
 
 def _inner_end(
-    pair: LoadedPair, synthesis: Synthesis, start: tuple[float, float]
+    pair: LoadedPair, synthesis: PathSynthesis, start: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return where a line ends on the way to the pole, or to the last stress before it."""
+    """Return where a line ends on the way to the pitch point, or to the last stress before it."""
     last = _NEAREST * start[0]
     if not pair.stress.covers(last):
-        last = float(pair.stress.pole_distance[0 if start[0] > 0.0 else -1])
+        last = float(pair.stress.pitch_point_distance[0 if start[0] > 0.0 else -1])
     if last == start[0]:
         return None
     end = synthesis.end(start, last)
@@ -208,14 +185,14 @@ def stress_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[Family, MeshF
 
 
 def direction_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[float, MeshField]:
-    """Return the contacts of lines of action with given directions over a part of the plane.
+    """Return the contacts of paths of contact with given directions over a part of the plane.
 
     Parameters
     ----------
     pair : LoadedPair
         The pair; its prescribed stress does not matter.
     table : MeshFieldTable
-        The part of the plane, with the angles between line of action and normal.
+        The part of the plane, with the angles between path of contact and normal.
 
     Returns
     -------

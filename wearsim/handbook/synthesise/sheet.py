@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.errors import GeometryError
-from wearsim.geometry.gear.line_of_action import LineOfAction
+from wearsim.geometry.gear.path_of_contact import PathOfContact
 from wearsim.geometry.gear.plane_gearing import Contacts
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.synthesise.figure import direction_figure, field_figure, indices_figure, line_figure
 from wearsim.handbook.synthesise.keys import SynthesisTables
-from wearsim.handbook.synthesise.model import MeshField, Phase, direction_fields, stress_fields
-from wearsim.report.lines import numbered, row
+from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
+from wearsim.report.text_lines import numbered_assumptions, row
 
 _ASSUMPTIONS = (
     "rigid wheels, one pair of teeth that carries the whole load, no friction",
@@ -30,7 +30,9 @@ _STEEP = 30.0
 _ROWS = 9
 
 
-def synthesis_sheet(tables: SynthesisTables, pair: LoadedPair, phases: Sequence[Phase]) -> Sheet:
+def synthesis_sheet(
+    tables: SynthesisTables, pair: LoadedPair, phases: Sequence[MeshPhase]
+) -> CalculationSheet:
     """Return what ``wearsim synthesise`` shows."""
     indices = _by_phase(_indices(pair, phase) for phase in phases)
     made = {
@@ -53,13 +55,13 @@ def synthesis_sheet(tables: SynthesisTables, pair: LoadedPair, phases: Sequence[
         if directed:
             made["direction_fields"] = _fields(pair, "direction_deg", directed)
             figures["field_directions"] = direction_figure(tables.title, directed)
-    return Sheet(
+    return CalculationSheet(
         text=_text(tables.title, pair, phases, indices),
         content={
             "title": tables.title,
-            "least_pitch_point_stress_MPa": pair.least_pole_stress,
-            "best_pitch_point_angle_deg": math.degrees(pair.load.best_pole_angle),
-            "pitch_point_pressure_angle_deg": _pole_angle(pair),
+            "least_pitch_point_stress_MPa": pair.least_pitch_point_stress,
+            "best_pitch_point_angle_deg": math.degrees(pair.load.best_pitch_point_angle),
+            "pitch_point_pressure_angle_deg": _pitch_point_angle(pair),
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
             "indices": _plain(indices),
         },
@@ -75,10 +77,10 @@ def _by_phase(columns: Iterable[Mapping[str, Vector]]) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def _indices(pair: LoadedPair, phase: Phase) -> dict[str, Vector]:
+def _indices(pair: LoadedPair, phase: MeshPhase) -> dict[str, Vector]:
     contacts, straight = phase.line.contacts, phase.involute.contacts
     return {
-        "pitch_point_distance_mm": contacts.pole_distance,
+        "pitch_point_distance_mm": contacts.pitch_point_distance,
         "roll_angle_deg": np.degrees(phase.line.roll_angle),
         **_contact_columns(pair, contacts),
         "contact_stress_MPa": pair.contact_stress(contacts),
@@ -106,10 +108,10 @@ def _contact_columns(pair: LoadedPair, contacts: Contacts) -> dict[str, Vector]:
         }
 
 
-def _line(line: LineOfAction) -> dict[str, Vector]:
+def _line(line: PathOfContact) -> dict[str, Vector]:
     contacts = line.contacts
     return {
-        "pitch_point_distance_mm": contacts.pole_distance,
+        "pitch_point_distance_mm": contacts.pitch_point_distance,
         "contact_x_mm": contacts.points[:, 0],
         "contact_y_mm": contacts.points[:, 1],
         "pressure_angle_deg": np.degrees(contacts.pressure_angle),
@@ -118,18 +120,18 @@ def _line(line: LineOfAction) -> dict[str, Vector]:
     }
 
 
-def _pinion(line: LineOfAction) -> dict[str, Vector]:
+def _pinion(line: PathOfContact) -> dict[str, Vector]:
     return _profile(line, line.pinion_profile, line.roll_angle, line.contacts.pinion_curvature)
 
 
-def _wheel(line: LineOfAction) -> dict[str, Vector]:
+def _wheel(line: PathOfContact) -> dict[str, Vector]:
     roll = line.roll_angle / line.contacts.circles.gear_ratio
     return _profile(line, line.wheel_profile, roll, line.contacts.wheel_curvature)
 
 
-def _profile(line: LineOfAction, points: Vector, roll_angle: Vector, curvature: Vector) -> dict[str, Vector]:
+def _profile(line: PathOfContact, points: Vector, roll_angle: Vector, curvature: Vector) -> dict[str, Vector]:
     return {
-        "pitch_point_distance_mm": line.contacts.pole_distance,
+        "pitch_point_distance_mm": line.contacts.pitch_point_distance,
         "roll_angle_deg": np.degrees(roll_angle),
         "x_mm": points[:, 0],
         "y_mm": points[:, 1],
@@ -143,7 +145,7 @@ def _fields(pair: LoadedPair, name: str, fields: Mapping[Any, MeshField]) -> pd.
         columns = {
             "contact_x_mm": field.x,
             "contact_y_mm": field.y,
-            "pitch_point_distance_mm": field.contacts.pole_distance,
+            "pitch_point_distance_mm": field.contacts.pitch_point_distance,
             **_contact_columns(pair, field.contacts),
             "contact_stress_MPa": field.contact_stress,
         }
@@ -155,20 +157,20 @@ def _fields(pair: LoadedPair, name: str, fields: Mapping[Any, MeshField]) -> pd.
     return pd.concat(parts, ignore_index=True)
 
 
-def _pole_angle(pair: LoadedPair) -> float | None:
-    """Return the pressure angle in the pole [deg]; none where the stress is too low there."""
+def _pitch_point_angle(pair: LoadedPair) -> float | None:
+    """Return the pressure angle in the pitch point [deg]; none where the stress is too low there."""
     try:
-        return math.degrees(pair.pole_crossing().pressure_angle)
+        return math.degrees(pair.pitch_point_crossing().pressure_angle)
     except GeometryError:
         return None
 
 
-def _summary(number: int, phase: Phase) -> dict[str, Any]:
-    l, end = phase.line.contacts.pole_distance, phase.inner_end
+def _summary(number: int, phase: MeshPhase) -> dict[str, Any]:
+    l, end = phase.line.contacts.pitch_point_distance, phase.inner_end
     return {
         "mesh_phase": number,
         "family": phase.family,
-        "through_pitch_point": phase.through_pole,
+        "through_pitch_point": phase.through_pitch_point,
         "first_pitch_point_distance_mm": float(l[0]),
         "last_pitch_point_distance_mm": float(l[-1]),
         "end_pitch_point_distance_mm": None if end is None else end[0],
@@ -189,10 +191,10 @@ _HEAD = (
 )
 
 
-def _text(title: str, pair: LoadedPair, phases: Sequence[Phase], indices: pd.DataFrame) -> str:
-    circles, load, angle = pair.circles, pair.load, _pole_angle(pair)
+def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd.DataFrame) -> str:
+    circles, load, angle = pair.circles, pair.load, _pitch_point_angle(pair)
     kind = "at a pressure angle of 0, constant torque" if load.power else "at every angle"
-    asked = f"{float(pair.stress.at(0.0)):.6g} MPa "
+    requested = f"{float(pair.stress.at(0.0)):.6g} MPa "
     takes = "is too little" if angle is None else f"takes a pressure angle of {angle:.6g} deg"
     lines = [
         title,
@@ -203,8 +205,8 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[Phase], indices: pd.Dat
         ),
         row(
             "Pole",
-            f"at least {pair.least_pole_stress:.6g} MPa there (at "
-            f"{math.degrees(load.best_pole_angle):g} deg); {asked}{takes}",
+            f"at least {pair.least_pitch_point_stress:.6g} MPa there (at "
+            f"{math.degrees(load.best_pitch_point_angle):g} deg); {requested}{takes}",
         ),
     ]
     for number, phase in enumerate(phases, 1):
@@ -212,11 +214,11 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[Phase], indices: pd.Dat
         shown = np.unique(np.linspace(0, len(rows) - 1, _ROWS).astype(int))
         lines += ["", row(f"Phase {number}", _phase(phase, rows)), _HEAD]
         lines += [_row(rows.iloc[at]) for at in shown]
-    return "\n".join([*lines, "", row("Assumes", numbered(_ASSUMPTIONS))])
+    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(_ASSUMPTIONS))])
 
 
-def _phase(phase: Phase, rows: pd.DataFrame) -> str:
-    where = "through the pole" if phase.through_pole else "beside the pole"
+def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:
+    where = "through the pole" if phase.through_pitch_point else "beside the pole"
     size = "great" if phase.family == 1 else "small"
     compared = math.degrees(phase.involute.contacts.pressure_angle[0])
     text = (

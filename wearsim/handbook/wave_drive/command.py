@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import Sheet
+    from wearsim.command.calculation_sheet import CalculationSheet
 
 
 @calculation("wave-drive", "Diameter of the flexspline of a wave gear by eight methods.")
-def wave_drive(case: Path, settings: tuple[str, ...]) -> "Sheet":
+def wave_drive(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Size the flexspline of the wave drive of CASE by the methods of six textbooks side by side.
 
     Each gives its diameter, the range over the values recommended for it, and what its result

@@ -20,13 +20,13 @@ class WaveDriveTable(Table):
     tooth_length_ratio: Annotated[PositiveNumber, Field(le=1.0)] = 0.2
 
 
-class PublishedTable(Table):
+class PublishedDiameterTable(Table):
     """What every method's table may hold besides: a diameter to hold the result against."""
 
     published_diameter_mm: Positive | None = None
 
 
-class PressureTable(PublishedTable):
+class PressureTable(PublishedDiameterTable):
     """Pressure between the teeth."""
 
     allowable_pressure_MPa: Positive = 62.5
@@ -34,13 +34,13 @@ class PressureTable(PublishedTable):
     engaged_share: Annotated[PositiveNumber, Field(le=1.0)] = 0.235
 
 
-class CrushingTable(PublishedTable):
+class CrushingTable(PublishedDiameterTable):
     """Crushing of the flanks."""
 
     allowable_crushing_MPa: Positive = 20.0
 
 
-class TorsionTable(PublishedTable):
+class TorsionTable(PublishedDiameterTable):
     """Torsion of the rim."""
 
     allowable_shear_MPa: Positive = 75.0
@@ -49,20 +49,20 @@ class TorsionTable(PublishedTable):
     formula: Formula = "corrected"
 
 
-class ToothWearTable(PublishedTable):
+class ToothWearTable(PublishedDiameterTable):
     """Wear of the teeth under shocks."""
 
     allowable_crushing_MPa: Positive = 15.0
     dynamic_factor: Annotated[PositiveNumber, Field(ge=1.0)] = 1.0
 
 
-class FlankPressureTable(PublishedTable):
+class FlankPressureTable(PublishedDiameterTable):
     """Wear of the teeth by the pressure on the flanks."""
 
     allowable_pressure_MPa: Positive = 22.5
 
 
-class RimBendingTable(PublishedTable):
+class RimBendingTable(PublishedDiameterTable):
     """Endurance of the rim under its own bending and the torque."""
 
     endurance_limit_MPa: Positive = 450.0
@@ -74,7 +74,7 @@ class RimBendingTable(PublishedTable):
     formula: Formula = "corrected"
 
 
-class RimEnduranceTable(PublishedTable):
+class RimEnduranceTable(PublishedDiameterTable):
     """Endurance of the rim with the speed of the generator."""
 
     endurance_limit_MPa: Positive = 350.0
@@ -82,7 +82,7 @@ class RimEnduranceTable(PublishedTable):
     stress_concentration: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
 
 
-class GeneratorBearingTable(PublishedTable):
+class GeneratorBearingTable(PublishedDiameterTable):
     """Load rating of the generator's bearing."""
 
     bearing_constant: PositiveNumber

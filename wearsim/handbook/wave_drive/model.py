@@ -24,41 +24,24 @@ Ranges = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Method:
-    """A way to the diameter.
+class DiameterMethod:
+    """A way to the diameter."""
 
-    Attributes
-    ----------
-    name : str
-        Table of the input that holds what it allows.
-    source : str
-        Number of the textbook in the source's list.
-    criterion : str
-        What it limits.
-    diameter : callable
-        From the numbers of the drive and of the method to the diameter [mm].
-    ranges : mapping
-        Least and greatest value that the source recommends, for each key of the method that it
-        gives one for.
-    allowable : str
-        The key that the diameter is usually set by.
-    drive_ranges : mapping
-        The same for keys of the drive.
-    """
-
-    name: str
-    source: str
-    criterion: str
+    name: str  # table of the input that holds what it allows
+    source: str  # number of the textbook in the source's list
+    stop_limit: str  # what it limits
+    # from the numbers of the drive and of the method to the diameter [mm]
     diameter: Callable[[Values], float]
+    # least and greatest value that the source recommends, for each key of the method that it gives one for
     ranges: Ranges
-    allowable: str
-    drive_ranges: Ranges = field(default_factory=dict)
+    allowable: str  # the key that the diameter is usually set by
+    drive_ranges: Ranges = field(default_factory=dict)  # the same for keys of the drive
 
 
 _TOOTH_LENGTH: Ranges = {"tooth_length_ratio": (0.15, 0.25)}
 
 METHODS = (
-    Method(
+    DiameterMethod(
         "pressure",
         "[1]",
         "pressure between the teeth",
@@ -67,7 +50,7 @@ METHODS = (
         "allowable_pressure_MPa",
         _TOOTH_LENGTH,
     ),
-    Method(
+    DiameterMethod(
         "crushing",
         "[2]",
         "crushing of the flanks",
@@ -76,7 +59,7 @@ METHODS = (
         "allowable_crushing_MPa",
         _TOOTH_LENGTH,
     ),
-    Method(
+    DiameterMethod(
         "torsion",
         "[3]",
         "torsion of the rim",
@@ -85,7 +68,7 @@ METHODS = (
         "allowable_shear_MPa",
         {"gear_ratio": (100.0, 400.0)},
     ),
-    Method(
+    DiameterMethod(
         "tooth_wear",
         "[3]",
         "wear of the teeth",
@@ -93,7 +76,7 @@ METHODS = (
         {"allowable_crushing_MPa": (10.0, 20.0), "dynamic_factor": (1.0, 1.75)},
         "allowable_crushing_MPa",
     ),
-    Method(
+    DiameterMethod(
         "flank_pressure",
         "[4]",
         "wear of the teeth",
@@ -101,8 +84,10 @@ METHODS = (
         {"allowable_pressure_MPa": (20.0, 25.0)},
         "allowable_pressure_MPa",
     ),
-    Method("rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"),
-    Method(
+    DiameterMethod(
+        "rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"
+    ),
+    DiameterMethod(
         "rim_endurance",
         "[6]",
         "endurance of the rim",
@@ -110,7 +95,7 @@ METHODS = (
         {"safety_factor": (1.6, 1.7)},
         "endurance_limit_MPa",
     ),
-    Method(
+    DiameterMethod(
         "generator_bearing",
         "[6]",
         "bearing of the generator",
@@ -124,42 +109,22 @@ METHODS = (
 
 @dataclass(frozen=True)
 class MethodDiameter:
-    """What a method comes to.
+    """What a method comes to."""
 
-    Attributes
-    ----------
-    method : Method
-        The method.
-    as_printed : bool
-        Whether a formula that is wrong as printed was asked for all the same.
-    diameter : float
-        With the values given [mm].
-    least, greatest : float
-        Over the ranges that the source recommends for the method's own keys, the others as
-        given [mm].
-    elasticity : mapping
-        Relative change of the diameter over that of each number of drive and method, where it
-        is not 0.
-    outside : mapping
-        The numbers that are outside of what the source recommends.
-    published : float
-        Diameter to hold it against [mm]; nan where none was given.
-    needed : float
-        Value of the allowable that would give that; nan where none does.
-    rank, least_rank, greatest_rank : int
-        From 1 for the largest diameter: with the values given, and where each method may take
-        any diameter of its range.
-    """
-
-    method: Method
-    as_printed: bool
-    diameter: float
+    method: DiameterMethod  # the method
+    as_printed: bool  # whether a formula that is wrong as printed was asked for all the same
+    diameter: float  # with the values given [mm]
+    # least, greatest: over the ranges that the source recommends for the method's own keys, the others as
+    # given [mm]
     least: float
     greatest: float
+    # relative change of the diameter over that of each number of drive and method, where it is not 0
     elasticity: Mapping[str, float]
-    outside: Mapping[str, float]
-    published: float
-    needed: float
+    outside: Mapping[str, float]  # the numbers that are outside of what the source recommends
+    published: float  # diameter to hold it against [mm]; nan where none was given
+    needed: float  # value of the allowable that would give that; nan where none does
+    # rank, least_rank, greatest_rank: from 1 for the largest diameter: with the values given, and where each
+    # method may take any diameter of its range
     rank: int
     least_rank: int
     greatest_rank: int
@@ -172,17 +137,10 @@ class MethodDiameter:
 
 @dataclass(frozen=True)
 class MethodComparison:
-    """The methods side by side.
+    """The methods side by side."""
 
-    Attributes
-    ----------
-    diameters : tuple of MethodDiameter
-        In the order of the source.
-    left_out : mapping
-        Why a method that the file says nothing about has no diameter with its defaults.
-    """
-
-    diameters: tuple[MethodDiameter, ...]
+    diameters: tuple[MethodDiameter, ...]  # in the order of the source
+    # why a method that the file says nothing about has no diameter with its defaults
     left_out: Mapping[str, str]
 
 
@@ -232,9 +190,9 @@ def wave_drive(tables: WaveDriveTables) -> MethodComparison:
     return MethodComparison(tuple(results), left_out)
 
 
-def _feasible(tables: WaveDriveTables) -> tuple[list[tuple[Method, Values]], dict[str, str]]:
+def _feasible(tables: WaveDriveTables) -> tuple[list[tuple[DiameterMethod, Values]], dict[str, str]]:
     """Return the methods that have a diameter, with their numbers, and why others have none."""
-    used: list[tuple[Method, Values]] = []
+    used: list[tuple[DiameterMethod, Values]] = []
     left_out = {}
     for method in METHODS:
         if getattr(tables, method.name) is None:
@@ -255,7 +213,7 @@ _PRINTED = {"torsion": ("root", 3.0, 2.0), "rim_bending": ("prefix", 10.0, 28.4)
 """What differs in a formula as it is printed: the name of it, corrected, printed."""
 
 
-def _values(tables: WaveDriveTables, method: Method) -> dict[str, float]:
+def _values(tables: WaveDriveTables, method: DiameterMethod) -> dict[str, float]:
     """Return all numbers that a method takes; what it can find itself only where given."""
     own = getattr(tables, method.name).model_dump(exclude={"published_diameter_mm", "formula"})
     v = {key: value for key, value in own.items() if value is not None}
@@ -265,11 +223,11 @@ def _values(tables: WaveDriveTables, method: Method) -> dict[str, float]:
     return {**tables.wave_drive.model_dump(), **v}
 
 
-def _as_printed(tables: WaveDriveTables, method: Method) -> bool:
+def _as_printed(tables: WaveDriveTables, method: DiameterMethod) -> bool:
     return getattr(getattr(tables, method.name), "formula", "") == "printed"
 
 
-def _range(method: Method, v: Values) -> tuple[float, float]:
+def _range(method: DiameterMethod, v: Values) -> tuple[float, float]:
     """Return the least and the greatest diameter over the corners of the recommended ranges."""
     corners: list[Values] = [v]
     for key, ends in method.ranges.items():
@@ -278,7 +236,7 @@ def _range(method: Method, v: Values) -> tuple[float, float]:
     return min(sizes), max(sizes)
 
 
-def _outside(method: Method, v: Values) -> dict[str, float]:
+def _outside(method: DiameterMethod, v: Values) -> dict[str, float]:
     """Return the numbers outside of what is recommended; a coefficient that is given needs none."""
     ranges = {**method.ranges, **method.drive_ranges}
     if "torsion_coefficient" in v:
@@ -289,7 +247,7 @@ def _outside(method: Method, v: Values) -> dict[str, float]:
 _STEP = 1e-5
 
 
-def _elasticity(method: Method, v: Values) -> dict[str, float]:
+def _elasticity(method: DiameterMethod, v: Values) -> dict[str, float]:
     """Return d(ln d)/d(ln value) of all numbers by central differences."""
     slopes = {}
     for key, value in v.items():
@@ -302,7 +260,7 @@ def _elasticity(method: Method, v: Values) -> dict[str, float]:
     return slopes
 
 
-def _needed(method: Method, v: Values, target: float) -> float:
+def _needed(method: DiameterMethod, v: Values, target: float) -> float:
     """Return the allowable that gives a diameter, within a factor of 100; nan where none does."""
 
     def missing(factor: float) -> float:

@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import Sheet
+from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,7 +21,7 @@ _ASSUMPTIONS = (
 )
 
 
-def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequence[str]) -> Sheet:
+def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequence[str]) -> CalculationSheet:
     """Return what ``wearsim wave-drive`` shows."""
     found = comparison.diameters
     rows = [_row(one) for one in found]
@@ -44,7 +44,7 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
 
         return {"wave_drive": wave_drive_figure(title, found)}
 
-    return Sheet(
+    return CalculationSheet(
         text=_text(title, found, assumptions),
         content={
             "title": title,
@@ -64,7 +64,7 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
     return {
         "sizing_method": one.method.name,
         "textbook": one.method.source,
-        "criterion": one.method.criterion,
+        "criterion": one.method.stop_limit,
         "flexspline_diameter_mm": one.diameter,
         "least_diameter_mm": one.least,
         "greatest_diameter_mm": one.greatest,
@@ -88,12 +88,12 @@ def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, .
             ranks += f" ({one.least_rank}-{one.greatest_rank})"
         shown = "" if math.isnan(one.published) else f"{one.published:g}"
         lines.append(
-            f"  {one.method.name:18s}{one.method.source:5s}{one.method.criterion:26s}"
+            f"  {one.method.name:18s}{one.method.source:5s}{one.method.stop_limit:26s}"
             f"{one.diameter:8.1f}{span:>15s}{ranks:>9s}{shown:>11s}".rstrip()
         )
     published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]
     lines += ["", *published] if published else []
-    return "\n".join([*lines, "", row("Assumes", numbered(assumptions))])
+    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(assumptions))])
 
 
 def _held(one: MethodDiameter) -> str:

@@ -217,14 +217,14 @@ class DutyBlock(Table):
 LOAD_KEYS = ("tension_N", "power_kW", "torque_N_m")
 """Keys of which exactly one gives a load."""
 
-_MOST_BINS = 100
+_MAX_BINS = 100
 
 
 def _bins(value: object) -> object:
     pair = value if isinstance(value, list) and len(value) == 2 else [None]
-    if not all(type(entry) is int and 1 <= entry <= _MOST_BINS for entry in pair):
+    if not all(type(entry) is int and 1 <= entry <= _MAX_BINS for entry in pair):
         raise ValueError(
-            f"must be two whole numbers from 1 to {_MOST_BINS}, bins of the tension and of the speed, "
+            f"must be two whole numbers from 1 to {_MAX_BINS}, bins of the tension and of the speed, "
             "such as [20, 8]"
         )
     return value
@@ -240,7 +240,7 @@ Regime = Annotated[Literal["0", "I", "II", "III", "IV", "V"], BeforeValidator(_n
 
 _BINS: dict[str, Any] = {
     "type": "array",
-    "items": {"type": "integer", "minimum": 1, "maximum": _MOST_BINS},
+    "items": {"type": "integer", "minimum": 1, "maximum": _MAX_BINS},
     "minItems": 2,
     "maxItems": 2,
 }

@@ -35,7 +35,7 @@ class ServiceTable(Table):
         return []
 
 
-_MOST_PERCENT = 10.0
+_MAX_PERCENT = 10.0
 
 
 def _elongations(value: object) -> object:
@@ -43,8 +43,8 @@ def _elongations(value: object) -> object:
         raise ValueError("must be a list of numbers such as [1, 2, 3]")
     for entry in value:
         number = isinstance(entry, int | float) and not isinstance(entry, bool)
-        if not (number and 0.0 < entry <= _MOST_PERCENT):
-            raise ValueError(f"every entry must be a number above 0 and up to {_MOST_PERCENT:g}")
+        if not (number and 0.0 < entry <= _MAX_PERCENT):
+            raise ValueError(f"every entry must be a number above 0 and up to {_MAX_PERCENT:g}")
     numbers = [float(entry) for entry in value]
     if len(set(numbers)) < len(numbers):
         raise ValueError("every entry must come once")
@@ -53,7 +53,7 @@ def _elongations(value: object) -> object:
 
 _SCHEMA: dict[str, Any] = {
     "type": "array",
-    "items": {"type": "number", "exclusiveMinimum": 0.0, "maximum": _MOST_PERCENT},
+    "items": {"type": "number", "exclusiveMinimum": 0.0, "maximum": _MAX_PERCENT},
     "minItems": 1,
     "uniqueItems": True,
 }

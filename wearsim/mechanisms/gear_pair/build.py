@@ -5,11 +5,11 @@ import math
 import numpy as np
 
 from wearsim.case.model import Case
-from wearsim.case.shared import (
+from wearsim.case.table_inputs import (
     FLANK_NODES,
     TOLERANCE,
-    modulus_of,
-    resolve_fatigue,
+    contact_modulus_of,
+    fatigue_input,
     run_input,
     take_defaults,
     wear_input,
@@ -20,7 +20,7 @@ from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.mesh import Mesh, ToothPair, check_contact_ratio
 from wearsim.geometry.gear.plane_gearing import PitchCircles
 from wearsim.input.calculation_file import checked
-from wearsim.input.case_record import Record
+from wearsim.input.case_record import CaseRecord
 from wearsim.input.document import Document
 from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.mechanisms.gear_pair.keys import GearTable, GearTables
@@ -34,10 +34,10 @@ _STEEL = contact_modulus((206_000.0, 206_000.0), (0.3, 0.3))
 def read(document: Document) -> Case:
     """Return the case of a gear pair."""
     tables, faults = checked(document, GearTables), document.faults
-    case = Record(tables, document.folder, faults)
+    case = CaseRecord(tables, document.folder, faults)
     take_defaults(case, tables)
     materials = tables.material
-    modulus = modulus_of(case, {"pinion": materials.pinion, "wheel": materials.wheel})
+    modulus = contact_modulus_of(case, {"pinion": materials.pinion, "wheel": materials.wheel})
     wear = wear_input(case, tables.wear)
     if wear.pressure_exponent < 1.0:
         faults.add(
@@ -49,7 +49,7 @@ def read(document: Document) -> Case:
     if tables.gear.nodes is None:
         case.take("gear.nodes", nodes, "default")
     torque = 1000.0 * tables.load.torque_N_m
-    teeth = resolve_teeth(case, tables.gear, nodes, torque, modulus)
+    teeth = complete_teeth(case, tables.gear, nodes, torque, modulus)
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:
         case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
     stiffness = _stiffness(case, tables, modulus)
@@ -63,7 +63,7 @@ def read(document: Document) -> Case:
     if limit is None:
         limit = tables.stop.critical_depth_mm
         case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
-    fatigue = resolve_fatigue(case, tables.fatigue)
+    fatigue = fatigue_input(case, tables.fatigue)
     return Case(
         name=document.name,
         title=tables.title or _title(tables.gear),
@@ -99,7 +99,7 @@ def _title(gear: GearTable) -> str:
     return f"{form} gears {gear.pinion_teeth}/{gear.wheel_teeth}, module {gear.module_mm:g} mm"
 
 
-def _stiffness(case: Record, tables: GearTables, modulus: float) -> float:
+def _stiffness(case: CaseRecord, tables: GearTables, modulus: float) -> float:
     """Stiffness of a pair of teeth per face width [N/mm2]; 0 for rigid teeth."""
     table = tables.mechanism
     if "load_sharing" not in table.model_fields_set:
@@ -126,8 +126,8 @@ def _third_pair(mesh: Mesh, torque: float, stiffness: float) -> list[str]:
     ]
 
 
-def resolve_teeth(
-    case: Record, table: GearTable, nodes: int, torque: float, modulus: float
+def complete_teeth(
+    case: CaseRecord, table: GearTable, nodes: int, torque: float, modulus: float
 ) -> tuple[ToothPair, Mesh] | None:
     """Complete the teeth and check that they mesh."""
     try:
@@ -144,7 +144,9 @@ def resolve_teeth(
     return pair, mesh
 
 
-def _taken(case: Record, table: GearTable, key: str, default: float, why: str = "default") -> float:
+def _value_or_default(
+    case: CaseRecord, table: GearTable, key: str, default: float, why: str = "default"
+) -> float:
     """Value of a key, or what is assumed instead."""
     given: float | None = getattr(table, key)
     if given is None:
@@ -153,12 +155,15 @@ def _taken(case: Record, table: GearTable, key: str, default: float, why: str = 
     return given
 
 
-def _involute(case: Record, table: GearTable) -> ToothPair:
+def _involute(case: CaseRecord, table: GearTable) -> ToothPair:
     teeth, module = (table.pinion_teeth, table.wheel_teeth), table.module_mm
-    angle = _taken(case, table, "pressure_angle_deg", 20.0)
-    shifts = _taken(case, table, "pinion_shift", 0.0), _taken(case, table, "wheel_shift", 0.0)
+    angle = _value_or_default(case, table, "pressure_angle_deg", 20.0)
+    shifts = (
+        _value_or_default(case, table, "pinion_shift", 0.0),
+        _value_or_default(case, table, "wheel_shift", 0.0),
+    )
     tips = [
-        _taken(
+        _value_or_default(
             case,
             table,
             f"{gear}_tip_radius_mm",
@@ -172,7 +177,7 @@ def _involute(case: Record, table: GearTable) -> ToothPair:
     return pair
 
 
-def _convex_concave(case: Record, table: GearTable, torque: float, modulus: float) -> ToothPair:
+def _convex_concave(case: CaseRecord, table: GearTable, torque: float, modulus: float) -> ToothPair:
     from wearsim.geometry.gear.convex_concave import ConvexConcave  # takes 0.1 s, for scipy
 
     head = table.addendum_arc_radius_mm
@@ -181,23 +186,23 @@ def _convex_concave(case: Record, table: GearTable, torque: float, modulus: floa
         table.module_mm,
         table.pinion_teeth,
         table.wheel_teeth,
-        math.radians(_taken(case, table, "pitch_point_angle_deg", 20.0)),
+        math.radians(_value_or_default(case, table, "pitch_point_angle_deg", 20.0)),
         head,
-        _taken(case, table, "dedendum_arc_radius_mm", head, "as of the head"),
-        table.module_mm * _taken(case, table, "addendum_ratio", 1.0),
+        _value_or_default(case, table, "dedendum_arc_radius_mm", head, "as of the head"),
+        table.module_mm * _value_or_default(case, table, "addendum_ratio", 1.0),
     )
 
 
-def _prescribed_stress(case: Record, table: GearTable, torque: float, modulus: float) -> ToothPair:
+def _prescribed_stress(case: CaseRecord, table: GearTable, torque: float, modulus: float) -> ToothPair:
     # They take 0.2 s, for scipy.
-    from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressLaw
+    from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
     from wearsim.contact.synthesised_pair import SynthesisedPair
 
     teeth, stress = (table.pinion_teeth, table.wheel_teeth), table.contact_stress_MPa
     circles = PitchCircles(0.5 * table.module_mm * sum(teeth), teeth[1] / teeth[0])
-    design = 1000.0 * _taken(case, table, "design_torque_N_m", 0.001 * torque, "as of the load")
+    design = 1000.0 * _value_or_default(case, table, "design_torque_N_m", 0.001 * torque, "as of the load")
     load = LineLoad(design / (table.face_width_mm * circles.pinion_radius), 1)
     places = table.stress_pitch_point_distance_mm or (0.0,)
-    law = StressLaw(np.array(places), np.array(stress))
+    law = StressProfile(np.array(places), np.array(stress))
     # The shape does not depend on the speed.
     return SynthesisedPair(LoadedPair(circles, modulus, load, law, 0.0), teeth, table.reach)

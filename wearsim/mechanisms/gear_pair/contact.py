@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
 from wearsim.geometry.gear.mesh import Mesh, ToothPair
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.gear_pair import gear_pair_contact
 from wearsim.kernels.gear_rows import COLUMNS
 
@@ -94,7 +94,7 @@ class GearPairMechanism:
     def sliding_speed(self) -> Vector:
         """|v_s| [mm/s]."""
         relative = self.angular_speed * (1.0 + 1.0 / self.pair.circles.gear_ratio)
-        return np.abs(self.mesh.pole_distance) * relative
+        return np.abs(self.mesh.pitch_point_distance) * relative
 
     @property
     def curvature(self) -> Vector:
@@ -111,14 +111,14 @@ class GearPairMechanism:
         mesh = self.mesh
         first, last = mesh.place[-1] - mesh.pitch, mesh.place[0] + mesh.pitch
         load = self.torque / mesh.lever
-        turned = mesh.pitch / (math.tau / self.pair.teeth[0]) / mesh.lever
-        width = 2.0 * float((half_width(load, self.curvature, self.modulus) * turned).max())
+        rotated = mesh.pitch / (math.tau / self.pair.teeth[0]) / mesh.lever
+        width = 2.0 * float((half_width(load, self.curvature, self.modulus) * rotated).max())
         inside = np.minimum(mesh.place - first, last - mesh.place) / max(width, 1e-9) + 0.5
         share: Vector = 0.5 + 0.5 * np.clip(inside, 0.0, 1.0)
         return share
 
     @cached_property
-    def contact(self) -> Contact:
+    def contact(self) -> FlankContact:
         """The pinion's flank and its contact."""
         mesh, profile = self.mesh, self.mesh.flank
         least = _LEAST_CURVATURE * float(self.curvature.min())
@@ -138,15 +138,15 @@ class GearPairMechanism:
             mesh.lever,
             *mesh.levers,
         )
-        at_pole = int(np.argmin(np.abs(mesh.pole_distance)))
-        return Contact(
-            kind=Kind.TRAVELLING,
+        at_pitch_point = int(np.argmin(np.abs(mesh.pitch_point_distance)))
+        return FlankContact(
+            kind=ContactKind.TRAVELLING,
             kernel=gear_pair_contact,
             constants=np.array([self.torque, self.stiffness, mesh.pitch, least]),
             columns=columns,
             profile=profile,
             arc_length=columns[0],
-            roller_radius=1.0 / abs(float(mesh.curvature[1, at_pole])),
+            roller_radius=1.0 / abs(float(mesh.curvature[1, at_pitch_point])),
             modulus=self.modulus,
             slip_curvature_exponent=0.0,
             offset_form=False,
@@ -158,7 +158,7 @@ class GearPairMechanism:
         """The pinion's flank from the place where contact starts to its tip."""
         return self.mesh.flank
 
-    def other_grids(self) -> tuple[Contact, ...]:
+    def other_grids(self) -> tuple[FlankContact, ...]:
         """Return the flank on every second point, on every fourth, and on points elsewhere.
 
         A kink beside a point stays there when every second one is left out.
@@ -175,7 +175,7 @@ class GearPairMechanism:
         """Return the wheel's flank as it wears, at the points that meet those of the pinion."""
         new, worn = self.mesh.mate, self.mate_depth * depth
         return {
-            "path_mm": np.tile(self.mesh.pole_distance, depth.shape[0]),
+            "path_mm": np.tile(self.mesh.pitch_point_distance, depth.shape[0]),
             "wheel_x_mm": (new.x[::-1] - worn * new.normal_x[::-1]).ravel(),
             "wheel_y_mm": (new.y[::-1] - worn * new.normal_y[::-1]).ravel(),
             "wheel_depth_mm": worn.ravel(),

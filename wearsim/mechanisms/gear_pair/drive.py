@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, Drive, FatigueInput
-from wearsim.contact.criteria import Criterion, rising
-from wearsim.contact.engagement import Contact, Mechanism
+from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
+from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.fatigue.contact_fatigue import fatigue_life
 from wearsim.fatigue.endurance import EnduredHours, cycles_per_hour
 from wearsim.geometry.gear.mesh import ToothPair
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene
-from wearsim.geometry.wheel import WheelShape
+from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.kernels.gear_rows import MATE_DEPTH
 
 
@@ -31,9 +31,9 @@ class GearDrive(Drive):
     points: int  # of the flank
 
     @property
-    def pole_load(self) -> float:
-        """Normal load over face width of one pair of teeth in the pole [N/mm]."""
-        lever = self.pair.circles.pinion_radius * math.cos(self.pair.pole_angle)
+    def pitch_point_load(self) -> float:
+        """Normal load over face width of one pair of teeth in the pitch point [N/mm]."""
+        lever = self.pair.circles.pinion_radius * math.cos(self.pair.pitch_point_angle)
         return self.torque / (lever * self.face_width)
 
     def teeth_in_words(self, case: Case) -> str:
@@ -55,7 +55,7 @@ class GearDrive(Drive):
     def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
         """Return the wheel's flank where it meets the pinion's."""
         mesh = self.pair.mesh(self.points)
-        curvature = float(np.interp(last["path_mm"][node], mesh.pole_distance, mesh.curvature[1]))
+        curvature = float(np.interp(last["path_mm"][node], mesh.pitch_point_distance, mesh.curvature[1]))
         return 1.0 / curvature, "wheel"
 
     def mechanism(self, case: Case) -> Mechanism:
@@ -72,7 +72,7 @@ class GearDrive(Drive):
             points=self.points,
         )
 
-    def stop_limits(self, case: Case, contact: Contact) -> tuple[Criterion, ...]:
+    def stop_limits(self, case: Case, contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return the limits of the pinion's flank, and that of the wheel."""
         ratio, key = contact.columns[MATE_DEPTH], "wheel_critical_depth_mm"
         wheel = rising(key, case.more_limits[key], lambda x, y, depth: float((ratio * depth).max()))
@@ -83,11 +83,11 @@ class GearDrive(Drive):
     ) -> dict[str, EnduredHours]:
         """Return the hours for which the contact stress of the new flanks is allowed.
 
-        It is that at the pole of source document 001, or the highest on the path of contact if that is
+        It is that at the pitch point of source document 001, or the highest on the path of contact if that is
         more; both by strength.md (21) to (26) under the constant load.
         """
         ((highest, _),) = stresses
-        stress = max(pole_stress(self, fatigue.load_factor, case.modulus), highest)
+        stress = max(pitch_point_stress(self, fatigue.load_factor, case.modulus), highest)
         speeds = {"pinion": case.speed_rpm, "wheel": case.speed_rpm / self.pair.circles.gear_ratio}
         return {
             name: fatigue_life(
@@ -97,8 +97,8 @@ class GearDrive(Drive):
         }
 
 
-def pole_stress(drive: GearDrive, load_factor: float, modulus: float) -> float:
-    """Return the contact stress at the pole, where one pair of teeth carries the whole load.
+def pitch_point_stress(drive: GearDrive, load_factor: float, modulus: float) -> float:
+    """Return the contact stress at the pitch point, where one pair of teeth carries the whole load.
 
     Equation gears.md (7).
 
@@ -116,5 +116,5 @@ def pole_stress(drive: GearDrive, load_factor: float, modulus: float) -> float:
     float
         sigma_H of the new flanks with the load factor [MPa], source document 001.
     """
-    curvature = 1.0 / float(drive.pair.circles.pole_radius(drive.pair.pole_angle))
-    return float(peak_pressure(load_factor * drive.pole_load, curvature, modulus))
+    curvature = 1.0 / float(drive.pair.circles.pitch_point_radius(drive.pair.pitch_point_angle))
+    return float(peak_pressure(load_factor * drive.pitch_point_load, curvature, modulus))

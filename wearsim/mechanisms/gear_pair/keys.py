@@ -103,7 +103,7 @@ class GearTable(Table):
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Distances from the pole at which contact starts and ends [mm]."""
+        """Distances from the pitch point at which contact starts and ends [mm]."""
         return self.first_pitch_point_distance_mm or 0.0, self.last_pitch_point_distance_mm or 0.0
 
 
@@ -185,7 +185,7 @@ class GearTables(CalculationTables):
 def stress_conflicts(
     stress: tuple[float, ...], distance: tuple[float, ...] | None, names: tuple[str, str]
 ) -> list[tuple[str, str]]:
-    """Return what is wrong with stresses and the distances from the pole at which they are given."""
+    """Return what is wrong with stresses and the distances from the pitch point at which they are given."""
     found = []
     if not all(value > 0.0 for value in stress) or not stress:
         found.append((names[0], f"must be above 0 (got {listed(stress)})"))

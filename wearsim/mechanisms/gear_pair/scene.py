@@ -8,11 +8,11 @@ import numpy as np
 
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_function
-from wearsim.geometry.outline import turned
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.outline import rotated
+from wearsim.geometry.outline_stretch import OutlineStretch, along_points, up_to
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle, Label, Scene, around, letter_height, line, turn_arrow
-from wearsim.geometry.stretch import Stretch, along_points, up_to
-from wearsim.geometry.wheel import Space, WheelShape, worn_space
+from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_space
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.gear_pair.drive import GearDrive
@@ -31,7 +31,7 @@ _ROOTED = (
 def gear_wheels(
     drive: "GearDrive", last: Mapping[str, Vector] | None = None
 ) -> tuple[WheelShape, WheelShape]:
-    """Return pinion and wheel at their centre distance, in contact in the pole.
+    """Return pinion and wheel at their centre distance, in contact in the pitch point.
 
     They are worn to the last snapshot of a run where there is one.
     """
@@ -42,12 +42,12 @@ def gear_wheels(
         radius = (circles.pinion_radius, circles.wheel_radius)[gear]
         count = drive.pair.teeth[gear]
         turn = 0.5 * math.pi + math.pi / count - _tooth_centre(drive, gear)
-        fresh = turned(points, turn)
+        fresh = rotated(points, turn)
         new = _space(drive, gear, fresh)
-        gone: tuple[Space, ...] = ()
+        gone: tuple[ToothSpace, ...] = ()
         if last is not None:
-            gone = (_worn(new, fresh, turned(_worn_points(last, gear), turn)),) * count
-        pole = _angle_at(fresh, radius)
+            gone = (_worn(new, fresh, rotated(_worn_points(last, gear), turn)),) * count
+        pitch_point = _angle_at(fresh, radius)
         shapes.append(
             WheelShape(
                 name=("pinion", "wheel")[gear],
@@ -56,7 +56,7 @@ def gear_wheels(
                 pitch_radius=radius,
                 width=drive.face_width,
                 notes=_ROOTED if new.rooted else _FLANKS_ONLY,
-                turn=(0.5 * math.pi, -0.5 * math.pi)[gear] - pole,
+                turn=(0.5 * math.pi, -0.5 * math.pi)[gear] - pitch_point,
                 centre=(0.0, gear * circles.centre_distance),
             )
         )
@@ -86,34 +86,34 @@ def _angle_at(points: Vector, radius: float) -> float:
     return float(np.interp(radius, np.hypot(*points.T), angle))
 
 
-def _space(drive: "GearDrive", gear: int, points: Vector) -> Space:
+def _space(drive: "GearDrive", gear: int, points: Vector) -> ToothSpace:
     """Space whose left side is a flank by its points, with a root where the tool makes one."""
     flank = along_points("flank", points)
     if isinstance(drive.pair, InvolutePair):
-        return Space((flank.mirrored("back_flank"),), (flank,), rooted=False)
+        return ToothSpace((flank.mirrored("back_flank"),), (flank,), rooted=False)
     # The other forms need scipy.
     from wearsim.geometry.gear.convex_concave import ConvexConcave
     from wearsim.geometry.gear.convex_concave_outline import half_tooth
 
     if not isinstance(drive.pair, ConvexConcave):
-        return Space((flank.mirrored("back_flank"),), (flank,), rooted=False)
+        return ToothSpace((flank.mirrored("back_flank"),), (flank,), rooted=False)
     body = (drive.pair.pinion, drive.pair.wheel)[gear]
     vertices, bulges, foot = half_tooth(body, None, "radial")
-    vertices = turned(vertices, -math.pi / body.teeth)
+    vertices = rotated(vertices, -math.pi / body.teeth)
     right = (
-        Stretch("back_flank", vertices[: foot + 1], bulges[:foot], is_curve=True),
-        Stretch("root", vertices[foot:], bulges[foot:]),
+        OutlineStretch("back_flank", vertices[: foot + 1], bulges[:foot], is_curve=True),
+        OutlineStretch("root", vertices[foot:], bulges[foot:]),
     )
-    return Space(right, (right[1].mirrored("root"), right[0].mirrored("flank")))
+    return ToothSpace(right, (right[1].mirrored("root"), right[0].mirrored("flank")))
 
 
-def _worn(new: Space, fresh: Vector, points: Vector) -> Space:
+def _worn(new: ToothSpace, fresh: Vector, points: Vector) -> ToothSpace:
     """Space with a worn flank; below where contact starts a whole outline is not worn."""
     if not new.rooted:
         return worn_space(new, points)
     root, flank = new.left
     below = up_to(flank, fresh[0])
-    return worn_space(Space(new.right, (root, below, along_points("flank", fresh))), points)
+    return worn_space(ToothSpace(new.right, (root, below, along_points("flank", fresh))), points)
 
 
 def gear_scene(drive: "GearDrive") -> Scene:
@@ -124,7 +124,7 @@ def gear_scene(drive: "GearDrive") -> Scene:
     radii = (circles.pinion_radius, circles.wheel_radius)
     tips = [math.hypot(side.x[-1], side.y[-1]) for side in (mesh.flank, mesh.mate)]
     angle = np.arccos(mesh.lever / radii[0])
-    along, across = mesh.pole_distance * np.cos(angle), mesh.pole_distance * np.sin(angle)
+    along, across = mesh.pitch_point_distance * np.cos(angle), mesh.pitch_point_distance * np.sin(angle)
     box = around(zip(centres, tips, strict=True))
     names = (f"pinion {pinion}", f"wheel {wheel}")
     return Scene(
@@ -151,7 +151,7 @@ def gear_scene(drive: "GearDrive") -> Scene:
             f"pitch circles {2 * radii[0]:.2f} and {2 * radii[1]:.2f} mm "
             f"(dash-dotted), tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
             f"thick: path of contact, contact ratio {mesh.contact_ratio:.3g}, pressure angle in the pole "
-            f"{math.degrees(drive.pair.pole_angle):.2f} degrees",
+            f"{math.degrees(drive.pair.pitch_point_angle):.2f} degrees",
             "a pair of gears has no wrap",
         ),
     ).with_scale()

@@ -1,11 +1,11 @@
 """From a table of load and sliding to the drive of its flank."""
 
 from wearsim.case.chain_case import read_chain_case
-from wearsim.case.duty_blocks import Duty
+from wearsim.case.duty_blocks import GivenDuty
 from wearsim.case.model import Case, WearInput
-from wearsim.case.shared import TOLERANCE, slip_fraction
+from wearsim.case.table_inputs import TOLERANCE, slip_fraction
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.document import Document
 from wearsim.mechanisms.prescribed.drive import PrescribedDrive
@@ -13,11 +13,11 @@ from wearsim.mechanisms.prescribed.drive import PrescribedDrive
 
 def read(document: Document) -> Case:
     """Return the case of a flank whose load and sliding come from a table."""
-    return read_chain_case(document, resolve_prescribed, TOLERANCE)
+    return read_chain_case(document, prescribed_drive, TOLERANCE)
 
 
-def resolve_prescribed(
-    case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None
+def prescribed_drive(
+    case: ChainRecord, wear: WearInput, chain: Chain, duty: GivenDuty | None
 ) -> PrescribedDrive | None:
     """Complete a flank whose load and sliding come from a table."""
     tables, key = case.tables, "mechanism.table_file"

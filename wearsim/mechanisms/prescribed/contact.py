@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.contact.engagement import Contact, Kind
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.prescribed import prescribed_contact
 
 
@@ -28,39 +28,19 @@ def flank_from_curvature(arc_length: Vector, curvature: Vector) -> Profile:
 
 @dataclass(frozen=True, eq=False)
 class PrescribedMechanism:
-    """A contact whose load, sliding and initial curvature are given per point.
+    """A contact whose load, sliding and initial curvature are given per point."""
 
-    Attributes
-    ----------
-    kind : Kind
-        TRAVELLING where slip is the ratio |v_s|/v_t, LOCAL where it is a path [mm].
-    arc_length : numpy.ndarray
-        Increasing [mm].
-    load_per_width : numpy.ndarray
-        Normal load [N/mm].
-    slip : numpy.ndarray
-        Slip ratio or path [mm].
-    sliding_speed : numpy.ndarray
-        Sliding speed [mm/s], nan where it is not given.
-    flank_curvature : numpy.ndarray
-        Of the unworn flank, convex positive [1/mm]; the end rows keep it as they wear.
-    roller_radius : float
-        Radius of the mate [mm].
-    modulus : float
-        Contact modulus E* [MPa].
-    """
-
-    kind: Kind
-    arc_length: Vector
-    load_per_width: Vector
-    slip: Vector
-    sliding_speed: Vector
-    flank_curvature: Vector
-    roller_radius: float
-    modulus: float
+    kind: ContactKind  # TRAVELLING where slip is the ratio |v_s|/v_t, LOCAL where it is a path [mm]
+    arc_length: Vector  # increasing [mm]
+    load_per_width: Vector  # normal load [N/mm]
+    slip: Vector  # slip ratio or path [mm]
+    sliding_speed: Vector  # sliding speed [mm/s], nan where it is not given
+    flank_curvature: Vector  # of the unworn flank, convex positive [1/mm]; the end rows keep it as they wear
+    roller_radius: float  # radius of the mate [mm]
+    modulus: float  # contact modulus E* [MPa]
 
     @cached_property
-    def contact(self) -> Contact:
+    def contact(self) -> FlankContact:
         """The flank and its contact."""
         profile = flank_from_curvature(self.arc_length, self.flank_curvature)
         rows = [
@@ -72,7 +52,7 @@ class PrescribedMechanism:
             profile.normal_x,
             profile.normal_y,
         ]
-        return Contact(
+        return FlankContact(
             kind=self.kind,
             kernel=prescribed_contact,
             constants=np.array([1.0 / self.roller_radius]),
@@ -85,7 +65,7 @@ class PrescribedMechanism:
             offset_form=True,
         )
 
-    def other_grids(self) -> tuple[Contact, ...]:
+    def other_grids(self) -> tuple[FlankContact, ...]:
         """Return the flank on every second row and on every fourth."""
         half = self.contact.coarsened()
         return half, half.coarsened()

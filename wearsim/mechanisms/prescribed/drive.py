@@ -7,8 +7,8 @@ import numpy as np
 
 from wearsim.case.model import Case, Drive
 from wearsim.catalogue.catalogues import Chain
-from wearsim.contact.engagement import Kind, Mechanism
-from wearsim.geometry.profile import Vector
+from wearsim.contact.engagement import ContactKind, Mechanism
+from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import PrescribedTable
 
 
@@ -34,7 +34,7 @@ class PrescribedDrive(Drive):
         assert slip is not None
         speed = table.sliding_speed
         return PrescribedMechanism(
-            kind=Kind.TRAVELLING if table.slip_ratio is not None else Kind.LOCAL,
+            kind=ContactKind.TRAVELLING if table.slip_ratio is not None else ContactKind.LOCAL,
             arc_length=table.arc_length,
             load_per_width=table.load_per_width,
             slip=self.slip_fraction * slip,

@@ -3,9 +3,9 @@
 import math
 
 from wearsim.case.chain_case import read_chain_case
-from wearsim.case.duty_blocks import Duty, LoadBlock
-from wearsim.case.model import Block, Case, WearInput, heaviest
-from wearsim.case.shared import (
+from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block
+from wearsim.case.table_inputs import (
     FLANK_NODES,
     TOLERANCE,
     effective_pull,
@@ -15,17 +15,19 @@ from wearsim.case.shared import (
 )
 from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.mechanisms.strand.drive import StrandDrive
 
 
 def read(document: Document) -> Case:
     """Return the case of a sprocket on a straight strand."""
-    return read_chain_case(document, resolve_strand, TOLERANCE)
+    return read_chain_case(document, strand_drive, TOLERANCE)
 
 
-def resolve_strand(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None) -> StrandDrive | None:
+def strand_drive(
+    case: ChainRecord, wear: WearInput, chain: Chain, duty: GivenDuty | None
+) -> StrandDrive | None:
     """Complete a sprocket on a straight strand."""
     tables, faults = case.tables, case.faults
     if tables.sprocket is None:
@@ -51,18 +53,20 @@ def resolve_strand(case: Resolution, wear: WearInput, chain: Chain, duty: Duty |
     return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain, evolute)
 
 
-def _blocks(case: Resolution, duty: Duty, centrode: float, chain: Chain) -> tuple[Block, ...] | None:
+def _blocks(
+    case: ChainRecord, duty: GivenDuty, centrode: float, chain: Chain
+) -> tuple[LoadBlock, ...] | None:
     """Return the blocks of a duty with their pulls."""
 
-    def _block(load: LoadBlock) -> Block:
+    def _block(load: GivenLoad) -> LoadBlock:
         speed = 2.0 * math.pi * centrode * load.speed_rpm / 60.0
         pull = load.part * effective_pull(load, speed, centrode)
-        return Block(load.share, load.speed_rpm, pull, 0.0, load.wear_factor, load.joint_factor)
+        return LoadBlock(load.share, load.speed_rpm, pull, 0.0, load.wear_factor, load.joint_factor)
 
     blocks, rated = (tuple(map(_block, loads)) for loads in (duty.blocks, duty.rated))
-    pull, least = heaviest(blocks).tension, min(block.tension for block in blocks)
+    pull, least = heaviest_block(blocks).tension, min(block.tension for block in blocks)
     shown = f"{pull:.6g} N" if len(blocks) == 1 else f"{least:.4g} to {pull:.6g} N"
     case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
-    most = heaviest(rated)
-    key = duty.rated[rated.index(most)].key
-    return blocks if within_strength(case, most.tension, chain, key) else None
+    greatest = heaviest_block(rated)
+    key = duty.rated[rated.index(greatest)].key
+    return blocks if within_strength(case, greatest.tension, chain, key) else None

@@ -6,9 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.contact.engagement import Contact, Kind
+from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.geometry.forms.evolute import Strand
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.strand import strand_contact
 
@@ -24,7 +24,7 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     Parameters
     ----------
     x : numpy.ndarray
-        Distance of the roller centre before the pole line [mm].
+        Distance of the roller centre before the pitch line [mm].
     contact_end, contact_start : float
         x_min and x_max [mm].
     pitch : float
@@ -41,40 +41,21 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
 
 @dataclass(frozen=True, eq=False)
 class StrandMechanism:
-    """A flank driven past, or driving, the rollers of a straight strand.
+    """A flank driven past, or driving, the rollers of a straight strand."""
 
-    Attributes
-    ----------
-    strand : Strand
-        Sprocket and line of roller centres.
-    profile : Profile
-        The flank, root to tip.
-    contact_end, contact_start : float
-        Range of x that carries load [mm].
-    pitch : float
-        Chain pitch [mm].
-    pull_per_width : float
-        F_t / b [N/mm].
-    angular_speed : float
-        Of the sprocket [rad/s].
-    slip_fraction : float
-        Scales the sliding: 1 for a roller that does not turn.
-    modulus : float
-        Contact modulus E* [MPa].
-    """
-
-    strand: Strand
-    profile: Profile
+    strand: Strand  # sprocket and line of roller centres
+    profile: Profile  # the flank, root to tip
+    # contact_end, contact_start: range of x that carries load [mm]
     contact_end: float
     contact_start: float
-    pitch: float
-    pull_per_width: float
-    angular_speed: float
-    slip_fraction: float
-    modulus: float
+    pitch: float  # chain pitch [mm]
+    pull_per_width: float  # F_t / b [N/mm]
+    angular_speed: float  # of the sprocket [rad/s]
+    slip_fraction: float  # scales the sliding: 1 for a roller that does not turn
+    modulus: float  # contact modulus E* [MPa]
 
     @cached_property
-    def contact(self) -> Contact:
+    def contact(self) -> FlankContact:
         """The flank and its contact."""
         overlap = self.contact_start - self.contact_end - self.pitch
         constants = [
@@ -87,8 +68,8 @@ class StrandMechanism:
             self.slip_fraction,
             self.angular_speed,
         ]
-        return Contact(
-            kind=Kind.TRAVELLING,
+        return FlankContact(
+            kind=ContactKind.TRAVELLING,
             kernel=strand_contact,
             constants=np.array(constants),
             columns=np.zeros((1, 1)),
@@ -100,7 +81,7 @@ class StrandMechanism:
             offset_form=False,
         )
 
-    def other_grids(self) -> tuple[Contact, ...]:
+    def other_grids(self) -> tuple[FlankContact, ...]:
         """Return the flank on every second point, on every fourth, and on every second with fine ends.
 
         Where the load sets in and ends, lives converge with the first power of the spacing; in
@@ -144,8 +125,8 @@ class StrandMechanism:
         touching = inside > 0.0
         distance = -np.sqrt(inside[touching])
         turn = np.arctan2(self.strand.height, distance) - np.arctan2(centre_y[touching], centre_x[touching])
-        turned = float(turn.max() - turn.min()) % (2.0 * math.pi)
-        return turned * self.strand.centrode_radius / self.pitch
+        rotated = float(turn.max() - turn.min()) % (2.0 * math.pi)
+        return rotated * self.strand.centrode_radius / self.pitch
 
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Block, Case, Drive, heaviest
+from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.tooth import Tooth
-from wearsim.geometry.wheel import WheelShape
+from wearsim.geometry.wheel_outline import WheelShape
 
 _FINE = 2e-4
 """Deviation of the wheel's outline around a flank, as a part of the pitch."""
@@ -26,7 +26,7 @@ class StrandDrive(Drive):
     contact_end: float  # range of contact x_min, x_max [mm]
     contact_start: float
     face_width: float  # b [mm]
-    blocks: tuple[Block, ...]  # the duty
+    blocks: tuple[LoadBlock, ...]  # the duty
     slip_fraction: float  # sliding as a fraction of that of a roller that does not turn
     chain: Chain
     evolute: bool  # whether the flank is an evolute profile, so that its evolute is known exactly
@@ -34,14 +34,14 @@ class StrandDrive(Drive):
     has_tooth = True
 
     @property
-    def duty(self) -> tuple[Block, ...]:
+    def duty(self) -> tuple[LoadBlock, ...]:
         """Blocks of load."""
         return self.blocks
 
     @property
-    def heaviest(self) -> Block:
+    def heaviest(self) -> LoadBlock:
         """The block of the largest pull."""
-        return heaviest(self.blocks)
+        return heaviest_block(self.blocks)
 
     @property
     def pull(self) -> float:

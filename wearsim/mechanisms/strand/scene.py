@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim.geometry.blank import tooth_space
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import (
     Circle,
     Label,
@@ -18,7 +18,7 @@ from wearsim.geometry.scene import (
     straight_arrow,
     turn_arrow,
 )
-from wearsim.geometry.wheel import Space, WheelShape, worn_alike, worn_space
+from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_alike, worn_space
 from wearsim.quantities import grouped
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def strand_wheel(
     tooth = drive.tooth
     new = tooth_space(tooth)
     every = math.gcd(tooth.teeth, engaged_every)
-    worn: tuple[Space, ...] = ()
+    worn: tuple[ToothSpace, ...] = ()
     if last is not None:
         gone = worn_space(new, np.column_stack([last["x_mm"], last["y_mm"]]))
         worn = tuple(new if number % every else gone for number in range(tooth.teeth))

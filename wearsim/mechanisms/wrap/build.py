@@ -3,15 +3,15 @@
 import math
 
 from wearsim.case.chain_case import read_chain_case
-from wearsim.case.duty_blocks import Duty, LoadBlock
-from wearsim.case.model import Block, Case, WearInput, heaviest
-from wearsim.case.shared import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block
+from wearsim.case.table_inputs import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
-from wearsim.input.case_record import Resolution
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable, JointTable
 from wearsim.mechanisms.wrap.drive import JOINT_COEFFICIENT, JointInput, WrapDrive
@@ -32,10 +32,12 @@ TOLERANCE = 5e-2
 
 def read(document: Document) -> Case:
     """Return the case of a chain around a sprocket."""
-    return read_chain_case(document, resolve_wrap, TOLERANCE)
+    return read_chain_case(document, wrapped_drive, TOLERANCE)
 
 
-def resolve_wrap(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | None) -> WrapDrive | None:
+def wrapped_drive(
+    case: ChainRecord, wear: WearInput, chain: Chain, duty: GivenDuty | None
+) -> WrapDrive | None:
     """Complete a chain around a sprocket."""
     tables, faults = case.tables, case.faults
     table = tables.sprocket
@@ -76,7 +78,7 @@ def resolve_wrap(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | N
         pitch_angle=2.0 * math.pi * table.engaged_every / table.teeth,
         layout=layout,
         driver=driver,
-        wrap_angle=layout.wrap_1 if driver else layout.wrap_2,
+        wrap_angle=layout.wrap_angle_1 if driver else layout.wrap_angle_2,
         face_width=width,
         blocks=blocks,
         rated=rated,
@@ -89,14 +91,14 @@ def resolve_wrap(case: Resolution, wear: WearInput, chain: Chain, duty: Duty | N
         friction_roller_bush=frictions[1] or 0.0,
         joint=_joint(case, chain, layout),
         service_factor=_factor(case, "service", "smooth load", "power"),
-        exploitation_factor=_factor(
+        joint_application_factor=_factor(
             case, "joint_application", "steady, drip oil, one shift", "joint pressure"
         ),
         chain=chain,
     )
 
 
-def _factor(case: Resolution, name: str, why: str, what: str) -> float:
+def _factor(case: ChainRecord, name: str, why: str, what: str) -> float:
     key = f"{name}_factor"
     given: float | None = getattr(case.tables.drive or DriveTable(), key)
     effect = f"it changes the {what} in the ratings, not the wear"
@@ -107,7 +109,7 @@ def _factor(case: Resolution, name: str, why: str, what: str) -> float:
     return given
 
 
-def _check_chain(case: Resolution, chain: Chain) -> None:
+def _check_chain(case: ChainRecord, chain: Chain) -> None:
     for key, value in (
         ("pin_diameter_mm", chain.pin_diameter),
         ("bearing_area_mm2", chain.bearing_area),
@@ -118,7 +120,7 @@ def _check_chain(case: Resolution, chain: Chain) -> None:
             case.faults.add(f"chain.{key}", f"kind = 'wrap' needs this key{': ' if known else ''}{known}")
 
 
-def _layout(case: Resolution, chain: Chain, table: DriveTable) -> DriveLayout | None:
+def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout | None:
     sprocket = case.tables.sprocket
     assert sprocket is not None
     if sprocket.engaged_every > 1 and sprocket.teeth % sprocket.engaged_every:
@@ -161,14 +163,14 @@ def _layout(case: Resolution, chain: Chain, table: DriveTable) -> DriveLayout | 
     return layout
 
 
-def _alternating(case: Resolution) -> bool:
+def _alternating(case: ChainRecord) -> bool:
     joint = case.tables.joint or JointTable()
     return joint.pitch != "uniform"
 
 
 def _tensions(
-    case: Resolution, chain: Chain, layout: DriveLayout, duty: Duty
-) -> tuple[tuple[Block, ...], tuple[Block, ...], float] | None:
+    case: ChainRecord, chain: Chain, layout: DriveLayout, duty: GivenDuty
+) -> tuple[tuple[LoadBlock, ...], tuple[LoadBlock, ...], float] | None:
     """Return the blocks of the duty and the rated loads with their tensions, and the slack strand's."""
     slack = _slack(case, chain, layout, max(_pull(case, chain, load) for load in duty.rated))
     if slack is None:
@@ -180,9 +182,9 @@ def _tensions(
             key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
             _fault_slack(case, key, block.tension, slack)
             return None
-    most = heaviest(tuple(rated))
-    if most.tension <= slack:
-        _fault_slack(case, duty.rated[0].key, most.tension, slack)
+    most_rollers = heaviest_block(tuple(rated))
+    if most_rollers.tension <= slack:
+        _fault_slack(case, duty.rated[0].key, most_rollers.tension, slack)
         return None
     idle = math.fsum(block.share for block in found if block.tension == slack)
     if idle:
@@ -206,7 +208,7 @@ def _range(values: list[float], digits: int) -> str:
     return high if low == high else f"{low} to {high}"
 
 
-def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Block:
+def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> LoadBlock:
     """Return a load with its tensions; that of a log is at least the slack one."""
     pull = _pull(case, chain, load)
     whole = pull if load.kind == "tension_N" else pull + slack
@@ -214,28 +216,28 @@ def _block(case: Resolution, chain: Chain, load: LoadBlock, slack: float) -> Blo
     if load.measured:
         tight = max(tight, slack)
     centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
-    return Block(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor)
+    return LoadBlock(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor)
 
 
-def _fault_slack(case: Resolution, key: str, tight: float, slack: float) -> None:
+def _fault_slack(case: ChainRecord, key: str, tight: float, slack: float) -> None:
     case.faults.add(
         key, f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)"
     )
 
 
-def _speed(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+def _speed(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
     """Return the speed of the chain in a block [mm/s]."""
     table = case.tables.sprocket
     assert table is not None
     return chain.pitch * table.teeth * block.speed_rpm / (60.0 * table.engaged_every)
 
 
-def _pull(case: Resolution, chain: Chain, block: LoadBlock) -> float:
+def _pull(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
     speed = _speed(case, chain, block)
     return effective_pull(block, speed, 60.0 * speed / (2.0 * math.pi * block.speed_rpm))
 
 
-def _slack(case: Resolution, chain: Chain, layout: DriveLayout, pull: float) -> float | None:
+def _slack(case: ChainRecord, chain: Chain, layout: DriveLayout, pull: float) -> float | None:
     """Return the tension of the slack strand as given, or of its catenary."""
     table = case.tables.drive or DriveTable()
     if table.slack_tension_N is not None:
@@ -257,7 +259,7 @@ def _slack(case: Resolution, chain: Chain, layout: DriveLayout, pull: float) -> 
     return None
 
 
-def _link_stiffness(case: Resolution, chain: Chain) -> float:
+def _link_stiffness(case: ChainRecord, chain: Chain) -> float:
     given = (case.tables.drive or DriveTable()).link_stiffness_N_per_mm
     if given is not None:
         return given
@@ -267,7 +269,7 @@ def _link_stiffness(case: Resolution, chain: Chain) -> float:
     return stiffness
 
 
-def _bush_diameter(case: Resolution, chain: Chain) -> float:
+def _bush_diameter(case: ChainRecord, chain: Chain) -> float:
     given = case.tables.chain.bush_diameter_mm
     if given is not None:
         return given
@@ -276,7 +278,7 @@ def _bush_diameter(case: Resolution, chain: Chain) -> float:
     return mean
 
 
-def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
+def _joint(case: ChainRecord, chain: Chain, layout: DriveLayout) -> JointInput:
     table = case.tables.joint or JointTable()
     if table.pitch is None:
         case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
@@ -293,7 +295,7 @@ def _joint(case: Resolution, chain: Chain, layout: DriveLayout) -> JointInput:
     )
 
 
-def _joint_rate(case: Resolution, given: float | None) -> float:
+def _joint_rate(case: ChainRecord, given: float | None) -> float:
     """Return the wear rate of the joints: the user's, or that of the state that the teeth are in."""
     name = case.tables.wear.condition
     state = wear_conditions()[name or WELL_LUBRICATED]
@@ -306,11 +308,11 @@ def _joint_rate(case: Resolution, given: float | None) -> float:
         )
         return state.joint_typical
     if name is not None:
-        _doubt_joint_rate(case, state, given)
+        _warn_of_joint_rate(case, state, given)
     return given
 
 
-def _doubt_joint_rate(case: Resolution, state: WearCondition, given: float) -> None:
+def _warn_of_joint_rate(case: ChainRecord, state: WearCondition, given: float) -> None:
     """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
     alike = [row for row in wear_conditions().values() if row.lubricated == state.lubricated]
     low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)

@@ -4,23 +4,25 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from wearsim.chain.drive_layout import DriveLayout, Meetings, polygon_effect
-from wearsim.chain.selection import RULES, Finding, RatedDrive, assess, elongation_limit
+from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
+from wearsim.chain.selection import RULES, RatedDrive, RatingFinding, assess, elongation_limit
 
 RatedLoad = tuple[str, RatedDrive]
 """A load in words, empty where it is the only one, and what the ratings need to know under it."""
 
 
-def findings_by_load(loads: Sequence[RatedLoad], service: float, exploitation: float) -> list[list[Finding]]:
+def findings_by_load(
+    loads: Sequence[RatedLoad], service: float, exploitation: float
+) -> list[list[RatingFinding]]:
     """Return what the handbooks say about each load."""
     return [
         [replace(finding, load=of) for finding in assess(rated, service, exploitation)] for of, rated in loads
     ]
 
 
-def worst_findings(by_load: Sequence[Sequence[Finding]]) -> tuple[Finding, ...]:
+def worst_findings(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[RatingFinding, ...]:
     """Return of every rule the finding that uses most of its limit."""
-    worst: dict[str, Finding] = {}
+    worst: dict[str, RatingFinding] = {}
     for findings in by_load:
         for finding in findings:
             before = worst.get(finding.name)
@@ -29,18 +31,18 @@ def worst_findings(by_load: Sequence[Sequence[Finding]]) -> tuple[Finding, ...]:
     return tuple(worst.values())
 
 
-def rules_without_limit(by_load: Sequence[Sequence[Finding]]) -> tuple[str, ...]:
+def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str, ...]:
     """Return the rules that say nothing about some load: a number or a row is missing."""
     found = [{finding.name for finding in findings} for findings in by_load]
     return tuple(name for name in RULES if not all(name in names for names in found))
 
 
-def elongation_finding(layout: DriveLayout, limit: float) -> Finding:
+def elongation_finding(layout: DriveLayout, limit: float) -> RatingFinding:
     """Return how the elongation at which a chain is replaced stands to the rule for it."""
     allowed = elongation_limit(max(layout.teeth_1, layout.teeth_2))
     # Both to the four digits of the limit that a case takes by default.
     value, allowed = (float(f"{100.0 * part:.4g}") for part in (limit, allowed))
-    return Finding(
+    return RatingFinding(
         "elongation at the end", value, allowed, "%", "3 %, 200 % over the teeth of the larger sprocket"
     )
 
@@ -52,8 +54,8 @@ def drive_notes(layout: DriveLayout, rated: RatedDrive, silent: Sequence[str], m
     return [
         f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
         f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
-        f"{math.degrees(layout.wrap_1):.1f} degrees on the driver and "
-        f"{math.degrees(layout.wrap_2):.1f} on the driven sprocket",
+        f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
+        f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket",
         f"{rated.power:.4g} kW at {speed:.4g} m/s: pull {rated.pull:.5g} N; small sprocket "
         f"{rated.teeth:g} teeth at {rated.speed:.5g} rpm, ratio "
         f"{max(layout.teeth_1, layout.teeth_2) / small:.4g}",
@@ -66,7 +68,7 @@ def drive_notes(layout: DriveLayout, rated: RatedDrive, silent: Sequence[str], m
 
 def meetings_note(loaded: int, links: int, alternating: bool) -> str:
     """Return which rollers meet which of the loaded teeth."""
-    meetings = Meetings(loaded, links)
+    meetings = ToothMeetings(loaded, links)
     if meetings.hunts:
         return "every tooth meets every roller: teeth and rollers wear evenly"
     text = (

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
 from wearsim.errors import ConvergenceError, JumpError
-from wearsim.geometry.profile import Profile
+from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_ROWS, EVENT_SLIP
 from wearsim.kernels.wrap_cycle import (
@@ -33,85 +33,41 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(frozen=True)
-class Sliding:
-    """How far rollers slide on the teeth.
+class RollerSliding:
+    """How far rollers slide on the teeth."""
 
-    Attributes
-    ----------
-    fraction : float
-        xi: of the articulation of a roller that does not turn.
-    path_fraction : float
-        Of the way along the flank: xi where the roller rolls up it, 1 where it slides.
-    """
-
-    fraction: float
-    path_fraction: float
+    fraction: float  # xi: of the articulation of a roller that does not turn
+    path_fraction: float  # of the way along the flank: xi where the roller rolls up it, 1 where it slides
 
 
 @dataclass(frozen=True, eq=False)
 class WrapBlock:
-    """A part of the duty of a wrap, in which tensions and speed are constant.
+    """A part of the duty of a wrap, in which tensions and speed are constant."""
 
-    Attributes
-    ----------
-    share : float
-        Of the cycles; those of all blocks sum to 1.
-    mechanism : WrapMechanism
-        Rollers and chain under the tensions of this block.
-    pitch_time : float
-        Time in which the chain advances by one pitch [s].
-    wear_factor : float
-        On the wear coefficient.
-    """
-
-    share: float
-    mechanism: WrapMechanism
-    pitch_time: float
-    wear_factor: float
+    share: float  # of the cycles; those of all blocks sum to 1
+    mechanism: WrapMechanism  # rollers and chain under the tensions of this block
+    pitch_time: float  # time in which the chain advances by one pitch [s]
+    wear_factor: float  # on the wear coefficient
 
 
 @dataclass(frozen=True, eq=False)
-class WrapContact(Dwelling):
-    """Contact events of a wrap over one revolution, for the wear engine.
+class WrapContact(RestingContact):
+    """Contact events of a wrap over one revolution, for the wear engine."""
 
-    Attributes
-    ----------
-    blocks : tuple of WrapBlock
-        The duty; they differ in their tensions and speeds only.
-    face_width : float
-        b [mm].
-    phases : int
-        Phases of one pitch.
-    sliding : Sliding
-        How far rollers slide.
-    modulus : float
-        Contact modulus E* [MPa].
-    same_link_kind : bool
-        Whether a tooth meets only inner or only outer links for life.
-    elongation_per_cycle : float
-        Growth of the chain in a revolution of the sprocket, the mean over the blocks.
-    elongation_limit : float
-        Relative elongation at which a new chain is put on.
-    roller_area_ratio : float
-        Area of its section that a roller loses over that a gap would lose to it; 0 where
-        rollers do not wear.
-    slack_limit : float
-        Least slack tension at which the life ends once it is needed [N]; 0 for no such limit.
-    thin : bool
-        Whether each step of the wear takes other phases.
-    """
-
-    blocks: tuple[WrapBlock, ...]
-    face_width: float
-    phases: int
-    sliding: Sliding
-    modulus: float
-    same_link_kind: bool
+    blocks: tuple[WrapBlock, ...]  # the duty; they differ in their tensions and speeds only
+    face_width: float  # b [mm]
+    phases: int  # phases of one pitch
+    sliding: RollerSliding  # how far rollers slide
+    modulus: float  # contact modulus E* [MPa]
+    same_link_kind: bool  # whether a tooth meets only inner or only outer links for life
+    # growth of the chain in a revolution of the sprocket, the mean over the blocks
     elongation_per_cycle: float
-    elongation_limit: float
+    elongation_limit: float  # relative elongation at which a new chain is put on
+    # area of its section that a roller loses over that a gap would lose to it; 0 where rollers do not wear
     roller_area_ratio: float = 0.0
+    # least slack tension at which the life ends once it is needed [N]; 0 for no such limit
     slack_limit: float = 0.0
-    thin: bool = False
+    thin: bool = False  # whether each step of the wear takes other phases
 
     @property
     def mechanism(self) -> WrapMechanism:
@@ -119,7 +75,7 @@ class WrapContact(Dwelling):
         return self.blocks[0].mechanism
 
     @property
-    def gripping(self) -> WrapMechanism:
+    def heaviest_rollers(self) -> WrapMechanism:
         """Rollers and chain in the block of the largest tension, in which the chain jumps first."""
         return max((block.mechanism for block in self.blocks), key=lambda of: of.pull.tight)
 
@@ -149,7 +105,7 @@ class WrapContact(Dwelling):
         return self.mechanism.chain.bush_radius
 
     @property
-    def most(self) -> int:
+    def most_rollers(self) -> int:
         """Most rollers in the wrap at once."""
         return self.mechanism.rollers(0.0)
 
@@ -178,7 +134,7 @@ class WrapContact(Dwelling):
         )
         return replace(self, blocks=blocks)
 
-    def thinned(self) -> "WrapContact":
+    def with_fewer_phases(self) -> "WrapContact":
         """Return the same contact with a quarter of the phases, others for each step of the wear."""
         return replace(self, phases=max(min(self.phases, 2), self.phases // 4), thin=True)
 
@@ -189,7 +145,7 @@ class WrapContact(Dwelling):
     def memory(self) -> Rows:
         """Return the places where no roller has been found yet."""
         configurations = 2 if self.mechanism.chain.alternating else 1
-        return np.full((len(self.blocks), configurations, self.phases, self.most), -1.0)
+        return np.full((len(self.blocks), configurations, self.phases, self.most_rollers), -1.0)
 
     def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
         """Return what worn gaps meet in one revolution.
@@ -237,7 +193,7 @@ class WrapContact(Dwelling):
         """Tell whether worn gaps hold the chain with the least slack tension allowed."""
         if not self.slack_limit:
             return True
-        mechanism = self.gripping.with_slack(self.slack_limit)
+        mechanism = self.heaviest_rollers.with_slack(self.slack_limit)
         return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
 
     def _block_events(
@@ -248,7 +204,7 @@ class WrapContact(Dwelling):
         table = np.zeros((EVENT_ROWS, memory.size))
         if not mechanism.pull.tight > 0.0:
             return table
-        configurations, _, most = memory.shape
+        configurations, _, most_rollers = memory.shape
         positions = np.where(memory < 0.0, -1.0, self._by_body(memory, [path.node_of for path in worn]))
         loci = np.array([path.locus for path in worn])
         numbers = np.zeros(CYCLE_NUMBERS)
@@ -266,15 +222,15 @@ class WrapContact(Dwelling):
             np.array([path.touched for path in worn]),
             configurations,
             self.phases,
-            most,
+            most_rollers,
             block.share * block.wear_factor * self.bodies / configurations,
             mechanism.constants(wear.elongation),
             numbers,
             positions,
-            np.zeros((WORK_ROWS, most)),
-            np.zeros((WORK_ROWS, most)),
-            np.zeros(most + 1),
-            np.zeros(most),
+            np.zeros((WORK_ROWS, most_rollers)),
+            np.zeros((WORK_ROWS, most_rollers)),
+            np.zeros(most_rollers + 1),
+            np.zeros(most_rollers),
             table,
         )
         if status == JUMPED:

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.case.model import Block, Case, Drive, heaviest
+from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
 from wearsim.catalogue.catalogues import Chain
-from wearsim.chain.drive_layout import DriveLayout, Meetings
-from wearsim.chain.selection import Finding, RatedDrive
-from wearsim.contact.criteria import Criterion, rising
+from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
+from wearsim.chain.selection import RatedDrive, RatingFinding
+from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
 from wearsim.geometry.gap import Gap
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, roller_path
 from wearsim.geometry.scene import Scene, Stroke
-from wearsim.geometry.wheel import WheelShape
+from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
 from wearsim.mechanisms.wrap.chain_rating import (
     drive_notes,
@@ -63,8 +63,8 @@ class WrapDrive(Drive):
     driver: bool  # whether the worn sprocket drives the chain; it is number 1 of the layout then
     wrap_angle: float  # of the worn sprocket [rad]
     face_width: float  # b [mm]
-    blocks: tuple[Block, ...]  # the duty
-    rated: tuple[Block, ...]  # loads that strength, ratings and the grip of the chain are judged by
+    blocks: tuple[LoadBlock, ...]  # the duty
+    rated: tuple[LoadBlock, ...]  # loads that strength, ratings and the grip of the chain are judged by
     slack: float  # tension of the slack strand without the centrifugal part [N]
     link_stiffness: float  # of one link [N/mm]
     bush_radius: float  # outer radius of the bush [mm]
@@ -74,7 +74,7 @@ class WrapDrive(Drive):
     friction_roller_bush: float
     joint: JointInput
     service_factor: float  # f1 on the power in the ratings
-    exploitation_factor: float  # K_e on the joint pressure in the ratings
+    joint_application_factor: float  # K_e on the joint pressure in the ratings
     chain: Chain
 
     rests = True
@@ -82,7 +82,7 @@ class WrapDrive(Drive):
     from_root = False
 
     @property
-    def duty(self) -> tuple[Block, ...]:
+    def duty(self) -> tuple[LoadBlock, ...]:
         """Blocks of load."""
         return self.blocks
 
@@ -92,9 +92,9 @@ class WrapDrive(Drive):
         return {JOINT_COEFFICIENT: self.joint.coefficient}
 
     @property
-    def heaviest(self) -> Block:
+    def heaviest(self) -> LoadBlock:
         """The rated load of the largest tension."""
-        return heaviest(self.rated)
+        return heaviest_block(self.rated)
 
     @property
     def profile(self) -> Profile:
@@ -177,7 +177,7 @@ class WrapDrive(Drive):
     def rollers(self) -> "WrapMechanism":
         """The rollers of the chain on the gaps that they wrap, without what wears them."""
         # Kernels compile where they are imported for the first time: each drive imports its own.
-        from wearsim.mechanisms.wrap.equilibrium import Pull, WrapChain, WrapMechanism
+        from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
         radius = 0.5 * self.chain.roller_diameter
         return WrapMechanism(
@@ -192,7 +192,7 @@ class WrapDrive(Drive):
                 link_stiffness=self.link_stiffness,
                 alternating=self.joint.alternating,
             ),
-            pull=Pull(
+            pull=StrandTensions(
                 tight=self.heaviest.tension,
                 slack=self.slack,
                 driver=self.driver,
@@ -203,7 +203,7 @@ class WrapDrive(Drive):
 
     def contact(self, case: Case) -> "WrapContact":
         """Return the contact events of the chain around the sprocket."""
-        from wearsim.mechanisms.wrap.contact import Sliding, WrapBlock, WrapContact
+        from wearsim.mechanisms.wrap.contact import RollerSliding, WrapBlock, WrapContact
 
         pull, chain = self.rollers.pull, self.rollers.chain
         rolls = (
@@ -239,9 +239,11 @@ class WrapDrive(Drive):
             blocks=blocks,
             face_width=self.face_width,
             phases=self.phases,
-            sliding=Sliding(fraction=self.slip_fraction, path_fraction=self.slip_fraction if rolls else 1.0),
+            sliding=RollerSliding(
+                fraction=self.slip_fraction, path_fraction=self.slip_fraction if rolls else 1.0
+            ),
             modulus=case.modulus,
-            same_link_kind=Meetings(engaged, layout.links).same_link_kind,
+            same_link_kind=ToothMeetings(engaged, layout.links).same_link_kind,
             elongation_per_cycle=per_loop * engaged / layout.links,
             elongation_limit=joint.elongation_limit,
             # Another sprocket wears the rollers too, by the same way over its own articulation.
@@ -249,7 +251,7 @@ class WrapDrive(Drive):
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
         )
 
-    def gap_limits(self, case: Case, path: RollerPath) -> tuple[Criterion, ...]:
+    def gap_limits(self, case: Case, path: RollerPath) -> tuple[StopLimit, ...]:
         """Return the limits of a worn gap whose roller takes a path, the critical depth first."""
         found, limit = self.tooth_limits(case), case.more_limits.get("over_pins_change_mm")
         if limit is None:
@@ -284,7 +286,7 @@ class WrapDrive(Drive):
             f"slack tension of {self.slack:.4g} N the chain jumps: {remedy}"
         )
 
-    def rated_drive(self, case: Case, load: Block) -> RatedDrive:
+    def rated_drive(self, case: Case, load: LoadBlock) -> RatedDrive:
         """Return what the ratings need to know under a load: of the smaller sprocket.
 
         Its teeth and speed follow from the chain's speed where the case is about the larger one.
@@ -323,16 +325,16 @@ class WrapDrive(Drive):
             light=chain.designation == LIGHT_CHAIN,
         )
 
-    def _findings(self, case: Case) -> list[list[Finding]]:
+    def _findings(self, case: Case) -> list[list[RatingFinding]]:
         """What the handbooks say about every rated load that pulls, each named where there are several."""
         loads = []
         for load in self.rated:
             if load.tension > self.slack:
                 of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(self.rated) > 1 else ""
                 loads.append((of, self.rated_drive(case, load)))
-        return findings_by_load(loads, self.service_factor, self.exploitation_factor)
+        return findings_by_load(loads, self.service_factor, self.joint_application_factor)
 
-    def ratings(self, case: Case) -> tuple[Finding, ...]:
+    def ratings(self, case: Case) -> tuple[RatingFinding, ...]:
         """Return what the handbooks say about the drive."""
         limit = elongation_finding(self.layout, self.joint.elongation_limit)
         return (*worst_findings(self._findings(case)), limit)

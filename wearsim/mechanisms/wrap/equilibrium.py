@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.errors import ContactError
-from wearsim.geometry.profile import Profile, Vector
+from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, WornPath
 from wearsim.kernels.wrap_cycle import LOOSEST
 from wearsim.kernels.wrap_equilibrium import (
@@ -41,26 +41,13 @@ _TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class WrapChain:
-    """What the wrap needs to know of the chain.
+    """What the wrap needs to know of the chain."""
 
-    Attributes
-    ----------
-    pitch : float
-        p of the new chain [mm].
-    roller_radius : float
-        d1/2 [mm].
-    bush_radius : float
-        Outer radius of the bush that the roller turns on [mm].
-    link_stiffness : float
-        Force over lengthening of one link [N/mm].
-    alternating : bool
-        Joint wear lengthens every other link by twice as much, as it does; else every link alike.
-    """
-
-    pitch: float
-    roller_radius: float
-    bush_radius: float
-    link_stiffness: float
+    pitch: float  # p of the new chain [mm]
+    roller_radius: float  # d1/2 [mm]
+    bush_radius: float  # outer radius of the bush that the roller turns on [mm]
+    link_stiffness: float  # force over lengthening of one link [N/mm]
+    # joint wear lengthens every other link by twice as much, as it does; else every link alike
     alternating: bool
 
     def pitches(self, elongation: float) -> tuple[float, float]:
@@ -85,22 +72,14 @@ class WrapChain:
 
 
 @dataclass(frozen=True)
-class Pull:
-    """Tensions of the two strands and the friction of the rollers.
+class StrandTensions:
+    """Tensions of the two strands and the friction of the rollers."""
 
-    Attributes
-    ----------
-    tight, slack : float
-        Tension without the centrifugal part [N].
-    driver : bool
-        Whether the sprocket drives the chain.
-    friction_roller_tooth, friction_roller_bush : float
-        Coefficients of friction.
-    """
-
+    # tight, slack: tension without the centrifugal part [N]
     tight: float
     slack: float
-    driver: bool
+    driver: bool  # whether the sprocket drives the chain
+    # friction_roller_tooth, friction_roller_bush: coefficients of friction
     friction_roller_tooth: float
     friction_roller_bush: float
 
@@ -151,29 +130,14 @@ class WrapMechanism:
 
     Elastic links between rollers that sit on the roller path of their gap; of all places
     the rollers take those of least potential energy, physics.md (W3). Teeth are rigid.
-
-    Attributes
-    ----------
-    outline : Profile
-        Unworn gap from its right tip through the seat to its left tip (the tight side).
-    path : RollerPath
-        Its line of roller centres.
-    pitch_angle : float
-        Angle between successive rollers, 2 pi/z [rad].
-    wrap_angle : float
-        Between the points where the straight strands touch the pitch circle [rad].
-    chain : WrapChain
-        The chain.
-    pull : Pull
-        Tensions and friction.
     """
 
-    outline: Profile
-    path: RollerPath
-    pitch_angle: float
-    wrap_angle: float
-    chain: WrapChain
-    pull: Pull
+    outline: Profile  # unworn gap from its right tip through the seat to its left tip (the tight side)
+    path: RollerPath  # its line of roller centres
+    pitch_angle: float  # angle between successive rollers, 2 pi/z [rad]
+    wrap_angle: float  # between the points where the straight strands touch the pitch circle [rad]
+    chain: WrapChain  # the chain
+    pull: StrandTensions  # tensions and friction
 
     @property
     def pitch_radius(self) -> float:

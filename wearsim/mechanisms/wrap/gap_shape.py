@@ -15,8 +15,8 @@ from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import ON_CENTRE_LINE, evolute_gap, gap_from_points, lowest_centre
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
-from wearsim.geometry.profile import Profile, Vector
-from wearsim.input.case_record import Resolution
+from wearsim.geometry.profile_points import Profile, Vector
+from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
 from wearsim.input.schema.drive_tables import BETWEEN_FORMS
@@ -54,7 +54,7 @@ class GapShape:
     gap: Gap | None  # the exact arcs
 
 
-def gap_shape(case: Resolution, table: SprocketTable, chain: Chain) -> GapShape | None:
+def gap_shape(case: ChainRecord, table: SprocketTable, chain: Chain) -> GapShape | None:
     """Return the gap of a sprocket."""
     nodes = table.nodes or OUTLINE_NODES
     if table.nodes is None:
@@ -65,14 +65,14 @@ def gap_shape(case: Resolution, table: SprocketTable, chain: Chain) -> GapShape 
         return _drawn(case, table, chain, nodes)
     _check_series(case, table, chain)
     try:
-        gap = _standard(case, table, chain)
+        gap = _standard_gap(case, table, chain)
         return GapShape(gap.outline(nodes), gap)
     except GeometryError as error:
         case.faults.add("sprocket.teeth", str(error))
         return None
 
 
-def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
+def _standard_gap(case: ChainRecord, table: SprocketTable, chain: Chain) -> Gap:
     seat = table.seat_centre
     if seat is None:
         seat = "pitch_circle"
@@ -101,16 +101,16 @@ def _standard(case: Resolution, table: SprocketTable, chain: Chain) -> Gap:
     return gap
 
 
-def _iso606_form(case: Resolution, table: SprocketTable, chain: Chain) -> Literal["min", "max"] | GapForm:
+def _iso606_form(case: ChainRecord, table: SprocketTable, chain: Chain) -> Literal["min", "max"] | GapForm:
     """Form of the gap: one of the two of ISO 606, or by what is given between them."""
     given = {key: getattr(table, key) for key in BETWEEN_FORMS}
     if all(value is None for value in given.values()):
         if table.form is None:
             case.take("sprocket.form", "min", "default")
         return table.form or "min"
-    least, most = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
+    least, most_rollers = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
     for key, value in given.items():
-        low, high = sorted((least[key], most[key]))
+        low, high = sorted((least[key], most_rollers[key]))
         if value is None:
             case.take(f"sprocket.{key}", least[key], "minimum form of ISO 606")
         elif not low * (1.0 - _ROUNDED) <= value <= high * (1.0 + _ROUNDED):
@@ -134,7 +134,7 @@ def _pitch_radius(table: SprocketTable, chain: Chain) -> float:
     return 0.5 * chain.pitch / math.sin(math.pi * table.engaged_every / table.teeth)
 
 
-def _check_series(case: Resolution, table: SprocketTable, chain: Chain) -> None:
+def _check_series(case: ChainRecord, table: SprocketTable, chain: Chain) -> None:
     """Add a fault where the standard's sprockets of this pitch take other rollers."""
     if not chain.designation:
         return
@@ -157,7 +157,7 @@ def _check_series(case: Resolution, table: SprocketTable, chain: Chain) -> None:
     )
 
 
-def _evolute(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
+def _evolute(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
     centrode = chain.pitch * table.teeth / (2.0 * math.pi * table.engaged_every)
     found = evolute_tooth(case, table, chain, centrode, nodes)
     if found is None:
@@ -173,7 +173,7 @@ def _evolute(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -
         return None
 
 
-def _drawn(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
+def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) -> GapShape | None:
     """Return a gap from a table of points or from a drawing."""
     key = "sprocket.points_file" if table.points_file else "sprocket.dxf_file"
     noise = table.points_noise_mm
@@ -201,7 +201,7 @@ def _drawn(case: Resolution, table: SprocketTable, chain: Chain, nodes: int) -> 
     return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
 
 
-def _points(case: Resolution, key: str, name: str, table: SprocketTable) -> tuple[Vector, Vector] | None:
+def _points(case: ChainRecord, key: str, name: str, table: SprocketTable) -> tuple[Vector, Vector] | None:
     """Coordinates from the file, None where there was a fault."""
     path = case.path(key, name)
     if table.points_file:
@@ -216,7 +216,7 @@ def _points(case: Resolution, key: str, name: str, table: SprocketTable) -> tupl
 
 
 def _has_right_size(
-    case: Resolution, key: str, points: tuple[Vector, Vector], table: SprocketTable, chain: Chain
+    case: ChainRecord, key: str, points: tuple[Vector, Vector], table: SprocketTable, chain: Chain
 ) -> bool:
     """Whether the bottom lies less than a pitch inside the pitch circle, else a fault."""
     radius, bottom = _pitch_radius(table, chain), float(np.hypot(*points).min())
@@ -231,7 +231,7 @@ def _has_right_size(
     return False
 
 
-def _seats_roller(case: Resolution, key: str, outline: Profile, table: SprocketTable, chain: Chain) -> bool:
+def _seats_roller(case: ChainRecord, key: str, outline: Profile, table: SprocketTable, chain: Chain) -> bool:
     """Whether a roller seats about as on new sprockets of these teeth, else a fault.
 
     Standard forms seat it on the pitch circle or below, the lowest of them ISO 606's maximum

@@ -9,9 +9,9 @@ import numpy as np
 
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.geometry.blank import gap_space
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle, Label, Scene, Stroke, around, letter_height, line, turn_arrow
-from wearsim.geometry.wheel import Space, WheelShape, worn_alike, worn_gap
+from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_alike, worn_gap
 from wearsim.quantities import grouped
 
 if TYPE_CHECKING:
@@ -27,24 +27,24 @@ def wrap_wheel(
         notes = [f"{drive.gap.form}: arcs and lines of the standard, exactly"]
     else:
         notes = ["the gap as the case gives it, by points; tips are arcs about the axis"]
-    worn: tuple[Space, ...] = ()
-    most_worn = 0
+    worn: tuple[ToothSpace, ...] = ()
+    worn_most = 0
     if last is not None:
         kinds = _worn_kinds(new, last)
         places = _kind_of_gaps(drive.gaps, engaged_every, len(kinds))
         worn = tuple(new if kind is None else kinds[kind] for kind in places)
-        most_worn = places.index(int(last["gap_kind"][int(last["depth_mm"].argmax())]) - 1)
+        worn_most = places.index(int(last["gap_kind"][int(last["depth_mm"].argmax())]) - 1)
         if len(kinds) > 1:
             notes.append("gaps that meet inner links and gaps that meet outer ones in turn")
         else:
             notes.append(worn_alike(math.gcd(drive.gaps, engaged_every)))
     radius = 0.5 * drive.layout.pitch / math.sin(0.5 * drive.pitch_angle)
     return WheelShape(
-        "sprocket", (new,) * drive.gaps, worn, radius, drive.face_width, tuple(notes), most_worn=most_worn
+        "sprocket", (new,) * drive.gaps, worn, radius, drive.face_width, tuple(notes), worn_most=worn_most
     )
 
 
-def _worn_kinds(new: Space, last: Mapping[str, Vector]) -> list[Space]:
+def _worn_kinds(new: ToothSpace, last: Mapping[str, Vector]) -> list[ToothSpace]:
     points = np.column_stack([last["x_mm"], last["y_mm"]])
     kinds = last["gap_kind"]
     return [worn_gap(new, points[kinds == kind]) for kind in np.unique(kinds)]
@@ -148,9 +148,9 @@ def roller_places(layout: DriveLayout) -> Vector:
     )
     return np.concatenate(
         [
-            _on_circle(*driver, upper + way[part == 0] * layout.wrap_1),
+            _on_circle(*driver, upper + way[part == 0] * layout.wrap_angle_1),
             _between(driver, driven, -upper, way[part == 1]),
-            _on_circle(*driven, -upper + way[part == 2] * layout.wrap_2),
+            _on_circle(*driven, -upper + way[part == 2] * layout.wrap_angle_2),
             _between(driven, driver, upper, way[part == 3]),
         ]
     )

@@ -41,7 +41,7 @@ def _axis(name: str, panel: int) -> str:
 
 
 @dataclass(frozen=True)
-class Values:
+class ValueTable:
     """Some values of a chart, to be read without it."""
 
     head: tuple[str, ...]  # heads of the columns with their units
@@ -56,7 +56,7 @@ class Chart:
     title: str  # what it is, and what there is to see
     alt: str  # what it is, and what there is to see
     figure: Drawing  # the chart; the colour of a trace follows from `meta["role"]`
-    values: Values  # some of its values
+    values: ValueTable  # some of its values
     tall: int = 1  # panels above each other
     still: str = ""  # stem of the picture that stands for it on paper; empty where the values do
     # what a slider does to it; empty where there is none
@@ -102,8 +102,8 @@ def curve(
     plain = html.escape(name, quote=False)
     return {
         "type": "scatter",
-        "x": listed(x),
-        "y": listed(y),
+        "x": json_numbers(x),
+        "y": json_numbers(y),
         "mode": "lines",
         "name": plain,
         "line": {"dash": dash, "width": 2},
@@ -112,10 +112,10 @@ def curve(
     }
 
 
-def silent(trace: Trace, width: float) -> Trace:
+def without_hover(trace: Trace, width: float) -> Trace:
     """Return a line that tells nothing where the pointer is over it."""
-    told = {name: value for name, value in trace.items() if name != "hovertemplate"}
-    return {**told, "hoverinfo": "skip", "line": {**trace["line"], "width": width}}
+    hover = {name: value for name, value in trace.items() if name != "hovertemplate"}
+    return {**hover, "hoverinfo": "skip", "line": {**trace["line"], "width": width}}
 
 
 def series(number: int) -> str:
@@ -129,18 +129,18 @@ def series(number: int) -> str:
     return f"series-{(number - 1) % 6 + 1}"
 
 
-def rounded(value: float) -> float:
+def rounded_numbers(value: float) -> float:
     """Return a number to five digits, which is what a picture can show.
 
     Examples
     --------
-    >>> rounded(1234.567)
+    >>> rounded_numbers(1234.567)
     1234.6
     """
     return float(f"{value:.{_DIGITS}g}")
 
 
-def listed(values: ArrayLike) -> list[float | None]:
+def json_numbers(values: ArrayLike) -> list[float | None]:
     """Return numbers to five digits as a list, None for what is not finite."""
     array = np.asarray(values, dtype=float)
-    return [rounded(value) if np.isfinite(value) else None for value in array.tolist()]
+    return [rounded_numbers(value) if np.isfinite(value) else None for value in array.tolist()]

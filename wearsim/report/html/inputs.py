@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.case.origin import InputRow, input_rows
-from wearsim.catalogue.catalogues import rows
+from wearsim.case.input_origins import InputRow, input_rows
+from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.result import WearResult
 
 
@@ -23,7 +23,7 @@ class Input:
 def input_table(result: WearResult) -> list[Input]:
     """Return every key of a case with the source of its value."""
     return [
-        Input(row.key, _shown(row.value), row.unit, row.meaning, _told(row))
+        Input(row.key, _shown(row.value), row.unit, row.meaning, _note(row))
         for row in input_rows(result.inputs, result.assumptions)
     ]
 
@@ -42,14 +42,14 @@ def catalogue_sources(result: WearResult) -> list[tuple[str, str]]:
     names = {row.value for key, row in inputs.items() if re.fullmatch(r"material\.\w+\.name", key)}
     found += [
         (f"material {row['name']}", row["source"])
-        for row in rows("materials")
+        for row in catalogue_rows("materials")
         if row["name"] in reasons | names
     ]
     found += [(f"file {name}", "read by the case, kept with the run") for name in result.input_files]
     return found
 
 
-def _told(row: InputRow) -> str:
+def _note(row: InputRow) -> str:
     if row.origin == "taken":
         reason = _reason(row)
         return f"default: {reason}" if reason else "default"

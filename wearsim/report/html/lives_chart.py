@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours, limit_text
-from wearsim.report.html.charts import Chart, Values, panels, rounded, series
+from wearsim.report.html.charts import Chart, ValueTable, panels, rounded_numbers, series
 from wearsim.result import Life, WearResult
 
 
@@ -18,7 +18,7 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         reached = isinstance(result.life, Life)
         mark = {
             "type": "scatter",
-            "x": [rounded(life)],
+            "x": [rounded_numbers(life)],
             "y": [html.escape(label, quote=False)],
             "mode": "markers" if reached else "markers+text",
             "text": ["" if reached else html.escape(hours(result.life))],
@@ -27,8 +27,8 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
             "showlegend": False,
             "marker": {"size": 12, "symbol": "circle" if reached else "triangle-right-open"},
             "error_x": {
-                "array": [rounded(max(high - life, 0.0))],
-                "arrayminus": [rounded(max(life - low, 0.0))],
+                "array": [rounded_numbers(max(high - life, 0.0))],
+                "arrayminus": [rounded_numbers(max(life - low, 0.0))],
             },
             "meta": {"role": series(number)},
             "hovertemplate": f"{hours(result.life)}, {limit_text(result.stop, result.stop_value)}<br>"
@@ -47,7 +47,7 @@ def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         alt="A dot for the life of each drive with the band of its wear coefficient; an open arrow where "
         "no limit was reached. The table above holds the values.",
         figure=figure,
-        values=Values((), ()),
+        values=ValueTable((), ()),
     )
 
 

@@ -20,8 +20,8 @@ from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
-from wearsim.report.lines import told_apart
 from wearsim.report.rating import RATING_HEAD, rating_cells
+from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
 
 
@@ -42,7 +42,7 @@ class DrivePage:
     band: str  # the lives at the ends of the band, and where that comes from
     percentiles: list[tuple[str, str]]  # names and hours of P10, P50 and P90, where they are known
     findings: list[tuple[str, str]]  # the rest of the answer
-    margins: list[Margin]  # of every stop criterion
+    margins: list[Margin]  # of every stop stop limit
     # rating_head, ratings: the table of what the handbooks allow; without rows where they say
     # nothing
     rating_head: list[str]
@@ -81,7 +81,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
     tooth = tooth_charts(result)
     charts = [] if brief else _charts(result, case)
     figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
-    taken, defaults = told_apart(result.assumptions)
+    taken, defaults = stated_and_defaults(result.assumptions)
     return DrivePage(
         name=name,
         title=result.title,

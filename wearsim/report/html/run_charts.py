@@ -9,7 +9,16 @@ from wearsim.case.model import Case
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
-from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, rounded, series
+from wearsim.report.html.charts import (
+    Chart,
+    Trace,
+    ValueTable,
+    curve,
+    json_numbers,
+    panels,
+    rounded_numbers,
+    series,
+)
 from wearsim.result import Life, WearResult
 
 if TYPE_CHECKING:
@@ -45,7 +54,7 @@ def along_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:
         title=f"{', '.join(what for _, what, _ in shown)} along the flank, {start}",
         alt=f"Curves of {', '.join(what for _, what, _ in shown)} over the arc length {start}{more}.",
         figure=figure,
-        values=_along_values(results[0]) if len(results) == 1 else Values((), ()),
+        values=_along_values(results[0]) if len(results) == 1 else ValueTable((), ()),
         tall=len(shown),
         still="along_flank",
     )
@@ -79,7 +88,7 @@ def _start(result: WearResult) -> str:
     return "from where contact starts" if gears else "from the root"
 
 
-def _along_values(result: WearResult) -> Values:
+def _along_values(result: WearResult) -> ValueTable:
     last = at_life(result)
     columns = [("arc length, mm", last["arc_length_mm"])]
     columns += [(f"{what}, {unit}", last[name]) for name, what, unit in _ALONG if name in last]
@@ -121,7 +130,7 @@ def history_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart
         title=f"greatest {what} against hours",
         alt=f"Curves of the greatest {what} over running time with their limits dashed; a mark at the life.",
         figure=figure,
-        values=_history_values(results[0]) if alone else Values((), ()),
+        values=_history_values(results[0]) if alone else ValueTable((), ()),
         tall=len(shown),
         still="depth_over_hours",
     )
@@ -134,8 +143,8 @@ def _life_mark(result: WearResult, label: str, role: str) -> Trace:
     reached = isinstance(result.life, Life)
     return {
         "type": "scatter",
-        "x": [rounded(end)],
-        "y": [rounded(depth)],
+        "x": [rounded_numbers(end)],
+        "y": [rounded_numbers(depth)],
         "mode": "markers",
         "marker": {"symbol": "circle" if reached else "triangle-right-open", "size": 10},
         "name": "life" if reached else "run ends",
@@ -146,7 +155,7 @@ def _life_mark(result: WearResult, label: str, role: str) -> Trace:
     }
 
 
-def _history_values(result: WearResult) -> Values:
+def _history_values(result: WearResult) -> ValueTable:
     columns = result.history_columns
     shown = [("running time, h", columns["time_hours"])]
     shown.append(("greatest depth, mm", columns["max_depth_mm"]))
@@ -179,7 +188,7 @@ def _loads_chart(new: "ToothLoads", grown: "ToothLoads") -> Chart:
         bars = {
             "type": "bar",
             "x": teeth.tolist(),
-            "y": listed(found.loads.force),
+            "y": json_numbers(found.loads.force),
             "name": label,
             "meta": {"role": role},
             "hovertemplate": f"tooth %{{x}}: %{{y:.4g}} N<extra>{label}</extra>",
@@ -203,16 +212,16 @@ def _loads_chart(new: "ToothLoads", grown: "ToothLoads") -> Chart:
         alt="Bars of the normal force on every tooth of the wrap, of a new chain and of one at its "
         f"limit of elongation; the largest is {grouped(float(new.loads.force.max()))} N on a new chain.",
         figure=figure,
-        values=Values(head, cells),
+        values=ValueTable(head, cells),
     )
 
 
-def _sampled(columns: Sequence[tuple[str, Any]]) -> Values:
+def _sampled(columns: Sequence[tuple[str, Any]]) -> ValueTable:
     """Some rows of columns of the same length, first and last included."""
     size = len(columns[0][1])
     at = np.unique(np.linspace(0, size - 1, min(_ROWS, size)).round().astype(int))
     rows = tuple(tuple(_cell(values[row]) for _, values in columns) for row in at)
-    return Values(tuple(head for head, _ in columns), rows)
+    return ValueTable(tuple(head for head, _ in columns), rows)
 
 
 def _cell(value: float) -> str:

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle, Stroke
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import life_time
-from wearsim.report.html.charts import Chart, Trace, Values, curve, listed, panels, silent
+from wearsim.report.html.charts import Chart, Trace, ValueTable, curve, json_numbers, panels, without_hover
 from wearsim.report.scene import around_flank
 from wearsim.report.worn_flank import WornFlank, flanks_of_life
 from wearsim.result import WearResult
@@ -38,15 +38,15 @@ def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
         alt=f"The {name} new and worn; the depth, {greatest:.3g} mm at most, is enlarged by the factor of "
         "the slider.",
         figure=figure,
-        values=Values((), ()),
+        values=ValueTable((), ()),
         tall=2,
         still="flanks" if name != "wheel" else "",
         slider={
             "first": len(around),
-            "x": listed(new.x),
-            "y": listed(new.y),
-            "dx": listed(flank.x[-1] - new.x),
-            "dy": listed(flank.y[-1] - new.y),
+            "x": json_numbers(new.x),
+            "y": json_numbers(new.y),
+            "dx": json_numbers(flank.x[-1] - new.x),
+            "dy": json_numbers(flank.y[-1] - new.y),
             "deepest": flank.deepest,
             "factor": flank.factor,
             "most": max(10, 3 * flank.factor),
@@ -61,7 +61,7 @@ def _flanks(depth: Vector) -> list[Trace]:
         curve([], [], name, role, "mm")
         for name, role in (("worn off", "between"), ("new", "new"), ("worn", "worn"))
     )
-    told = {"hovertemplate": "%{customdata:.4g} mm deep<extra>worn</extra>"}
+    hover = {"hovertemplate": "%{customdata:.4g} mm deep<extra>worn</extra>"}
     deepest = {
         **curve([], [], "deepest", "worn", "mm"),
         "mode": "markers",
@@ -69,9 +69,9 @@ def _flanks(depth: Vector) -> list[Trace]:
         "hovertemplate": f"deepest, {depth.max():.3g} mm<extra></extra>",
     }
     return [
-        {**silent(between, 0), "fill": "toself"},
+        {**without_hover(between, 0), "fill": "toself"},
         new,
-        {**worn, "customdata": listed(depth), **told},
+        {**worn, "customdata": json_numbers(depth), **hover},
         deepest,
     ]
 
@@ -82,7 +82,7 @@ def _trace(shape: Stroke | Circle) -> Trace:
         angle = np.linspace(0.0, math.tau, 91)
         middle_x, middle_y = shape.centre
         points = middle_x + shape.radius * np.cos(angle), middle_y + shape.radius * np.sin(angle)
-        return silent(curve(*points, shape.name, shape.role, "mm", "dash"), 1.2)
+        return without_hover(curve(*points, shape.name, shape.role, "mm", "dash"), 1.2)
     x, y = np.concatenate([shape.vertices, shape.vertices[:1]]).T
-    body = silent(curve(x, y, "outline", shape.role, "mm"), 1)
+    body = without_hover(curve(x, y, "outline", shape.role, "mm"), 1)
     return {**body, "fill": "toself", "showlegend": False}

@@ -7,11 +7,11 @@ from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import check_free, write_file
 from wearsim.report.workbook.answer_page import write_answer_page
-from wearsim.report.workbook.book import Book
 from wearsim.report.workbook.inputs_page import write_inputs_page
-from wearsim.report.workbook.names import sheet_names
 from wearsim.report.workbook.native_charts import add_charts
 from wearsim.report.workbook.result_page import write_result_page
+from wearsim.report.workbook.workbook_writer import WorkbookWriter
+from wearsim.report.workbook.worksheet_names import worksheet_names
 from wearsim.result import WearResult
 
 _FIRST_CHART_ROW = 1
@@ -28,9 +28,9 @@ def check_workbook(path: Path, force: bool) -> None:
 def workbook(results: Sequence[WearResult]) -> bytes:
     """Return results as a workbook."""
     title = "; ".join(result.title for result in results)
-    book = Book(library("xlsxwriter", "report", "--xlsx"), title)
+    book = WorkbookWriter(library("xlsxwriter", "report", "--xlsx"), title)
     first, inputs = "Answer" if len(results) == 1 else "Comparison", "Inputs"
-    names = sheet_names([result.case for result in results], taken=(first, inputs))
+    names = worksheet_names([result.case for result in results], taken=(first, inputs))
     page, free_column = write_answer_page(book, first, results, names)
     places = []
     for name, result in zip(names, results, strict=True):

@@ -8,7 +8,13 @@ from wearsim.report.answer import JUMPING, governing_text, hours, limit_name, li
 from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.rating import rule
 from wearsim.report.service import life_json
-from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
+from wearsim.report.workbook.workbook_writer import (
+    HEADER,
+    SECTION,
+    WorkbookWriter,
+    WorksheetPage,
+    number_format,
+)
 from wearsim.result import Life, WearResult
 
 _NOT_SHOWN = ("schema_version", "title", "limits", "overloaded", "ratings", "assumptions", "warnings")
@@ -23,24 +29,24 @@ _MEANINGS = {
     "cycles": "loading cycles of one gap or tooth in this life; empty where no limit was met",
     "max_depth_mm": "depth worn off at the deepest point at the end of the run",
     **{
-        f"{name}{end}": f"{text}{told}"
+        f"{name}{end}": f"{text}{note}"
         for name, text in {
             "km": "way that the machine covers in this life, km",
             "tonnes": "mass that the machine moves in this life, t",
             "days": "days of service that this life takes",
             "date": "day on which this life ends",
         }.items()
-        for end, told in (("", ""), (_AT_LEAST, ": at least this, no limit was met"))
+        for end, note in (("", ""), (_AT_LEAST, ": at least this, no limit was met"))
     },
 }
 """Meanings of rows that are no key of the answer, or mean less here than everywhere."""
 
 
 def write_answer_page(
-    book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]
-) -> tuple[Page, int]:
+    book: WorkbookWriter, name: str, results: Sequence[WearResult], labels: Sequence[str]
+) -> tuple[WorksheetPage, int]:
     """Write the first sheet: a row for every quantity, a column for every result."""
-    page = Page(book, name)
+    page = WorksheetPage(book, name)
     meaning = _FIRST_VALUE + len(results)
     for column, width in enumerate([_LABEL, _UNIT, *[_VALUE] * len(results), _MEANING]):
         page.sheet.set_column(column, column, width)
@@ -87,14 +93,16 @@ def _in_words(result: WearResult) -> str:
     return hours(result.life) if reached else f"{hours(result.life)} (limit not reached)"
 
 
-def _write_rows(page: Page, row: int, rows: Mapping[str, list[Any]]) -> int:
+def _write_rows(page: WorksheetPage, row: int, rows: Mapping[str, list[Any]]) -> int:
     for name, values in rows.items():
         _write_row(page, row, name, _unit(name), values, _meaning(name))
         row += 1
     return row
 
 
-def _write_row(page: Page, row: int, label: str, unit: str, values: Sequence[Any], meaning: str) -> None:
+def _write_row(
+    page: WorksheetPage, row: int, label: str, unit: str, values: Sequence[Any], meaning: str
+) -> None:
     style: dict[str, Any] = {"valign": "top", "text_wrap": True}
     page.put(row, 0, label, **style)
     page.put(row, 1, unit, **style)
@@ -118,7 +126,7 @@ def _meaning(name: str) -> str:
     return quantities()[name].meaning if name in quantities() else ""
 
 
-def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
+def _write_limits(page: WorksheetPage, row: int, results: Sequence[WearResult]) -> int:
     """Write each limit, what its quantity has come to, and what is left between both."""
     _write_section(
         page,
@@ -139,18 +147,18 @@ def _write_limits(page: Page, row: int, results: Sequence[WearResult]) -> int:
         _write_row(page, row + 3, f"{name}, margin", unit, margins, left)
         row += 3
         if name == JUMPING:
-            told = [
+            note = [
                 limit_state(state, result.inputs) if state else None
                 for state, result in zip(chosen, results, strict=True)
             ]
             _write_row(
-                page, row + 1, f"{name}, in words", "", told, "how sure it is that the chain does not jump"
+                page, row + 1, f"{name}, in words", "", note, "how sure it is that the chain does not jump"
             )
             row += 1
     return row + 1
 
 
-def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
+def _write_ratings(page: WorksheetPage, row: int, results: Sequence[WearResult]) -> int:
     """Write what each rule of the handbooks allows, what the drive has, and the margin between both."""
     found = [{finding.name: finding for finding in result.ratings} for result in results]
     names = dict.fromkeys(name for ratings in found for name in ratings)
@@ -173,7 +181,7 @@ def _write_ratings(page: Page, row: int, results: Sequence[WearResult]) -> int:
     return row + 1
 
 
-def _write_section(page: Page, row: int, title: str, last_column: int) -> None:
+def _write_section(page: WorksheetPage, row: int, title: str, last_column: int) -> None:
     for column in range(last_column + 1):
         page.put(row, column, "" if column else title, **SECTION)
 
@@ -189,7 +197,9 @@ def _pairs(labels: Sequence[str], texts: Sequence[Sequence[str]]) -> list[tuple[
     return [(label, text) for label, found in zip(labels, texts, strict=True) for text in found or ("none",)]
 
 
-def _write_texts(page: Page, row: int, title: str, texts: Sequence[tuple[str, str]], last_column: int) -> int:
+def _write_texts(
+    page: WorksheetPage, row: int, title: str, texts: Sequence[tuple[str, str]], last_column: int
+) -> int:
     """Write sentences under each other, each beside the case that it belongs to."""
     _write_section(page, row, title, last_column)
     width = _UNIT + _VALUE * (last_column - _FIRST_VALUE) + _MEANING

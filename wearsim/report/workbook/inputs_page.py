@@ -3,17 +3,19 @@
 from collections.abc import Sequence
 from typing import Any
 
-from wearsim.case.origin import InputRow, input_rows
-from wearsim.report.workbook.book import HEADER, Book, Page, number_format
+from wearsim.case.input_origins import InputRow, input_rows
+from wearsim.report.workbook.workbook_writer import HEADER, WorkbookWriter, WorksheetPage, number_format
 from wearsim.result import WearResult
 
 _COLUMNS = {"case": 20, "key": 40, "value": 22, "unit": 12, "origin": 10, "why or source": 60, "meaning": 60}
 _UNIT = list(_COLUMNS).index("unit")
 
 
-def write_inputs_page(book: Book, name: str, results: Sequence[WearResult], labels: Sequence[str]) -> None:
+def write_inputs_page(
+    book: WorkbookWriter, name: str, results: Sequence[WearResult], labels: Sequence[str]
+) -> None:
     """Write the sheet of inputs, a row for every key of every case."""
-    page = Page(book, name)
+    page = WorksheetPage(book, name)
     for column, (title, width) in enumerate(_COLUMNS.items()):
         page.sheet.set_column(column, column, width)
         page.put(0, column, title, **HEADER)
@@ -26,7 +28,7 @@ def write_inputs_page(book: Book, name: str, results: Sequence[WearResult], labe
     page.sheet.autofilter(0, 0, row, len(_COLUMNS) - 1)
 
 
-def _write_row(page: Page, row: int, label: str, found: InputRow) -> None:
+def _write_row(page: WorksheetPage, row: int, label: str, found: InputRow) -> None:
     value = _cell(found.value)
     style: dict[str, Any] = {"valign": "top", "text_wrap": True}
     cells = (label, found.key, value, found.unit, found.origin, found.why, found.meaning)

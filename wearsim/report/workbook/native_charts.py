@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Any
 
-from wearsim.report.workbook.book import Book, Page
-from wearsim.report.workbook.names import clean
-from wearsim.report.workbook.result_page import Place, ResultPlaces
+from wearsim.report.workbook.result_page import CellRange, ResultPlaces
+from wearsim.report.workbook.workbook_writer import WorkbookWriter, WorksheetPage
+from wearsim.report.workbook.worksheet_names import without_forbidden
 
 _SIZE = {"width": 620, "height": 340}
 _LONGEST_NAME, _HEAD, _TAIL = 60, 30, 25
@@ -14,13 +14,15 @@ _STEP = 360
 """Pixels from the top of a chart to that of the next."""
 
 
-def add_charts(book: Book, page: Page, places: Sequence[ResultPlaces], at: tuple[int, int]) -> None:
+def add_charts(
+    book: WorkbookWriter, page: WorksheetPage, places: Sequence[ResultPlaces], at: tuple[int, int]
+) -> None:
     """Put the charts of results under each other."""
     for number, chart in enumerate(_charts(book, places)):
         page.sheet.insert_chart(*at, chart, {"object_position": 2, "y_offset": number * _STEP})
 
 
-def _charts(book: Book, places: Sequence[ResultPlaces]) -> list[Any]:
+def _charts(book: WorkbookWriter, places: Sequence[ResultPlaces]) -> list[Any]:
     found = [
         _chart(
             book,
@@ -53,7 +55,7 @@ def _along_flank(one: ResultPlaces) -> list[dict[str, Any]]:
 
 
 def _line(
-    one: ResultPlaces, place: Place, x: str, y: str, part: str = "", rows: tuple[int, int] | None = None
+    one: ResultPlaces, place: CellRange, x: str, y: str, part: str = "", rows: tuple[int, int] | None = None
 ) -> dict[str, Any]:
     return {
         "name": _legend(one.title, part),
@@ -65,12 +67,12 @@ def _line(
 
 def _legend(title: str, part: str) -> str:
     """Name of a line; XlsxWriter takes ``Sheet!A1`` for a reference, but not ``Sheet! A1``."""
-    text = clean(title).replace("!", "! ")
+    text = without_forbidden(title).replace("!", "! ")
     short = text if len(text) <= _LONGEST_NAME else f"{text[:_HEAD]} ... {text[-_TAIL:]}"
     return f"{short}, {part}" if part else short
 
 
-def _chart(book: Book, titles: tuple[str, str, str], lines: list[dict[str, Any]]) -> Any:
+def _chart(book: WorkbookWriter, titles: tuple[str, str, str], lines: list[dict[str, Any]]) -> Any:
     title, x, y = titles
     chart = book.file.add_chart({"type": "scatter", "subtype": "straight"})
     for line in lines:

@@ -7,7 +7,13 @@ from typing import Any
 import numpy as np
 
 from wearsim.quantities import quantities
-from wearsim.report.workbook.book import HEADER, SECTION, Book, Page, number_format
+from wearsim.report.workbook.workbook_writer import (
+    HEADER,
+    SECTION,
+    WorkbookWriter,
+    WorksheetPage,
+    number_format,
+)
 from wearsim.result import WearResult
 
 _FIRST_ROW = 4
@@ -15,7 +21,7 @@ _NARROWEST = 11
 
 
 @dataclass(frozen=True)
-class Place:
+class CellRange:
     """Where the columns of a table stand."""
 
     sheet: str  # name of the sheet
@@ -35,17 +41,19 @@ class ResultPlaces:
     """Where the tables of a result stand."""
 
     title: str  # of the result
-    history: Place  # the tables
-    flank: Place  # the tables
+    history: CellRange  # the tables
+    flank: CellRange  # the tables
     # name, first and last row of every gap of the last flank; one without a name where all gaps are
     # alike
     parts: tuple[tuple[str, tuple[int, int]], ...]
     right: int  # first free column
 
 
-def write_result_page(book: Book, name: str, result: WearResult) -> tuple[Page, ResultPlaces]:
+def write_result_page(
+    book: WorkbookWriter, name: str, result: WearResult
+) -> tuple[WorksheetPage, ResultPlaces]:
     """Write the sheet of a result."""
-    page = Page(book, name)
+    page = WorksheetPage(book, name)
     last = last_flank(result)
     history = _write_table(page, 0, "history: the run over time", result.history_columns)
     left = len(history.columns) + 1
@@ -65,7 +73,7 @@ def last_flank(result: WearResult) -> dict[str, Any]:
     return {name: np.asarray(values)[at_end] for name, values in result.flank_columns.items()}
 
 
-def _write_table(page: Page, left: int, title: str, table: Mapping[str, Any]) -> Place:
+def _write_table(page: WorksheetPage, left: int, title: str, table: Mapping[str, Any]) -> CellRange:
     """Write columns side by side: what the table is, names, units, numbers."""
     columns: dict[str, int] = {}
     values: Sequence[Any] = ()
@@ -79,7 +87,7 @@ def _write_table(page: Page, left: int, title: str, table: Mapping[str, Any]) ->
         form = number_format(values)
         for row, value in enumerate(values, start=_FIRST_ROW):
             page.put(row, column, value, num_format=form)
-    return Place(page.name, columns, _FIRST_ROW, _FIRST_ROW + len(values) - 1)
+    return CellRange(page.name, columns, _FIRST_ROW, _FIRST_ROW + len(values) - 1)
 
 
 def _gaps(flank: Mapping[str, Any]) -> tuple[tuple[str, tuple[int, int]], ...]:

@@ -6,12 +6,12 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
-from wearsim.study.calibrate.least_squares import Interval
-from wearsim.study.calibrate.observe import Shown
+from wearsim.study.calibrate.least_squares import ConfidenceInterval
+from wearsim.study.calibrate.observations import ReadingResidual
 
 
 @dataclass(frozen=True)
-class Options:
+class CalibrationOptions:
     """How readings are fitted."""
 
     shapes: tuple[str, ...] = ()  # keys that are fitted besides the coefficients
@@ -21,23 +21,23 @@ class Options:
 
 
 @dataclass(frozen=True)
-class Value:
+class FittedCoefficient:
     """A value that was fitted."""
 
     key: str  # of the case
     value: float  # fitted, and in the case
     given: float  # fitted, and in the case
-    interval: Interval  # by the profile of the likelihood
+    interval: ConfidenceInterval  # by the profile of the likelihood
 
 
 @dataclass(frozen=True)
-class Part:
+class PartLife:
     """What is left of the sprocket or of the chain."""
 
     name: str  # `sprocket` or `chain`; `pinion` of gears
     hours: float  # when it was read last [h]
     life: float  # in all [h]
-    interval: Interval  # of the life [h]
+    interval: ConfidenceInterval  # of the life [h]
 
     @property
     def remaining(self) -> float:
@@ -45,10 +45,10 @@ class Part:
         return self._left(self.life)
 
     @property
-    def band(self) -> Interval:
+    def band(self) -> ConfidenceInterval:
         """Hours that are left at both ends of the interval; fewer than none cannot be."""
         low, high = self._left(self.interval.low), self._left(self.interval.high)
-        return Interval(low, high, self.interval.low_known or low == 0.0, self.interval.high_known)
+        return ConfidenceInterval(low, high, self.interval.low_known or low == 0.0, self.interval.high_known)
 
     def _left(self, life: float) -> float:
         left = life - self.hours
@@ -64,16 +64,16 @@ class Calibration:
     """A case fitted to readings."""
 
     case: Case  # as it was given
-    options: Options  # how it was fitted
-    values: tuple[Value, ...]  # what was fitted
-    parts: tuple[Part, ...]  # what is left
+    options: CalibrationOptions  # how it was fitted
+    values: tuple[FittedCoefficient, ...]  # what was fitted
+    parts: tuple[PartLife, ...]  # what is left
     chi_square: float  # sum of squared residuals
     freedom: int  # its degrees of freedom
     scale: float  # what the stated errors were multiplied by
     readings: int  # their number
     # line of every profile, and how it was moved: turn [rad], shifts along x and y [mm]
     moves: tuple[tuple[int, float, float, float], ...]
-    shown: tuple[Shown, ...]  # every value beside its prediction
+    shown: tuple[ReadingResidual, ...]  # every value beside its prediction
     runs: int  # runs of the case that were needed
     tables: Mapping[str, Any]  # of the case with the fitted values, files by their whole paths
     assumptions: tuple[str, ...]  # what was taken for granted, and what the user should look at

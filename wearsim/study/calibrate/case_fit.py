@@ -9,18 +9,24 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.study.calibrate.calibration import Calibration, Options, Part, Value
-from wearsim.study.calibrate.cautions import doubts, of_runs
-from wearsim.study.calibrate.checks import faults_of
-from wearsim.study.calibrate.interpolation import Courses
-from wearsim.study.calibrate.least_squares import Fitted, Problem, fit, profile_interval, stated_at
-from wearsim.study.calibrate.measured_profiles import Scan, observation
-from wearsim.study.calibrate.observe import Observation, State
-from wearsim.study.calibrate.parameters import JOINT, Parameters, shape_values
+from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions, FittedCoefficient, PartLife
+from wearsim.study.calibrate.fit_warnings import fit_warnings, warnings_of_runs
+from wearsim.study.calibrate.history_interpolation import PredictedHistories
+from wearsim.study.calibrate.least_squares import (
+    LeastSquaresFit,
+    LeastSquaresProblem,
+    fit_least_squares,
+    profile_interval,
+    stated_at,
+)
+from wearsim.study.calibrate.measured_profiles import ProfileObservation, observation
+from wearsim.study.calibrate.observations import Observation, PredictedState
+from wearsim.study.calibrate.parameters import JOINT, FitParameters, shape_values
+from wearsim.study.calibrate.reading_checks import reading_faults
 from wearsim.study.calibrate.readings import ELONGATION, PROFILE, Reading
 
 _FOREVER = 1e15
@@ -29,7 +35,7 @@ _FOREVER = 1e15
 _SAME_RATIO = 2e-3
 """Relative change of the ratio of both coefficients that a run is not repeated for."""
 
-_SETTLED, _MOST_ROUNDS = 1e-4, 20
+_SETTLED, _MAX_ROUNDS = 1e-4, 20
 
 _ENOUGH = 2.0
 """Horizon of the calibrated case over its life, at least."""
@@ -41,18 +47,23 @@ _TRIED = 45
 """Lives that the search starts from, about a factor of 2 apart."""
 
 
-class Fitting:
+class CaseFit:
     """The fit of one case."""
 
     def __init__(
-        self, case: Case, tables: Mapping[str, Any], readings: Sequence[Reading], options: Options, file: str
+        self,
+        case: Case,
+        tables: Mapping[str, Any],
+        readings: Sequence[Reading],
+        options: CalibrationOptions,
+        file: str,
     ) -> None:
         self.tables = tables
         self.case, self.readings, self.options, self.file = case, readings, options, file
         chain = any(reading.quantity == ELONGATION for reading in readings)
         joint, rate, self.chain_hours = _joints(case)
-        self.parameters = Parameters(
-            courses=Courses(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
+        self.parameters = FitParameters(
+            predictions=PredictedHistories(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
             coefficient=case.wear.coefficient,
             joint=joint,
             elongation_rate=rate,
@@ -89,26 +100,26 @@ class Fitting:
             freedom=self.freedom,
             scale=found.scale,
             readings=len(self.readings),
-            moves=tuple(one.moved for one in self.observations if isinstance(one, Scan)),
+            moves=tuple(one.moved for one in self.observations if isinstance(one, ProfileObservation)),
             shown=shown,
-            runs=self.parameters.courses.runs,
+            runs=self.parameters.predictions.runs,
             tables=self._fitted_tables(values, parts),
             assumptions=self._assumptions(),
             warnings=(
-                *doubts(self.case, values, correlation, found, self.observations, self.freedom),
-                *of_runs(self.settled, self.parameters.courses.numerical_error, parts),
+                *fit_warnings(self.case, values, correlation, found, self.observations, self.freedom),
+                *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
 
-    def _observed(self, state: State | None) -> list[Observation]:
+    def _observed(self, state: PredictedState | None) -> list[Observation]:
         """Return the readings, profiles registered by what is known of the wear."""
         options, parameters = self.options, self.parameters
-        new = parameters.course(np.zeros(parameters.size)).new if parameters.teeth else None
+        new = parameters.predicted(np.zeros(parameters.size)).new if parameters.teeth else None
         found, faults = [], []
         for reading in self.readings:
             wrong = []
             if new is not None and reading.quantity != ELONGATION:
-                wrong = faults_of(reading, new)
+                wrong = reading_faults(reading, new)
             try:
                 if not wrong:
                     found.append(observation(reading, new, options.freedom, options.cutoff, state))
@@ -119,15 +130,15 @@ class Fitting:
             raise CaseError(faults)
         return found
 
-    def _fit(self) -> Fitted:
+    def _fit(self) -> LeastSquaresFit:
         """Fit again until registration and the ratio of both coefficients go with what comes out."""
-        found = fit(self._problem(), self._nearest(self.parameters.start))
-        for _ in range(_MOST_ROUNDS):
+        found = fit_least_squares(self._problem(), self._nearest(self.parameters.start))
+        for _ in range(_MAX_ROUNDS):
             before = found.point
             again = self._follow(before)
             if not again:
                 break
-            found = fit(self._problem(), before)
+            found = fit_least_squares(self._problem(), before)
             if float(np.abs(found.point - before).max()) < _SETTLED:
                 break
         else:
@@ -160,7 +171,7 @@ class Fitting:
         squares = [float(np.sum(problem.residuals(one) ** 2)) for one in tried]
         return tried[int(np.argmin(squares))]
 
-    def _problem(self) -> Problem:
+    def _problem(self) -> LeastSquaresProblem:
         return self._restated(lambda point: point, self.parameters.bounds)
 
     def _last(self, teeth: bool) -> float:
@@ -169,16 +180,18 @@ class Fitting:
             (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth), default=math.nan
         )
 
-    def _restated(self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]) -> Problem:
+    def _restated(
+        self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]
+    ) -> LeastSquaresProblem:
         parameters, observations = self.parameters, self.observations
 
         def residuals(logs: Vector) -> Vector:
             state = parameters.state(point_of(logs))
             return np.concatenate([one.residuals(state) for one in observations])
 
-        return Problem(residuals, *bounds, self.freedom)
+        return LeastSquaresProblem(residuals, *bounds, self.freedom)
 
-    def _check_reached(self, found: Fitted) -> None:
+    def _check_reached(self, found: LeastSquaresFit) -> None:
         """Raise where the best life is only an end of those that were searched."""
         if not self.parameters.teeth:
             return
@@ -197,7 +210,7 @@ class Fitting:
             )
             raise CaseError([Fault(text, "value", self.file)])
 
-    def _values(self, found: Fitted) -> tuple[tuple[Value, ...], Vector]:
+    def _values(self, found: LeastSquaresFit) -> tuple[tuple[FittedCoefficient, ...], Vector]:
         """Return the values with their intervals, and their correlations."""
         parameters = self.parameters
         problem = self._restated(parameters.swapped, parameters.bounds_of_coefficients())
@@ -212,10 +225,12 @@ class Fitting:
         for index, (key, start) in enumerate(given.items()):
             interval = profile_interval(problem, stated, index, self.options.confidence)
             value = start * math.exp(stated.point[index])
-            values.append(Value(key, value, start, interval.scaled(start)))
+            values.append(FittedCoefficient(key, value, start, interval.scaled(start)))
         return tuple(values), stated.correlation
 
-    def _fitted_tables(self, values: Sequence[Value], parts: Sequence[Part]) -> Mapping[str, Any]:
+    def _fitted_tables(
+        self, values: Sequence[FittedCoefficient], parts: Sequence[PartLife]
+    ) -> Mapping[str, Any]:
         """Tables of the case with the values, the band of a known coefficient, and enough time."""
         tables = self.tables
         for one in values:
@@ -228,17 +243,19 @@ class Fitting:
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
         return replaced(tables, ("run", "horizon_hours"), horizon)
 
-    def _parts(self, found: Fitted, values: Sequence[Value]) -> tuple[Part, ...]:
+    def _parts(self, found: LeastSquaresFit, values: Sequence[FittedCoefficient]) -> tuple[PartLife, ...]:
         parts = []
         if self.parameters.teeth:
             interval = profile_interval(self._problem(), found, 0, self.options.confidence)
             name = "pinion" if "gear" in self.case.inputs else "sprocket"
-            parts.append(Part(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0)))
+            parts.append(
+                PartLife(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0))
+            )
         if self.parameters.chain:
             (joints,) = (value for value in values if value.key == JOINT)
             whole = self.chain_hours * joints.given
             hours = self._last(teeth=False)
-            parts.append(Part("chain", hours, whole / joints.value, joints.interval.inverse(whole)))
+            parts.append(PartLife("chain", hours, whole / joints.value, joints.interval.inverse(whole)))
         return tuple(parts)
 
     def _assumptions(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import finite, overrides, print_json, standard, warn, working
+from wearsim.command.options import common_options, finite, overrides, print_json, warn, working
 
 if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
 @overrides
-@standard
+@common_options
 def calibrate(
     case: Path,
     measurements: Path,
@@ -80,11 +80,11 @@ def calibrate(
 
         _check_apart(out, (case, measurements))
         check_folder(out, force)
-    from wearsim.study.calibrate.calibration import Options
+    from wearsim.study.calibrate.calibration import CalibrationOptions
     from wearsim.study.calibrate.model import calibrate as calibrated
     from wearsim.study.calibrate.sheet import calibration_json, calibration_text, save_calibration
 
-    options = Options(shapes, register, cutoff_mm, confidence)
+    options = CalibrationOptions(shapes, register, cutoff_mm, confidence)
     with working(f"fitting {case.stem}"):
         found = calibrated(case, measurements, settings, options)
     if as_json:

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import norm
 
-from wearsim.report.lines import literal
+from wearsim.report.text_lines import literal
 from wearsim.study.calibrate.calibration import Calibration
-from wearsim.study.calibrate.observe import Shown
+from wearsim.study.calibrate.observations import ReadingResidual
 from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE
 
 _AXES = {
@@ -52,7 +52,7 @@ def _readings(found: Calibration) -> Figure:
     return figure
 
 
-def _lines(shown: list[Shown]) -> Iterator[tuple[str, list[Shown]]]:
+def _lines(shown: list[ReadingResidual]) -> Iterator[tuple[str, list[ReadingResidual]]]:
     """Give the values that belong on one line with what it is."""
     if shown[0].quantity == PROFILE:
         for _, line in groupby(shown, key=lambda one: one.row):
@@ -64,7 +64,7 @@ def _lines(shown: list[Shown]) -> Iterator[tuple[str, list[Shown]]]:
         yield "" if place == "nan" else f"at {float(place):g} mm", list(line)
 
 
-def _line(panel: Axes, x: list[float], line: list[Shown], colour: str, label: str) -> None:
+def _line(panel: Axes, x: list[float], line: list[ReadingResidual], colour: str, label: str) -> None:
     fitted = [one.predicted for one in line]
     start = [] if line[0].quantity == PROFILE else [0.0]
     panel.plot([*start, *x], [*start, *fitted], "-", color=colour, label=label)
@@ -96,9 +96,9 @@ def _residuals(found: Calibration) -> Figure:
     over.legend(frameon=False, fontsize=8)
     ordered = np.sort([one.residual for one in found.shown])
     chance = norm.ppf((np.arange(ordered.size) + 0.5) / ordered.size)
-    most = max(2.0, math.ceil(float(np.abs([*chance, *ordered]).max())))
+    greatest = max(2.0, math.ceil(float(np.abs([*chance, *ordered]).max())))
     against.plot(chance, ordered, "o", color="0.3", markersize=4)
-    against.plot([-most, most], [-most, most], color="black", linewidth=0.8)
+    against.plot([-greatest, greatest], [-greatest, greatest], color="black", linewidth=0.8)
     against.set_xlabel("by chance (quantiles of the normal distribution)")
     against.set_ylabel("(fit - measured) / error, in order")
     for panel in (over, against):

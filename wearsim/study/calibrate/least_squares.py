@@ -9,14 +9,14 @@ from scipy.optimize import brentq, least_squares
 from scipy.stats import chi2
 
 from wearsim.errors import WearsimError
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 Residuals = Callable[[Vector], Vector]
 
 _STEP = 0.01
 """Of the differences that a derivative is taken from: 1 % of a parameter, as they are logarithms."""
 
-_MOST_STEPS = 40
+_MAX_STEPS = 40
 """Steps of the way out to the end of an interval."""
 
 _UNLIKELY = 0.01
@@ -24,7 +24,7 @@ _UNLIKELY = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class LeastSquaresProblem:
     """Residuals of normal errors of size 1 to be made small."""
 
     residuals: Residuals  # of the parameters, shape (n,)
@@ -34,7 +34,7 @@ class Problem:
 
 
 @dataclass(frozen=True, eq=False)
-class Fitted:
+class LeastSquaresFit:
     """The most likely parameters."""
 
     point: Vector  # the parameters, shape (p,)
@@ -47,7 +47,7 @@ class Fitted:
 
 
 @dataclass(frozen=True)
-class Interval:
+class ConfidenceInterval:
     """What a parameter can be."""
 
     low: float  # ends
@@ -60,17 +60,17 @@ class Interval:
         """Whether the data give both ends."""
         return self.low_known and self.high_known
 
-    def scaled(self, start: float) -> "Interval":
+    def scaled(self, start: float) -> "ConfidenceInterval":
         """Return the interval of a value of which this one is that of the logarithm."""
         low, high = start * math.exp(self.low), start * math.exp(self.high)
-        return Interval(low, high, self.low_known, self.high_known)
+        return ConfidenceInterval(low, high, self.low_known, self.high_known)
 
-    def inverse(self, whole: float) -> "Interval":
+    def inverse(self, whole: float) -> "ConfidenceInterval":
         """Return the interval of a value that is inverse to this one."""
-        return Interval(whole / self.high, whole / self.low, self.high_known, self.low_known)
+        return ConfidenceInterval(whole / self.high, whole / self.low, self.high_known, self.low_known)
 
 
-def fit(problem: Problem, start: Vector) -> Fitted:
+def fit_least_squares(problem: LeastSquaresProblem, start: Vector) -> LeastSquaresFit:
     """Return the parameters of least squares within their bounds.
 
     Examples
@@ -78,15 +78,15 @@ def fit(problem: Problem, start: Vector) -> Fitted:
     The mean of two readings of error 1, 1.0 and 3.0, has the error 1/sqrt(2):
 
     >>> ends = np.array([-9.0]), np.array([9.0])
-    >>> problem = Problem(lambda u: u[0] - np.array([1.0, 3.0]), *ends, freedom=1)
-    >>> found = fit(problem, np.zeros(1))
+    >>> problem = LeastSquaresProblem(lambda u: u[0] - np.array([1.0, 3.0]), *ends, freedom=1)
+    >>> found = fit_least_squares(problem, np.zeros(1))
     >>> round(float(found.point[0]), 6), round(float(found.covariance[0, 0]), 6)
     (2.0, 0.5)
     """
     return stated_at(problem, _minimum(problem.residuals, start, problem.low, problem.high))
 
 
-def stated_at(problem: Problem, point: Vector) -> Fitted:
+def stated_at(problem: LeastSquaresProblem, point: Vector) -> LeastSquaresFit:
     """Return the most likely parameters, where they are known already."""
     residuals = problem.residuals(point)
     square = float(residuals @ residuals)
@@ -94,10 +94,12 @@ def stated_at(problem: Problem, point: Vector) -> Fitted:
     if problem.freedom > 0 and chi2.sf(square, problem.freedom) < _UNLIKELY:
         scale = math.sqrt(square / problem.freedom)
     covariance, correlation = _covariance(_jacobian(problem.residuals, point, problem.low, problem.high))
-    return Fitted(point, square, scale, scale**2 * covariance, correlation)
+    return LeastSquaresFit(point, square, scale, scale**2 * covariance, correlation)
 
 
-def profile_interval(problem: Problem, found: Fitted, index: int, confidence: float) -> Interval:
+def profile_interval(
+    problem: LeastSquaresProblem, found: LeastSquaresFit, index: int, confidence: float
+) -> ConfidenceInterval:
     """Return the interval of one parameter by the profile of the likelihood.
 
     It holds all values for which the sum of squares, made as small as it can be by the other
@@ -108,13 +110,15 @@ def profile_interval(problem: Problem, found: Fitted, index: int, confidence: fl
     walk = _Walk(problem, found, index, allowed)
     low, low_known = walk.end(-1.0)
     high, high_known = walk.end(1.0)
-    return Interval(low, high, low_known, high_known)
+    return ConfidenceInterval(low, high, low_known, high_known)
 
 
 class _Walk:
     """Along one parameter, the others following."""
 
-    def __init__(self, problem: Problem, found: Fitted, index: int, allowed: float) -> None:
+    def __init__(
+        self, problem: LeastSquaresProblem, found: LeastSquaresFit, index: int, allowed: float
+    ) -> None:
         self.problem, self.index, self.allowed = problem, index, allowed
         self.start = found.point
         self.others = np.delete(found.point, index)
@@ -146,7 +150,7 @@ class _Walk:
         self.others = np.delete(self.start, self.index)
         bounds = self.problem.low if side < 0.0 else self.problem.high
         bound, inside, step = float(bounds[self.index]), float(self.start[self.index]), self.step
-        for _ in range(_MOST_STEPS):
+        for _ in range(_MAX_STEPS):
             outside = side * min(side * (inside + side * step), side * bound)
             try:
                 if self.excess(outside) > 0.0:

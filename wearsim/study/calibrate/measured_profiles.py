@@ -6,28 +6,32 @@ from functools import cached_property
 
 import numpy as np
 
-from wearsim.geometry.measured.registration import UNSEEN, Freedom, Registered, register
+from wearsim.geometry.measured.registration import UNSEEN, Freedom, RegisteredProfile, register
 from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
-from wearsim.geometry.profile import Vector
-from wearsim.study.calibrate.observe import Gauge, Observation, Shown, State
-from wearsim.study.calibrate.predicted_history import Course
+from wearsim.geometry.profile_points import Vector
+from wearsim.study.calibrate.observations import GaugeReading, Observation, PredictedState, ReadingResidual
+from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import PROFILE, Reading
 
 
 def observation(
-    reading: Reading, new: Course | None, freedom: Freedom, cutoff: float, state: State | None = None
+    reading: Reading,
+    new: PredictedHistory | None,
+    freedom: Freedom,
+    cutoff: float,
+    state: PredictedState | None = None,
 ) -> Observation:
     """Return a reading as something that a state can be held against."""
     if reading.quantity != PROFILE:
-        return Gauge(reading)
+        return GaugeReading(reading)
     assert new is not None
     expected = None if state is None else _recess(reading, state)
     registered = register(new.nominal, reading.x, reading.y, freedom, expected)
-    return Scan(reading, registered, cutoff)
+    return ProfileObservation(reading, registered, cutoff)
 
 
 @dataclass(frozen=True, eq=False)
-class Scan:
+class ProfileObservation:
     """A measured profile, registered and smoothed; the model is smoothed and moved alike.
 
     The smoothed values v = W p of points p with independent errors sigma have the covariance
@@ -36,7 +40,7 @@ class Scan:
     """
 
     reading: Reading  # the reading
-    registered: Registered  # its points on the new flank
+    registered: RegisteredProfile  # its points on the new flank
     cutoff: float  # cut-off wavelength [mm]
 
     @cached_property
@@ -82,31 +86,34 @@ class Scan:
         ways, size, _ = np.linalg.svd(moves, full_matrices=False)
         return np.asarray(ways[:, size > UNSEEN * size.max(initial=0.0)])
 
-    def _smoothed(self, state: State) -> tuple[Vector, Vector]:
+    def _smoothed(self, state: PredictedState) -> tuple[Vector, Vector]:
         """Measured and predicted recess at the stations [mm]."""
-        assert state.course is not None
-        chords = state.course.new.chords
+        assert state.predicted is not None
+        chords = state.predicted.new.chords
         predicted = np.interp(self.registered.arc_length, chords, _recess(self.reading, state))
         return self._weights @ self.registered.recess, self._weights @ predicted
 
-    def residuals(self, state: State) -> Vector:
+    def residuals(self, state: PredictedState) -> Vector:
         """Return independent residuals of size 1."""
         measured, predicted = self._smoothed(state)
         whole = self._whiten(predicted - measured)
         return np.asarray(whole - self._explained @ (self._explained.T @ whole))
 
-    def shown(self, state: State) -> list[Shown]:
+    def shown(self, state: PredictedState) -> list[ReadingResidual]:
         """Return the smoothed values, moved as fits best, beside their predictions."""
         measured, predicted = self._smoothed(state)
         moves = self._weights @ self.registered.moves
         moved = np.linalg.lstsq(self._whiten(moves), self._whiten(predicted - measured), rcond=None)[0]
         reading, columns = self.reading, (self.stations, measured + moves @ moved, predicted)
         rows = zip(*columns, self._errors, self.residuals(state), strict=True)
-        return [Shown(reading.row, reading.hours, PROFILE, *(float(value) for value in row)) for row in rows]
+        return [
+            ReadingResidual(reading.row, reading.hours, PROFILE, *(float(value) for value in row))
+            for row in rows
+        ]
 
 
-def _recess(reading: Reading, state: State) -> Vector:
+def _recess(reading: Reading, state: PredictedState) -> Vector:
     """How far the worn flank lies behind the new one at the time of a profile [mm]."""
-    assert state.course is not None
+    assert state.predicted is not None
     part, kind = reading.hours / state.life, reading.gap_kind or 1
-    return state.course.mean(lambda one: one.recess(part, kind))
+    return state.predicted.mean(lambda one: one.recess(part, kind))

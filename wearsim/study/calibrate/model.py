@@ -6,15 +6,15 @@ from pathlib import Path
 from wearsim.case.load_case import load_case
 from wearsim.input.document import read_document
 from wearsim.runner.scatter import plain_document
-from wearsim.study.calibrate.calibration import Calibration, Options
-from wearsim.study.calibrate.case_fit import Fitting
-from wearsim.study.calibrate.checks import check_readings
+from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
+from wearsim.study.calibrate.case_fit import CaseFit
+from wearsim.study.calibrate.reading_checks import check_readings
 from wearsim.study.calibrate.readings import read_readings
-from wearsim.study.constant_coefficient import check_constant
+from wearsim.study.steady_coefficient import check_steady_coefficient
 
 
 def calibrate(
-    path: Path, measurements: Path, overrides: Sequence[str] = (), options: Options | None = None
+    path: Path, measurements: Path, overrides: Sequence[str] = (), options: CalibrationOptions | None = None
 ) -> Calibration:
     """Fit the coefficients of a case to what was measured.
 
@@ -22,11 +22,11 @@ def calibrate(
     joints where there are elongations, and what the options name besides: bounded least squares
     of the residuals over their stated errors, intervals by the profile of the likelihood.
     """
-    options = options or Options()
+    options = options or CalibrationOptions()
     document = read_document(path, overrides)
     case = load_case(path, overrides)
-    check_constant(case, "calibrate")
+    check_steady_coefficient(case, "calibrate")
     readings = read_readings(measurements)
     check_readings(case, readings, options, str(measurements))
     tables = plain_document(document, case).data
-    return Fitting(case, tables, readings, options, str(measurements)).calibration()
+    return CaseFit(case, tables, readings, options, str(measurements)).calibration()

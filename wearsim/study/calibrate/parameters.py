@@ -8,10 +8,14 @@ from functools import cached_property
 import numpy as np
 
 from wearsim.case.model import Case
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import value_at
-from wearsim.study.calibrate.interpolation import Blend, Courses, Log
-from wearsim.study.calibrate.observe import State
+from wearsim.study.calibrate.history_interpolation import (
+    LogInterpolation,
+    PredictedHistories,
+    WeightedHistory,
+)
+from wearsim.study.calibrate.observations import PredictedState
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"
 EXPONENT = "wear.pressure_exponent"
@@ -28,7 +32,7 @@ BEYOND = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Parameters:
+class FitParameters:
     """The logarithms that are fitted.
 
     The first one stands for the coefficient of the teeth where that is fitted; it is the
@@ -36,7 +40,7 @@ class Parameters:
     meaning changes with the others (physics: life times coefficient is constant).
     """
 
-    courses: Courses  # runs of the case
+    predictions: PredictedHistories  # runs of the case
     coefficient: float  # that of the teeth in the case
     joint: float  # that of the joints in the case; nan where no chain wears
     elongation_rate: float  # of the chain with that [%/h]; nan where no chain wears
@@ -72,32 +76,34 @@ class Parameters:
         point = np.zeros(self.size)
         if self.teeth:
             low, high = self.bounds
-            hours = math.log(self.course(point).hours)
+            hours = math.log(self.predicted(point).hours)
             point[0] = min(max(hours, low[0]), high[0])
         return point
 
-    def course(self, point: Vector) -> Blend:
+    def predicted(self, point: Vector) -> WeightedHistory:
         """Return the wear of the teeth that a set of logarithms needs."""
         given = dict(self.shapes)
         if self.ratio != 1.0:
             given[JOINT] = self.ratio * self.joint
         values = point[self.teeth + self.chain :].tolist()
         ends = zip(self.shapes, values, self._shape_bounds(), strict=True)
-        return self.courses.blend(given, {key: Log(log, *bounds) for key, log, bounds in ends})
+        return self.predictions.weighted(
+            given, {key: LogInterpolation(log, *bounds) for key, log, bounds in ends}
+        )
 
-    def state(self, point: Vector) -> State:
+    def state(self, point: Vector) -> PredictedState:
         """Return the drive that a set of logarithms means."""
         joints = math.exp(point[int(self.teeth)]) if self.chain else 1.0
         rate = joints * self.elongation_rate
         if not self.teeth:
-            return State(None, math.nan, rate)
-        return State(self.course(point), math.exp(point[0]), rate)
+            return PredictedState(None, math.nan, rate)
+        return PredictedState(self.predicted(point), math.exp(point[0]), rate)
 
     def swapped(self, point: Vector) -> Vector:
         """Return logarithms with the coefficient of the teeth for their life, or the other way round."""
         if not self.teeth:
             return point
-        return np.array([math.log(self.course(point).hours) - point[0], *point[1:]])
+        return np.array([math.log(self.predicted(point).hours) - point[0], *point[1:]])
 
     def bounds_of_coefficients(self) -> tuple[Vector, Vector]:
         """Return bounds of the logarithms of all values over those of the case."""

@@ -6,14 +6,14 @@ from functools import cached_property
 import numpy as np
 
 from wearsim.geometry.measured.registration import feet
-from wearsim.geometry.profile import Profile, Vector, chord_lengths
+from wearsim.geometry.profile_points import Profile, Vector, chord_lengths
 from wearsim.result import Life, WearResult
 
 _SAME = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class PredictedHistory:
     """A run until its limit; with other coefficients of the same ratios it is only stretched."""
 
     result: WearResult  # the run
@@ -35,7 +35,7 @@ class Course:
         return int(self._depth.shape[1])
 
     @property
-    def most(self) -> float:
+    def greatest(self) -> float:
         """Depth of the deepest point at the end [mm]."""
         return float(self._depth.max())
 

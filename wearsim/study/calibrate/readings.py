@@ -11,9 +11,9 @@ import numpy as np
 
 from wearsim.errors import CaseError, Fault
 from wearsim.extras import library
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import header_faults, read_columns
-from wearsim.input.messages import Faults
+from wearsim.input.faults import Faults
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,8 +25,8 @@ QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE)
 REQUIRED = ("time_hours", "quantity", "error")
 OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
 _LEAST_POINTS = 11
-_LEAST_HOURS, _MOST_HOURS = 1e-6, 1e9
-_LEAST_ERROR, _MOST_VALUE = 1e-9, 1e6
+_LEAST_HOURS, _MAX_HOURS = 1e-6, 1e9
+_LEAST_ERROR, _MAX_VALUE = 1e-9, 1e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,13 +125,13 @@ def _common() -> Any:
     return _columns(
         {
             "time_hours": (
-                lambda text: _LEAST_HOURS <= _number(text) <= _MOST_HOURS,
-                f"must be a number above 0, from {_LEAST_HOURS:g} to {_MOST_HOURS:g} h",
+                lambda text: _LEAST_HOURS <= _number(text) <= _MAX_HOURS,
+                f"must be a number above 0, from {_LEAST_HOURS:g} to {_MAX_HOURS:g} h",
             ),
             "error": (
-                lambda text: _LEAST_ERROR <= _number(text) <= _MOST_VALUE,
+                lambda text: _LEAST_ERROR <= _number(text) <= _MAX_VALUE,
                 "must be a number above 0, the standard deviation of the value, from "
-                f"{_LEAST_ERROR:g} to {_MOST_VALUE:g}",
+                f"{_LEAST_ERROR:g} to {_MAX_VALUE:g}",
             ),
             "quantity": (lambda text: text in QUANTITIES, f"must be one of {words}"),
             "gap_kind": (
@@ -150,8 +150,8 @@ def _of_quantity(quantity: str) -> Any:
             "value": empty
             if profile
             else (
-                lambda text: abs(_number(text)) <= _MOST_VALUE,
-                f"must be a number of at most {_MOST_VALUE:g}",
+                lambda text: abs(_number(text)) <= _MAX_VALUE,
+                f"must be a number of at most {_MAX_VALUE:g}",
             ),
             "points_file": (bool, "must name a file with x_mm and y_mm") if profile else empty,
             "arc_length_mm": (lambda text: _number(text) >= 0.0, "must be a number of at least 0")

@@ -11,10 +11,10 @@ from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.figures import save_figure
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
-from wearsim.study.calibrate.calibration import Calibration, Part, Value
-from wearsim.study.calibrate.least_squares import Interval
+from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife
+from wearsim.study.calibrate.least_squares import ConfidenceInterval
 
 
 def calibration_text(found: Calibration) -> str:
@@ -53,7 +53,7 @@ def calibration_text(found: Calibration) -> str:
             ("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
             for line, turn, x, y in found.moves
         ),
-        ("Assumes", numbered(found.assumptions)),
+        ("Assumes", numbered_assumptions(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
     return "\n".join([found.case.title, *(row(label, text) for label, text in rows)])
@@ -131,7 +131,7 @@ def _case(found: Calibration) -> str:
     return tomlkit.dumps(document)
 
 
-def _value(one: Value) -> Mapping[str, Any]:
+def _value(one: FittedCoefficient) -> Mapping[str, Any]:
     known = _known(one.interval)
     return {
         "key": one.key,
@@ -142,7 +142,7 @@ def _value(one: Value) -> Mapping[str, Any]:
     }
 
 
-def _part(part: Part) -> Mapping[str, Any]:
+def _part(part: PartLife) -> Mapping[str, Any]:
     left, life = _known(part.band), _known(part.interval)
     return {
         "part": part.name,
@@ -156,7 +156,7 @@ def _part(part: Part) -> Mapping[str, Any]:
     }
 
 
-def _known(interval: Interval) -> dict[str, float | None]:
+def _known(interval: ConfidenceInterval) -> dict[str, float | None]:
     ends = asdict(interval)
     return {end: ends[end] if ends[f"{end}_known"] else None for end in ("low", "high")}
 
@@ -169,7 +169,7 @@ def _digits(value: float) -> str:
     return f"{value:.4g}"
 
 
-def _ends(interval: Interval, shown: Any) -> str:
+def _ends(interval: ConfidenceInterval, shown: Any) -> str:
     low = shown(interval.low) if interval.low_known else "?"
     high = shown(interval.high) if interval.high_known else "?"
     return f"{low} to {high}"

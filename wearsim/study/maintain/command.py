@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import error_json, load_cases, overrides, print_json, standard, warn
+from wearsim.command.options import common_options, error_json, load_cases, overrides, print_json, warn
 from wearsim.errors import WearsimError
 
 
@@ -18,7 +18,7 @@ from wearsim.errors import WearsimError
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
-@standard
+@common_options
 def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]) -> None:
     """Compare elongations at which the chain of CASE is replaced while its sprocket stays.
 
@@ -33,8 +33,8 @@ def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings:
     if out is not None:
         check_folder(out, force)
     try:
-        with progress() as told:
-            plan = compare_policies(loaded, told)
+        with progress() as report_progress:
+            plan = compare_policies(loaded, report_progress)
     except WearsimError as error:
         if as_json:
             click.echo(error_json(case.stem, error))

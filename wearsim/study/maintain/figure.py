@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from wearsim.report.lines import literal
+from wearsim.report.text_lines import literal
 from wearsim.result import Life
-from wearsim.study.maintain.model import MaintenancePlan, Policy
+from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 
 
 def maintenance_figure(plan: MaintenancePlan) -> Figure:
@@ -16,10 +16,10 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
     priced = any(policy.cost is not None for policy in plan.policies)
     figure = Figure(figsize=(7.0, 7.6 if priced else 5.2), layout="constrained")
     panels = list(figure.subplots(3 if priced else 2, 1, sharex=True))
-    for turned in (False, True):
-        policies = [policy for policy in plan.policies if policy.turned == turned]
+    for reversed_ in (False, True):
+        policies = [policy for policy in plan.policies if policy.reversed_ == reversed_]
         if policies:
-            _draw(panels, policies, turned, priced)
+            _draw(panels, policies, reversed_, priced)
     panels[0].set_ylabel("sprocket's life, h")
     panels[1].set_ylabel("chains per sprocket")
     if priced:
@@ -34,9 +34,9 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
     return figure
 
 
-def _draw(panels: list[Axes], policies: list[Policy], turned: bool, priced: bool) -> None:
+def _draw(panels: list[Axes], policies: list[ReplacementPolicy], reversed_: bool, priced: bool) -> None:
     at = [100.0 * policy.replace_at for policy in policies]
-    style, colour = ("--", "tab:orange") if turned else ("-", "tab:blue")
+    style, colour = ("--", "tab:orange") if reversed_ else ("-", "tab:blue")
     shown = [
         [policy.hours for policy in policies],
         [policy.hours / policy.chain_hours for policy in policies],
@@ -44,11 +44,11 @@ def _draw(panels: list[Axes], policies: list[Policy], turned: bool, priced: bool
     if priced:
         shown.append([math.nan if policy.cost is None else policy.cost for policy in policies])
     reached = np.array([isinstance(policy.sprocket, Life) for policy in policies])
-    label = "sprocket turned" if turned else "sprocket not turned"
+    label = "sprocket turned" if reversed_ else "sprocket not turned"
     for panel, values in zip(panels, shown, strict=True):
         if reached.any():
             lives = np.where(reached, values, math.nan)
             panel.plot(at, lives, f"o{style}", color=colour, label=label)
         if not reached.all():
-            bounds, told = np.where(reached, math.nan, values), f"{label}, > : limit not reached"
-            panel.plot(at, bounds, "^", color=colour, mfc="white", label=told)
+            bounds, report_progress = np.where(reached, math.nan, values), f"{label}, > : limit not reached"
+            panel.plot(at, bounds, "^", color=colour, mfc="white", label=report_progress)

@@ -11,9 +11,9 @@ from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.study.constant_coefficient import check_constant
-from wearsim.study.maintain.reversed_sprocket import turned_life
+from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
+from wearsim.study.steady_coefficient import check_steady_coefficient
 
 Progress = Callable[[int, int, str], None]
 """Told before each run how many are done, of how many, and what comes next."""
@@ -32,11 +32,11 @@ TURN_CONVENTION = (
 
 
 @dataclass(frozen=True)
-class Policy:
+class ReplacementPolicy:
     """What follows from replacing the chain at an elongation."""
 
     replace_at: float  # relative elongation at which a new chain is put on
-    turned: bool  # whether the sprocket is turned when its first flank is worn
+    reversed_: bool  # whether the sprocket is turned when its first flank is worn
     chain_hours: float  # life of one chain [h]
     sprocket: Life | LowerBound  # of the sprocket, both flanks if it is turned
     numerical_error: float  # estimated relative error of the sprocket's life
@@ -62,7 +62,7 @@ class Policy:
     @property
     def stops(self) -> int:
         """Stops in the life of one sprocket: for its chains, the last with the sprocket, and a turn."""
-        return self.chains + (1 if self.turned else 0)
+        return self.chains + (1 if self.reversed_ else 0)
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class MaintenancePlan:
 
     case: str  # of the case
     title: str  # of the case
-    policies: tuple[Policy, ...]  # by elongation; a turned sprocket after the same without
+    policies: tuple[ReplacementPolicy, ...]  # by elongation; a turned sprocket after the same without
     # meetings near the case's own numbers of teeth and links, with lives of four of them
     counts: tuple[ToothCount, ...]
     count_limit: float  # relative elongation at which the chain is replaced in these lives
@@ -81,7 +81,7 @@ class MaintenancePlan:
     warnings: tuple[str, ...]
 
     @property
-    def cheapest(self) -> Policy | None:
+    def cheapest(self) -> ReplacementPolicy | None:
         """The policy with the least cost, None where no cost is known."""
         priced = [(policy.cost, i) for i, policy in enumerate(self.policies) if policy.cost]
         return self.policies[min(priced)[1]] if priced else None
@@ -117,7 +117,7 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     and the chain at the end of the first.
     """
     drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'")
-    check_constant(case, "maintain")
+    check_steady_coefficient(case, "maintain")
     table = MaintenanceTable(**case.inputs.get("maintenance", {}))
     limit: float = case.inputs["stop"]["elongation_percent"]
     elongations = table.replace_at_percent or [*(e for e in POLICIES if e < limit), limit]
@@ -165,9 +165,9 @@ def _all_policies(
     elongations: list[float],
     steps: _Steps,
     warnings: list[str],
-) -> list[Policy]:
+) -> list[ReplacementPolicy]:
     """Run every policy; what fails becomes a warning, unless all do."""
-    policies: list[Policy] = []
+    policies: list[ReplacementPolicy] = []
     failure: WearsimError | None = None
     for percent in elongations:
         done = steps.done
@@ -182,16 +182,18 @@ def _all_policies(
     return policies
 
 
-def _policies(case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]) -> list[Policy]:
+def _policies(
+    case: Case, table: MaintenanceTable, steps: _Steps, warnings: list[str]
+) -> list[ReplacementPolicy]:
     """Return one policy, and the same with the sprocket turned where that is wanted."""
     drive = wrap_of(case)
     what = f"chain replaced at {100.0 * drive.joint.elongation_limit:.3g} %"
     steps.next(what)
     first = simulate(case)
     warnings += [text for text in first.warnings if text not in warnings]
-    policy = Policy(
+    policy = ReplacementPolicy(
         replace_at=drive.joint.elongation_limit,
-        turned=False,
+        reversed_=False,
         chain_hours=chain_life(case).hours,
         sprocket=first.parts["sprocket"],
         numerical_error=first.numerical_error,
@@ -200,13 +202,13 @@ def _policies(case: Case, table: MaintenanceTable, steps: _Steps, warnings: list
     if table.turn_sprocket and isinstance(policy.sprocket, Life):
         steps.next(f"{what}, sprocket turned")
         try:
-            second, error = turned_life(case, first)
+            second, error = reversed_life(case, first)
         except (ContactError, ConvergenceError) as reason:
             warnings.append(f"turning the sprocket, {what}, fails: {reason}")
         else:
             error = max(error, first.numerical_error)
             life = _sum(policy.sprocket, second)
-            found.append(replace(policy, turned=True, sprocket=life, numerical_error=error))
+            found.append(replace(policy, reversed_=True, sprocket=life, numerical_error=error))
     return [
         replace(entry, cost=cost_per_1000_hours(table, entry.hours, entry.chains, entry.stops))
         if isinstance(entry.sprocket, Life)
@@ -222,7 +224,7 @@ def _sum(first: Life, second: Life | LowerBound) -> Life | LowerBound:
 def _with_lives(
     counts: tuple[ToothCount, ...],
     case: Case,
-    own: Policy | None,
+    own: ReplacementPolicy | None,
     tell: Callable[[str], None],
     warnings: list[str],
 ) -> tuple[ToothCount, ...]:

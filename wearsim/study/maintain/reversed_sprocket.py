@@ -4,18 +4,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.case.model import Case
-from wearsim.contact.criteria import Criterion, rising
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
-from wearsim.geometry.profile import Vector
+from wearsim.contact.stop_limits import StopLimit, rising
+from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
-from wearsim.simulation.task import wear_law
+from wearsim.simulation.wear_task import wear_law
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.wear.bodies import Start
-from wearsim.wear.halving import advance_dwelling
+from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.step_halving import advance_resting
 
 
-def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
+def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
     """Return how long a worn sprocket lives when it is turned onto its other flank."""
     contact = wrap_of(case).contact(case)
     points = contact.profile.x.size
@@ -25,17 +25,17 @@ def turned_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float
     chain = int(history["chain"][-1])
     if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
         wear, chain = NEW_CHAIN, chain + 1
-    turned = contact.on_outline(contact.profile.mirrored()).thinned()
-    start = Start(depth[:, ::-1].copy(), wear, chain)
-    criteria = _criteria(case, turned, _working_half(contact, depth))
-    profile = turned.profile
-    margins = [criterion.margin(*profile.receded(d), d) for criterion in criteria for d in start.depth]
+    reversed_ = contact.on_outline(contact.profile.mirrored()).with_fewer_phases()
+    start = StartState(depth[:, ::-1].copy(), wear, chain)
+    stop_limits = _stop_limits(case, reversed_, _working_half(contact, depth))
+    profile = reversed_.profile
+    margins = [stop_limit.margin(*profile.receded(d), d) for stop_limit in stop_limits for d in start.depth]
     if min(margins) <= 0.0:
         return Life(0.0, 0.0), 0.0
-    run, error = advance_dwelling(
-        turned,
+    run, error = advance_resting(
+        reversed_,
         wear_law(case.wear, case.wear.coefficient),
-        criteria,
+        stop_limits,
         case.run.horizon_hours * case.cycles_per_hour,
         case.run.life_tolerance,
         start,
@@ -51,14 +51,14 @@ def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
     return side * contact.profile.mirrored().x >= 0.0
 
 
-def _criteria(case: Case, contact: WrapContact, half: NDArray[np.bool_]) -> tuple[Criterion, ...]:
+def _stop_limits(case: Case, contact: WrapContact, half: NDArray[np.bool_]) -> tuple[StopLimit, ...]:
     """The limits of the case, those on the depth for the half that works."""
     found = []
-    for criterion in wrap_of(case).gap_limits(case, contact.mechanism.path):
-        of_half = criterion.name in ("critical_depth_mm", "case_depth_mm")
+    for stop_limit in wrap_of(case).gap_limits(case, contact.mechanism.path):
+        of_half = stop_limit.name in ("critical_depth_mm", "case_depth_mm")
         found.append(
-            rising(criterion.name, criterion.limit, lambda x, y, depth: float(depth[half].max()))
+            rising(stop_limit.name, stop_limit.limit, lambda x, y, depth: float(depth[half].max()))
             if of_half
-            else criterion
+            else stop_limit
         )
     return tuple(found)

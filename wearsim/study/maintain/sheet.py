@@ -7,9 +7,9 @@ from typing import Any
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
-from wearsim.report.lines import numbered, row
+from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result import Life, LowerBound, life_keys
-from wearsim.study.maintain.model import MaintenancePlan, Policy
+from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 from wearsim.study.maintain.tooth_count import ToothCount
 
 POLICY_HEAD = ("replace at", "turned", "chain", "chains", "last used", "sprocket", "stops", "cost per 1000 h")
@@ -21,7 +21,7 @@ def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
     return [
         {
             "replace_at_percent": _percent(policy),
-            "turned": policy.turned,
+            "turned": policy.reversed_,
             "chain_life_hours": policy.chain_hours,
             "chains_per_sprocket": _known(policy.chains, policy),
             "chains_per_sprocket_at_least": (None if isinstance(policy.sprocket, Life) else policy.chains),
@@ -76,7 +76,7 @@ def maintenance_text(plan: MaintenancePlan) -> str:
         lines += _aligned(COUNT_HEAD, [_count_cells(count) for count in plan.counts])
     lines += [
         "",
-        row("Assumes", numbered((*_notes(plan), *plan.assumptions))),
+        row("Assumes", numbered_assumptions((*_notes(plan), *plan.assumptions))),
         row("Warnings", "; ".join(plan.warnings) or "none"),
     ]
     return "\n".join(lines)
@@ -110,20 +110,20 @@ def save_maintenance(plan: MaintenancePlan, folder: Path, force: bool) -> None:
         save_figure(maintenance_figure(plan), place, "maintenance")
 
 
-def _known(value: float, policy: Policy) -> float | None:
+def _known(value: float, policy: ReplacementPolicy) -> float | None:
     """A number of the sprocket's life, None where that is not known."""
     return value if isinstance(policy.sprocket, Life) else None
 
 
-def _percent(policy: Policy) -> float:
+def _percent(policy: ReplacementPolicy) -> float:
     return float(f"{100.0 * policy.replace_at:.12g}")
 
 
-def _policy_cells(policy: Policy) -> list[str]:
+def _policy_cells(policy: ReplacementPolicy) -> list[str]:
     reached = isinstance(policy.sprocket, Life)
     return [
         f"{_percent(policy):g} %",
-        "yes" if policy.turned else "no",
+        "yes" if policy.reversed_ else "no",
         f"{grouped(policy.chain_hours)} h",
         f"{policy.chains}" if reached else f"> {policy.chains - 1}",
         f"{100.0 * policy.last_chain_used:.0f} %" if reached else "-",
@@ -153,8 +153,8 @@ def _answers(plan: MaintenancePlan) -> list[str]:
     """Return the policy to take, or why it is not known."""
     cheapest = plan.cheapest
     if cheapest is not None:
-        turned = ", sprocket turned" if cheapest.turned else ""
-        return [f"cheapest: a new chain at {_percent(cheapest):g} %{turned}"]
+        reversed_ = ", sprocket turned" if cheapest.reversed_ else ""
+        return [f"cheapest: a new chain at {_percent(cheapest):g} %{reversed_}"]
     if any(isinstance(policy.sprocket, LowerBound) for policy in plan.policies):
         return [
             "> : the sprocket's limit was not reached, so its cost is not known (raise run.horizon_hours, "

@@ -9,7 +9,7 @@ from typing import Any
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
-from wearsim.chain.drive_layout import Meetings
+from wearsim.chain.drive_layout import ToothMeetings
 from wearsim.input.schema.drive_tables import STANDARD_FORMS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
@@ -20,7 +20,7 @@ from wearsim.result.folder import FILE_KEYS
 class ToothCount:
     """Numbers of teeth and links, and the lives that go with them."""
 
-    meetings: Meetings  # who meets whom with these numbers
+    meetings: ToothMeetings  # who meets whom with these numbers
     run: bool  # whether their lives are to be calculated
     # of `chain` and `sprocket`; empty where they were not calculated
     lives: Mapping[str, Life | LowerBound] = field(default_factory=dict)
@@ -33,13 +33,13 @@ def meetings_around(case: Case, drive: WrapDrive) -> tuple[ToothCount, ...]:
     drawn = case.inputs["sprocket"]["profile"] not in STANDARD_FORMS
     teeth, links = drive.gaps, drive.layout.links
     return tuple(
-        ToothCount(Meetings(teeth + more, links + longer), run=more >= 0 and longer >= 0)
+        ToothCount(ToothMeetings(teeth + more, links + longer), run=more >= 0 and longer >= 0)
         for more, longer in product((0,) if drawn else (-1, 0, 1), (-2, 0, 2))
         if teeth + more >= 5 and links + longer >= 10
     )
 
 
-def variant(case: Case, meetings: Meetings) -> Case:
+def variant(case: Case, meetings: ToothMeetings) -> Case:
     """Return a case with other numbers of teeth and links, all else as it is.
 
     Load, limits and the other sprocket stay; the tip diameter follows the teeth where it is

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import overrides, print_json, standard, warn
-from wearsim.command.study import Place, place_options
+from wearsim.command.options import common_options, overrides, print_json, warn
+from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import in_batches, timed
 
 if TYPE_CHECKING:
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 )
 @click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the search.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
-@place_options
+@study_options
 @overrides
-@standard
+@common_options
 def optimise(
-    case: Path, evaluations: int, seed: int, as_json: bool, place: Place, settings: tuple[str, ...]
+    case: Path, evaluations: int, seed: int, as_json: bool, place: StudyOptions, settings: tuple[str, ...]
 ) -> int:
     """Print the best designs of CASE (.toml) among those that its table [optimise] allows.
 
@@ -42,39 +42,39 @@ def optimise(
     designs as a case in designs, and what is finished: run again, the same command goes on.
     """
     from wearsim.study.optimise.model import load_optimise
-    from wearsim.study.optimise.trials import Outcome, Trials, check_feasible, front
+    from wearsim.study.optimise.trials import OptimiseOutcome, Trials, check_feasible, front
 
     study = load_optimise(case, settings, evaluations, seed)
     if len(study.objectives) > 1:
         from wearsim.extras import check_installed
 
         check_installed(("optuna",), "optimise", "optimise with several objectives")
-    told = _told(study)
+    report_progress = _note(study)
     if place.dry_run:
-        _show_plan(study, place, told)
+        _show_plan(study, place, report_progress)
         return 0
     from wearsim.study.optimise.search import search
 
     text = f"optimising {study.case.title}"
-    with in_batches(study.given, place, told, text, evaluations + 1) as run:
+    with in_batches(study.given, place, report_progress, text, evaluations + 1) as run:
         trials = Trials(study, run)
         settled = search(study, trials)
     tried = tuple(trials.found.values())
     best = tuple(front(tried, study.objectives))
-    outcome = Outcome(study, trials.given, tried, best, settled)
+    outcome = OptimiseOutcome(study, trials.given, tried, best, settled)
     from wearsim.study.optimise.sheet import (
         optimise_json,
         optimise_text,
+        optimise_warnings,
         save_candidates,
         save_optimise,
-        warnings_of,
     )
 
     if place.out is not None:
         save_candidates(outcome, place.out)
     check_feasible(study, tried)
     if as_json:
-        print_json(optimise_json(outcome), case, warnings_of(outcome))
+        print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:
         click.echo(optimise_text(outcome))
     if place.out is not None:
@@ -83,7 +83,7 @@ def optimise(
     return 0
 
 
-def _told(study: "OptimiseStudy") -> dict[str, Any]:
+def _note(study: "OptimiseStudy") -> dict[str, Any]:
     """What the manifest tells; the number of designs is none of it: more of them go on."""
     return {
         "study": "optimise",
@@ -93,12 +93,12 @@ def _told(study: "OptimiseStudy") -> dict[str, Any]:
     }
 
 
-def _show_plan(study: "OptimiseStudy", place: Place, told: Mapping[str, Any]) -> None:
+def _show_plan(study: "OptimiseStudy", place: StudyOptions, report_progress: Mapping[str, Any]) -> None:
     from wearsim.runner.store import check_store
 
     place.workers()
     if place.out is not None:
-        check_store(place.out, study.given, told, place.force)
+        check_store(place.out, study.given, report_progress, place.force)
     points = study.space.start(4, study.seed, study.values)
     seconds, count = timed(study.design([study.space.row(point) for point in points]))
     click.echo(f"designs      {study.evaluations} at most, beside the case as given")

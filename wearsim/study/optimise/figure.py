@@ -6,16 +6,16 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from wearsim.study.optimise.trials import MAXIMISED, Candidate, Outcome
+from wearsim.study.optimise.trials import MAXIMISED, Candidate, OptimiseOutcome
 from wearsim.study.sweep.figure import axis_label, scaled_heights
 
-_MOST_LINES = 500
+_MAX_LINES = 500
 
 _BOUND = "> : limit not reached"
 """In legends: a life that is a bound, an open arrow."""
 
 
-def optimise_figures(outcome: Outcome) -> dict[str, Figure]:
+def optimise_figures(outcome: OptimiseOutcome) -> dict[str, Figure]:
     """Return the pictures that suit an optimisation, by file stem."""
     figures = {"convergence": _convergence(outcome)}
     if len(outcome.study.objectives) > 1:
@@ -24,7 +24,7 @@ def optimise_figures(outcome: Outcome) -> dict[str, Figure]:
     return figures
 
 
-def _feasible(outcome: Outcome) -> list[Candidate]:
+def _feasible(outcome: OptimiseOutcome) -> list[Candidate]:
     return [one for one in outcome.candidates if one.feasible]
 
 
@@ -33,7 +33,7 @@ def _is_bound(one: Candidate, name: str) -> bool:
     return name == "life_hours" and not one.reached
 
 
-def _convergence(outcome: Outcome) -> Figure:
+def _convergence(outcome: OptimiseOutcome) -> Figure:
     names = outcome.study.objectives
     figure = Figure(figsize=(7.0, 1.2 + 2.6 * len(names)), layout="constrained")
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
@@ -68,7 +68,7 @@ def _convergence(outcome: Outcome) -> Figure:
     return figure
 
 
-def _front(outcome: Outcome) -> Figure:
+def _front(outcome: OptimiseOutcome) -> Figure:
     pairs = list(combinations(outcome.study.objectives, 2))
     figure = Figure(figsize=(1.5 + 5.0 * len(pairs), 4.8), layout="constrained")
     panels = figure.subplots(1, len(pairs), squeeze=False)[0]
@@ -101,11 +101,11 @@ def _front(outcome: Outcome) -> Figure:
     return figure
 
 
-def _parallel(outcome: Outcome) -> Figure:
+def _parallel(outcome: OptimiseOutcome) -> Figure:
     """Every feasible design a line through its values and what came of it, the best on top."""
     study = outcome.study
     tried = _feasible(outcome)
-    tried = tried[:: max(1, len(tried) // _MOST_LINES)]
+    tried = tried[:: max(1, len(tried) // _MAX_LINES)]
     best = {one.number for one in outcome.front}
     rows = [*(one for one in tried if one.number not in best), *outcome.front]
     columns = [*study.space.keys, *study.measures]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.optimise.trials import MAXIMISED, Candidate
 
@@ -38,11 +38,11 @@ def proposals(
     if middle is None or not free.size or best.error:
         return []
     near = _alike(study, tried, best)
-    asked = [(radius, margin, -1) for radius in radii for margin in margins]
-    asked += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
+    requested = [(radius, margin, -1) for radius in radii for margin in margins]
+    requested += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
     models = {radius: _model(study, near, middle[free], free, radius) for radius in radii}
     found = []
-    for radius, margin, kept in asked:
+    for radius, margin, kept in requested:
         model = models[radius]
         if model is not None:
             place = middle.copy()

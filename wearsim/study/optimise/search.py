@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import differential_evolution
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.study.optimise.local_model import Places, proposals
 from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.optimise.search_front import evolve_front, refine_front
@@ -14,7 +14,7 @@ from wearsim.study.optimise.trials import FAILED, Candidate, Trials
 _BROKEN = 1e3
 """Cost above those of all feasible designs."""
 
-_PER_PARAMETER, _LEAST, _MOST = 10, 12, 60
+_PER_PARAMETER, _LEAST, _MAX = 10, 12, 60
 """Designs of a generation."""
 
 _SAME = 1e-5
@@ -50,7 +50,7 @@ def search(study: OptimiseStudy, trials: Trials) -> bool:
 
 def generation_size(study: OptimiseStudy) -> int:
     """Return how many designs are tried together."""
-    size = min(max(_PER_PARAMETER * len(study.space.parameters), _LEAST), _MOST)
+    size = min(max(_PER_PARAMETER * len(study.space.parameters), _LEAST), _MAX)
     return max(min(size, study.evaluations // 4), 5)
 
 

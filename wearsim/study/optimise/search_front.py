@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.extras import library
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.input.schema.study_tables import MeasureLimit
 from wearsim.study.optimise.local_model import proposals
 from wearsim.study.optimise.model import OptimiseStudy
@@ -24,7 +24,7 @@ distance from the other objectives that it keeps."""
 _FIRST_STEP, _LAST_STEP, _JUMP = 0.1, 2e-5, 0.2
 """Steps around designs of a front, and the part of values of lists that are drawn anew."""
 
-_MOST_IDLE = 5
+_MAX_IDLE = 5
 """Generations in a row without a new design after which there are none."""
 
 
@@ -38,11 +38,11 @@ def evolve_front(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
     for point in points:
         evolution.enqueue_trial(dict(zip(kinds, _params(study, point), strict=True)))
     idle = 0
-    while trials.left > _RESERVE * study.evaluations and idle < _MOST_IDLE:
+    while trials.left > _RESERVE * study.evaluations and idle < _MAX_IDLE:
         before = trials.left
-        asked = [evolution.ask(kinds) for _ in points]
-        rows = [_row(study, list(trial.params.values())) for trial in asked]
-        for trial, one in zip(asked, trials.at(rows), strict=True):
+        requested = [evolution.ask(kinds) for _ in points]
+        rows = [_row(study, list(trial.params.values())) for trial in requested]
+        for trial, one in zip(requested, trials.at(rows), strict=True):
             _constrain(trial, FAILED if one is None or one.error else one.violation)
             evolution.tell(trial, _values(study, one))
         idle = idle + 1 if trials.left == before else 0
@@ -76,7 +76,7 @@ def refine_front(study: OptimiseStudy, trials: Trials, size: int) -> None:
     """Move each design of the front by models, then all in smaller and smaller random steps."""
     rng = np.random.default_rng((study.seed, 2))
     step, idle, done = _FIRST_STEP, 0, set[int]()
-    while trials.left > 0 and idle < _MOST_IDLE:
+    while trials.left > 0 and idle < _MAX_IDLE:
         before = trials.left
         tried = list(trials.found.values())
         best = front(tried, study.objectives)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic.fields import FieldInfo
 
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.input.keys import parts, schema_fields, schema_of, words
 from wearsim.input.schema.study_tables import ParameterRange
 from wearsim.input.schema.table import without_numbers
@@ -23,7 +23,7 @@ _DIGITS = 7
 _NEAR_END = 1e-3
 """Part of a range within which a value lies on its end."""
 
-_MOST_WHOLE = 100_000
+_MAX_WHOLE = 100_000
 """Whole numbers of a range."""
 
 _NOT_OF_A_DESIGN = {
@@ -167,8 +167,8 @@ def _unfit_range(given: ParameterRange, field: FieldInfo) -> str:
     if not (isinstance(given.low, int) and isinstance(given.high, int)):
         return f"takes whole numbers: give low and high as such, not {given.low:g} and {given.high:g}"
     count = given.high - given.low + 1
-    too_many = f"may hold at most {_MOST_WHOLE} whole numbers, holds {count}: give nearer ends"
-    return too_many if count > _MOST_WHOLE else ""
+    too_many = f"may hold at most {_MAX_WHOLE} whole numbers, holds {count}: give nearer ends"
+    return too_many if count > _MAX_WHOLE else ""
 
 
 def _parameter(key: str, given: Any, field: FieldInfo | None) -> Parameter:

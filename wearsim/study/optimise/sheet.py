@@ -9,14 +9,14 @@ import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
 from wearsim.quantities import grouped
-from wearsim.report.lines import kinds
+from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.figure import optimise_figures
 from wearsim.study.optimise.trials import (
     MAXIMISED,
     Candidate,
-    Outcome,
+    OptimiseOutcome,
     commonest_reason,
     limit_names,
     margins,
@@ -25,11 +25,11 @@ from wearsim.study.optimise.trials import (
 _SAME = 1e-6
 """Relative scatter of a measure that is none."""
 
-_MOST_SHOWN = 20
+_MAX_SHOWN = 20
 """Designs of a front in the text; the files hold all."""
 
 
-def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.DataFrame:
+def candidates_table(outcome: OptimiseOutcome, candidates: Sequence[Candidate]) -> pd.DataFrame:
     """Return a row for each design."""
     study = outcome.study
     columns = [
@@ -57,7 +57,7 @@ def candidates_table(outcome: Outcome, candidates: Sequence[Candidate]) -> pd.Da
     return pd.DataFrame(rows, columns=columns)
 
 
-def warnings_of(outcome: Outcome) -> tuple[str, ...]:
+def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
     """Return what is doubtful about the best designs."""
     study, found = outcome.study, []
     for at, parameter in enumerate(study.space.parameters):
@@ -98,24 +98,27 @@ def warnings_of(outcome: Outcome) -> tuple[str, ...]:
     return (*found, *study.space.warnings, *_of_designs(outcome))
 
 
-def _of_designs(outcome: Outcome) -> list[str]:
+def _of_designs(outcome: OptimiseOutcome) -> list[str]:
     """Warnings of the best designs, those that differ in their numbers only as one."""
-    told = kinds(
+    report_progress = defaults_by_kind(
         f"design {_name(number, outcome)}: {text}"
         for number, one in enumerate(outcome.front, 1)
         for text in filter(None, one.warnings.split("\n"))
     )
-    return [first if count == 1 else f"{first} (and of {count - 1} more designs)" for first, count in told]
+    return [
+        first if count == 1 else f"{first} (and of {count - 1} more designs)"
+        for first, count in report_progress
+    ]
 
 
-def optimise_text(outcome: Outcome) -> str:
+def optimise_text(outcome: OptimiseOutcome) -> str:
     """Return the best designs as text."""
     study, front = outcome.study, outcome.front
     kind = "best design" if len(study.objectives) == 1 else f"front of {len(front)} designs"
     sought = ", ".join(f"{'longest' if name in MAXIMISED else 'least'} {name}" for name in study.objectives)
     lines = [study.case.title, "", f"{kind}: {sought}", "", *_table(outcome)]
-    if len(front) > _MOST_SHOWN:
-        lines.append(f"and {len(front) - _MOST_SHOWN} more: front.csv of --out holds all")
+    if len(front) > _MAX_SHOWN:
+        lines.append(f"and {len(front) - _MAX_SHOWN} more: front.csv of --out holds all")
     lines += ["", *_gains(outcome)]
     failed = [one for one in outcome.candidates if not one.feasible]
     lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
@@ -124,17 +127,17 @@ def optimise_text(outcome: Outcome) -> str:
     texts = study.assumptions(outcome.cases)
     lines += ["", "assumptions:"]
     lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
-    lines += [f"warning: {text}" for text in warnings_of(outcome)]
+    lines += [f"warning: {text}" for text in optimise_warnings(outcome)]
     return "\n".join(lines)
 
 
-def _table(outcome: Outcome) -> list[str]:
+def _table(outcome: OptimiseOutcome) -> list[str]:
     study = outcome.study
     limits = limit_names(study)
     head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     shown = [("as given", outcome.given)]
-    shown += [(_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MOST_SHOWN], 1)]
+    shown += [(_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MAX_SHOWN], 1)]
     for name, one in shown:
         cells = [name, *(_shown(value) for value in one.values)]
         if one.error:
@@ -146,11 +149,11 @@ def _table(outcome: Outcome) -> list[str]:
     return lines
 
 
-def _name(number: int, outcome: Outcome) -> str:
+def _name(number: int, outcome: OptimiseOutcome) -> str:
     return f"{number:0{_digits(outcome)}d}"
 
 
-def _digits(outcome: Outcome) -> int:
+def _digits(outcome: OptimiseOutcome) -> int:
     return max(2, len(str(len(outcome.front))))
 
 
@@ -165,7 +168,7 @@ def _measure(one: Candidate, name: str) -> str:
     return f"> {value}" if name == "life_hours" and not one.reached else value
 
 
-def _gains(outcome: Outcome) -> list[str]:
+def _gains(outcome: OptimiseOutcome) -> list[str]:
     """What the best designs gain against the case as given, where that runs."""
     if outcome.given.error:
         return []
@@ -178,7 +181,7 @@ def _gains(outcome: Outcome) -> list[str]:
     return lines
 
 
-def optimise_json(outcome: Outcome) -> dict[str, Any]:
+def optimise_json(outcome: OptimiseOutcome) -> dict[str, Any]:
     """Return the best designs as plain values."""
     study = outcome.study
     failed = [one for one in outcome.candidates if not one.feasible]
@@ -193,11 +196,11 @@ def optimise_json(outcome: Outcome) -> dict[str, Any]:
         "given": _plain(outcome, outcome.given),
         "designs": [_plain(outcome, one) for one in outcome.front],
         "assumptions": list(study.assumptions(outcome.cases)),
-        "warnings": list(warnings_of(outcome)),
+        "warnings": list(optimise_warnings(outcome)),
     }
 
 
-def _plain(outcome: Outcome, one: Candidate) -> dict[str, Any]:
+def _plain(outcome: OptimiseOutcome, one: Candidate) -> dict[str, Any]:
     study = outcome.study
     return {
         "inputs": dict(zip(study.space.keys, one.values, strict=True)),
@@ -211,13 +214,13 @@ def _plain(outcome: Outcome, one: Candidate) -> dict[str, Any]:
     }
 
 
-def save_candidates(outcome: Outcome, folder: Path) -> None:
+def save_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the table of all designs that were tried into the folder of a study."""
     tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
     save_texts(folder, {"candidates.csv": tried.to_csv(index=False)})
 
 
-def save_optimise(outcome: Outcome, folder: Path) -> None:
+def save_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the best designs, as a table, as pictures and as cases, into the folder of a study."""
     texts = {
         "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
@@ -228,7 +231,7 @@ def save_optimise(outcome: Outcome, folder: Path) -> None:
     _save_designs(outcome, folder / DESIGNS)
 
 
-def _save_designs(outcome: Outcome, folder: Path) -> None:
+def _save_designs(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write each of the best designs as a case of its own, with the files that it names."""
     study = outcome.study
     heads = {
@@ -237,7 +240,7 @@ def _save_designs(outcome: Outcome, folder: Path) -> None:
     save_designs(folder, heads, study.design([one.values for one in outcome.front]))
 
 
-def _head(outcome: Outcome, one: Candidate) -> str:
+def _head(outcome: OptimiseOutcome, one: Candidate) -> str:
     study = outcome.study
     found = ", ".join(f"{name} {_measure(one, name)}" for name in study.measures)
     return f"design {one.number}{DESIGN_MARK}{study.case.name}: {found}"

@@ -5,7 +5,15 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import error_json, finite, load_cases, overrides, print_json, standard, working
+from wearsim.command.options import (
+    common_options,
+    error_json,
+    finite,
+    load_cases,
+    overrides,
+    print_json,
+    working,
+)
 from wearsim.errors import WearsimError
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
@@ -58,7 +66,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 )
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
-@standard
+@common_options
 def remaining(
     case: Path,
     hours: float,
@@ -79,14 +87,14 @@ def remaining(
     if len(given) != 1:
         raise click.UsageError("give exactly one of --depth-mm, --over-pins-mm, --elongation")
     (loaded,) = load_cases([case], settings, as_json)
-    from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, Reading, remaining_life
+    from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
     from wearsim.study.remaining.sheet import remaining_json, remaining_text
 
     quantity = DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
     error = reading_error_percent if elongation is not None else reading_error_mm
     try:
-        with working(f"wearing {loaded.title}") as told:
-            found = remaining_life(loaded, Reading(quantity, given[0], error, hours), told)
+        with working(f"wearing {loaded.title}") as report_progress:
+            found = remaining_life(loaded, SingleReading(quantity, given[0], error, hours), report_progress)
     except WearsimError as fault:
         if as_json:
             click.echo(error_json(case.stem, fault))

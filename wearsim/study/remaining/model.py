@@ -7,19 +7,19 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.study.constant_coefficient import check_constant
+from wearsim.study.steady_coefficient import check_steady_coefficient
 
 
-def ambiguity(over_pins: Vector, error: float) -> str:
+def ambiguous_reading(over_pins: Vector, error: float) -> str:
     """Return why a reading over pins may belong to several times of a life.
 
     Examples
     --------
-    >>> ambiguity(np.array([80.0, 79.9, 79.95]), 0.1)
+    >>> ambiguous_reading(np.array([80.0, 79.9, 79.95]), 0.1)
     ''
     """
     again = float((over_pins - np.minimum.accumulate(over_pins)).max())
@@ -37,7 +37,7 @@ DEPTH, OVER_PINS, ELONGATION = "max_depth_mm", "over_pins_mm", "elongation_perce
 
 
 @dataclass(frozen=True)
-class Reading:
+class SingleReading:
     """One reading of wear in service."""
 
     # `max_depth_mm`, `over_pins_mm` (how much the measurement over pins has become less) or
@@ -55,7 +55,7 @@ class RemainingLife:
     case: str  # of the case
     title: str  # of the case
     part: str  # `sprocket` or `chain`
-    reading: Reading  # what was measured
+    reading: SingleReading  # what was measured
     model_hours: float  # when the case's own coefficient gives that reading [h]
     coefficient: float  # that the reading stands for, in the unit of the case's law
     life: Life | LowerBound  # from new, and from the reading on
@@ -73,7 +73,7 @@ class RemainingLife:
 
 
 @dataclass(frozen=True, eq=False)
-class _Course:
+class _PartHistory:
     """How a quantity grows with the case's own coefficient, up to the end of the life."""
 
     hours: Vector
@@ -91,7 +91,7 @@ class _Course:
 
 
 def remaining_life(
-    case: Case, reading: Reading, progress: Callable[[float], None] = lambda part: None
+    case: Case, reading: SingleReading, progress: Callable[[float], None] = lambda part: None
 ) -> RemainingLife:
     """Return the life that remains after a reading in service.
 
@@ -101,21 +101,21 @@ def remaining_life(
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
     long as the coefficient is constant.
     """
-    check_constant(case, "remaining")
+    check_steady_coefficient(case, "remaining")
     if not 0.0 < reading.error < reading.value:
         raise _fault(
             case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"
         )
-    course = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
-    most = float(course.values.max())
-    reached = isinstance(course.life, Life)
-    if reading.value > most * (1.0 + 1e-12):
+    history = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
+    greatest = float(history.values.max())
+    reached = isinstance(history.life, Life)
+    if reading.value > greatest * (1.0 + 1e-12):
         what = "the limit is reached" if reached else "the run ends at run.horizon_hours"
-        raise _fault(case, reading, f"must be at most {most:.6g}, where {what}")
-    model = course.hours_of(reading.value)
-    low = course.hours_of(min(reading.value + reading.error, most))
-    high = course.hours_of(reading.value - reading.error)
-    warnings = list(course.warnings)
+        raise _fault(case, reading, f"must be at most {greatest:.6g}, where {what}")
+    model = history.hours_of(reading.value)
+    low = history.hours_of(min(reading.value + reading.error, greatest))
+    high = history.hours_of(reading.value - reading.error)
+    warnings = list(history.warnings)
     factor = model / reading.hours
     if not case.wear.low <= factor <= case.wear.high and reading.quantity != ELONGATION:
         warnings.append(
@@ -128,12 +128,12 @@ def remaining_life(
         part="chain" if reading.quantity == ELONGATION else "sprocket",
         reading=reading,
         model_hours=model,
-        coefficient=factor * course.coefficient,
-        life=_stretched(course.life, reading.hours / model, 0.0),
-        remaining=_stretched(course.life, reading.hours / model, reading.hours),
-        remaining_low=_stretched(course.life, reading.hours / low, reading.hours),
-        remaining_high=_stretched(course.life, reading.hours / high, reading.hours),
-        assumptions=course.assumptions,
+        coefficient=factor * history.coefficient,
+        life=_stretched(history.life, reading.hours / model, 0.0),
+        remaining=_stretched(history.life, reading.hours / model, reading.hours),
+        remaining_low=_stretched(history.life, reading.hours / low, reading.hours),
+        remaining_high=_stretched(history.life, reading.hours / high, reading.hours),
+        assumptions=history.assumptions,
         warnings=tuple(warnings),
     )
 
@@ -145,11 +145,11 @@ def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | L
     return type(life)(life.cycles_run / life.hours_run * left, left)
 
 
-def _fault(case: Case, reading: Reading, message: str) -> CaseError:
+def _fault(case: Case, reading: SingleReading, message: str) -> CaseError:
     return CaseError([Fault(f"{reading.value:g} {message}", reading.quantity, "reading")])
 
 
-def _chain(case: Case, reading: Reading) -> _Course:
+def _chain(case: Case, reading: SingleReading) -> _PartHistory:
     """Elongation of a chain: linear, so that no run is needed."""
     if not case.drive.wear_coefficients:
         raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
@@ -157,7 +157,7 @@ def _chain(case: Case, reading: Reading) -> _Course:
     contact = drive.contact(case)
     cycles = contact.cycles_per_chain
     life = Life(cycles, cycles / case.cycles_per_hour)
-    return _Course(
+    return _PartHistory(
         hours=np.array([0.0, life.hours]),
         values=np.array([0.0, 100.0 * contact.elongation_limit]),
         life=life,
@@ -167,7 +167,7 @@ def _chain(case: Case, reading: Reading) -> _Course:
     )
 
 
-def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _Course:
+def _teeth(case: Case, reading: SingleReading, progress: Callable[[float], None]) -> _PartHistory:
     """Depth or measurement over pins of the sprocket."""
     result = simulate(case, progress)
     columns = result.history_columns
@@ -175,12 +175,12 @@ def _teeth(case: Case, reading: Reading, progress: Callable[[float], None]) -> _
         raise _fault(case, reading, "needs a sprocket with gaps: set kind = 'wrap'")
     values = columns[reading.quantity]
     if reading.quantity == OVER_PINS:
-        doubt = ambiguity(values, reading.error)
-        if doubt:
-            raise _fault(case, reading, doubt)
+        ambiguous = ambiguous_reading(values, reading.error)
+        if ambiguous:
+            raise _fault(case, reading, ambiguous)
         values = values[0] - values
     joints = ("joints wear as much more or less than their coefficient says as teeth do",)
-    return _Course(
+    return _PartHistory(
         hours=columns["time_hours"],
         values=values,
         life=result.parts.get("sprocket", result.life),

@@ -5,8 +5,8 @@ from typing import Any
 
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours, service_text
-from wearsim.report.lines import numbered, row
 from wearsim.report.service import service_keys
+from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result import Life, life_keys
 from wearsim.study.remaining.model import RemainingLife
 
@@ -33,7 +33,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
             f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
             f"after {grouped(found.model_hours)} h",
         ),
-        ("Assumes", numbered(found.assumptions)),
+        ("Assumes", numbered_assumptions(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
     return "\n".join([found.title, *(row(label, text) for label, text in rows)])

@@ -5,8 +5,8 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import overrides, print_json, standard, warn, working
-from wearsim.command.study import Place, place_options
+from wearsim.command.options import common_options, overrides, print_json, warn, working
+from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import run
 
 
@@ -35,16 +35,16 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
 )
 @click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
-@place_options
+@study_options
 @overrides
-@standard
+@common_options
 def sensitivity(
     case: Path,
     samples: int,
     trajectories: int,
     seed: int,
     as_json: bool,
-    place: Place,
+    place: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
     """Print which keys of CASE (.toml) its life depends on, and what would double it.
@@ -60,23 +60,23 @@ def sensitivity(
 
     study = load_sensitivity(case, settings, samples, trajectories, seed)
     scattered = study.scattered
-    told = {"study": "sensitivity", "case": scattered.case.name, "seed": seed}
-    table = run(study.design, place, told, f"sampling {scattered.case.title}")
+    report_progress = {"study": "sensitivity", "case": scattered.case.name, "seed": seed}
+    table = run(study.design, place, report_progress, f"sampling {scattered.case.title}")
     if table is None:
         return 0
     found = effects(study, table)
     with working(f"doubling the life of {scattered.case.title}"):
         doubled = doubling(scattered)
     from wearsim.study.sensitivity.sheet import (
-        Answer,
+        SensitivityAnswer,
         save_sensitivity,
         sensitivity_json,
         sensitivity_text,
-        warnings_of,
+        sensitivity_warnings,
     )
 
-    doubts = warnings_of(found, scattered.case)
-    answer = Answer(study, float(table["life_hours"][0]), found, doubled, doubts)
+    doubts = sensitivity_warnings(found, scattered.case)
+    answer = SensitivityAnswer(study, float(table["life_hours"][0]), found, doubled, doubts)
     if as_json:
         print_json(sensitivity_json(answer), case, answer.warnings)
     else:

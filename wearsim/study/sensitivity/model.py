@@ -17,9 +17,9 @@ from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import StudyError
 from wearsim.extras import library
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import Design, replaced
-from wearsim.runner.scatter import Scatter, Scattered, load_scattered
+from wearsim.runner.scatter import ScatteredCase, ScatteredKey, load_scattered
 from wearsim.simulation import simulate
 from wearsim.study.solve_for.model import solve_for
 from wearsim.study.uncertainty.model import EDGE
@@ -36,7 +36,7 @@ _SAME = 1e-9
 class SensitivityStudy:
     """The cases of a sensitivity study."""
 
-    scattered: Scattered  # the case and what of it scatters
+    scattered: ScatteredCase  # the case and what of it scatters
     seed: int  # of the samples
     morris: Vector  # shares of Morris' trajectories, shape (trajectories (keys + 1), keys)
     sobol: int  # rows of Sobol's method, which come last
@@ -44,10 +44,10 @@ class SensitivityStudy:
 
 
 @dataclass(frozen=True)
-class Effect:
+class KeyEffect:
     """What one key does to the life."""
 
-    scatter: Scatter  # the key
+    scatter: ScatteredKey  # the key
     # low_hours, high_hours: life with the key at its 10 % and 90 % point, all others in their
     # middle [h]
     low_hours: float
@@ -86,7 +86,7 @@ def load_sensitivity(
     return SensitivityStudy(scattered, seed, levels, len(cube), scattered.design(shares))
 
 
-def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
+def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[KeyEffect]:
     """Return what every key does to the life."""
     _check(table)
     hours = table["life_hours"].to_numpy(float)
@@ -104,7 +104,7 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
         problem, varied, calc_second_order=False, seed=study.seed
     )
     found = [
-        Effect(
+        KeyEffect(
             scatter,
             *one[index].tolist(),
             *(float(indices[name][index]) for name in ("S1", "S1_conf", "ST", "ST_conf")),
@@ -115,7 +115,7 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[Effect]:
     return sorted(found, key=lambda effect: -effect.total)
 
 
-def doubling(scattered: Scattered) -> dict[str, float]:
+def doubling(scattered: ScatteredCase) -> dict[str, float]:
     """Return the value of every key at which the case lives twice as long, the others as they are."""
     if scattered.case.fatigue is not None:
         return dict.fromkeys(scattered.keys, math.nan)
@@ -130,7 +130,7 @@ def doubling(scattered: Scattered) -> dict[str, float]:
     return found
 
 
-def _case_with(scattered: Scattered, key: str, value: float) -> Case:
+def _case_with(scattered: ScatteredCase, key: str, value: float) -> Case:
     tables = scattered.document.data
     for scatter in scattered.scatters:
         given = value if scatter.key == key else scatter.value
@@ -138,7 +138,7 @@ def _case_with(scattered: Scattered, key: str, value: float) -> Case:
     return load_case(tables)
 
 
-def _problem(scattered: Scattered) -> dict[str, Any]:
+def _problem(scattered: ScatteredCase) -> dict[str, Any]:
     count = len(scattered.keys)
     return {"names": list(scattered.keys), "num_vars": count, "bounds": [[0.0, 1.0]] * count}
 

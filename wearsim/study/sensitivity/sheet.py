@@ -12,23 +12,23 @@ from matplotlib.figure import Figure
 from wearsim.case.model import Case
 from wearsim.command.study_files import plain, save_figures, save_texts
 from wearsim.quantities import grouped
-from wearsim.study.sensitivity.model import HIGH, LOW, Effect, SensitivityStudy
+from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
 
 _NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
 
 
 @dataclass(frozen=True)
-class Answer:
+class SensitivityAnswer:
     """What of the input matters."""
 
     study: SensitivityStudy  # what was asked
     hours: float  # life with every key in its middle [h]
-    effects: Sequence[Effect]  # of the keys, the largest first
+    effects: Sequence[KeyEffect]  # of the keys, the largest first
     doubled: Mapping[str, float]  # values that double the life of the case, nan where none does
     warnings: tuple[str, ...]  # what is doubtful about the indices
 
 
-def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
+def sensitivity_warnings(effects: Sequence[KeyEffect], case: Case) -> tuple[str, ...]:
     """Return what is doubtful about indices."""
     found = (_NOT_DOUBLED,) if case.fatigue is not None else ()
     loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
@@ -37,7 +37,7 @@ def warnings_of(effects: Sequence[Effect], case: Case) -> tuple[str, ...]:
     return (*found, f"the indices of {', '.join(loose)} are not known well: take more --samples")
 
 
-def sensitivity_table(answer: Answer) -> pd.DataFrame:
+def sensitivity_table(answer: SensitivityAnswer) -> pd.DataFrame:
     """Return a row for each key."""
     return pd.DataFrame(
         {
@@ -58,7 +58,7 @@ def sensitivity_table(answer: Answer) -> pd.DataFrame:
     )
 
 
-def sensitivity_text(answer: Answer) -> str:
+def sensitivity_text(answer: SensitivityAnswer) -> str:
     """Return what matters as text."""
     scattered = answer.study.scattered
     width = max(len(key) for key in scattered.keys)
@@ -91,7 +91,7 @@ def sensitivity_text(answer: Answer) -> str:
     return "\n".join(lines)
 
 
-def sensitivity_json(answer: Answer) -> dict[str, Any]:
+def sensitivity_json(answer: SensitivityAnswer) -> dict[str, Any]:
     """Return what matters as plain values."""
     rows = sensitivity_table(answer).to_dict("records")
     scattered = answer.study.scattered
@@ -106,7 +106,7 @@ def sensitivity_json(answer: Answer) -> dict[str, Any]:
     }
 
 
-def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
+def save_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Path) -> None:
     """Write tables and the tornado into the folder of a study."""
     texts = {
         "cases.csv": table.to_csv(index=False),
@@ -117,7 +117,7 @@ def save_sensitivity(answer: Answer, table: pd.DataFrame, folder: Path) -> None:
     save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})
 
 
-def tornado(answer: Answer) -> Figure:
+def tornado(answer: SensitivityAnswer) -> Figure:
     """Return the picture of one key at a time, the widest on top."""
     effects = sorted(answer.effects, key=lambda e: abs(math.log(e.high_hours / e.low_hours)))
     figure = Figure(figsize=(7.5, 1.6 + 0.55 * len(effects)), layout="constrained")

@@ -14,7 +14,7 @@ from wearsim.simulation import simulate
 _FACTOR = 2.0
 """Between values tried on the way to a bracket."""
 
-_MOST_FACTORS = 24
+_MAX_FACTORS = 24
 _EDGE_STEPS = 12
 """Halvings of the logarithm on the way to the last value that is allowed."""
 
@@ -23,7 +23,7 @@ _STEP = 0.02
 
 
 @dataclass(frozen=True)
-class Trial:
+class SolveTrial:
     """A value and what the case does with it."""
 
     value: float  # of the key
@@ -35,7 +35,7 @@ class Trial:
 class Solved:
     """The value that gives the required life, or the best that the allowed range has."""
 
-    trial: Trial  # at the value
+    trial: SolveTrial  # at the value
     met: bool  # whether it gives the life; otherwise it is the one that comes nearest
     # relative change of the life over that of the value, there; nan where not known
     elasticity: float
@@ -49,10 +49,10 @@ class _Lives:
 
     def __init__(self, case_at: Callable[[float], Case], hours: float, whole: bool) -> None:
         self.case_at, self.required, self.whole = case_at, hours, whole
-        self.found: dict[float, Trial | None] = {}
+        self.found: dict[float, SolveTrial | None] = {}
         self.failure: WearsimError | None = None
 
-    def at(self, value: float) -> Trial | None:
+    def at(self, value: float) -> SolveTrial | None:
         """Return the trial at a value, None where the case cannot be run with it."""
         value = float(round(value)) if self.whole else value
         if value not in self.found:
@@ -67,13 +67,13 @@ class _Lives:
             raise self.failure
         return math.log(trial.hours / self.required)
 
-    def _run(self, value: float) -> Trial | None:
+    def _run(self, value: float) -> SolveTrial | None:
         try:
             result = simulate(self.case_at(value).with_horizon(2.0 * self.required))
         except WearsimError as error:
             self.failure = error
             return None
-        return Trial(value, result.life.hours_run, result)
+        return SolveTrial(value, result.life.hours_run, result)
 
 
 def solve_for(case_at: Callable[[float], Case], start: float, hours: float, whole: bool = False) -> Solved:
@@ -113,7 +113,7 @@ def _directions(lives: _Lives, start: float) -> tuple[float, float]:
 def _bracket(lives: _Lives, start: float, factor: float) -> tuple[float, float] | None:
     """Return two values between which the life is met, None where there are none on this side."""
     inside, sign = start, lives.excess(start) > 0.0
-    for _ in range(_MOST_FACTORS):
+    for _ in range(_MAX_FACTORS):
         outside = inside * factor
         trial = lives.at(outside)
         if trial is None:
@@ -140,7 +140,7 @@ def _at_edge(lives: _Lives, inside: float, outside: float, sign: bool) -> tuple[
     return None
 
 
-def _root(lives: _Lives, one: float, other: float) -> Trial:
+def _root(lives: _Lives, one: float, other: float) -> SolveTrial:
     low, high = sorted((one, other))
     if lives.whole:
         return _whole_root(lives, low, high)
@@ -155,7 +155,7 @@ def _root(lives: _Lives, one: float, other: float) -> Trial:
     return found
 
 
-def _whole_root(lives: _Lives, low: float, high: float) -> Trial:
+def _whole_root(lives: _Lives, low: float, high: float) -> SolveTrial:
     """The whole number next to the root that lives as long as required."""
     rising = lives.excess(high) > 0.0
     while (middle := _between(lives, low, high)) is not None:
@@ -172,12 +172,12 @@ def _between(lives: _Lives, low: float, high: float) -> float | None:
     return next((float(value) for value in inside if lives.at(value) is not None), None)
 
 
-def _nearest(lives: _Lives) -> Trial:
+def _nearest(lives: _Lives) -> SolveTrial:
     trials = [trial for trial in lives.found.values() if trial is not None]
     return min(trials, key=lambda trial: abs(math.log(trial.hours / lives.required)))
 
 
-def _elasticity(lives: _Lives, trial: Trial) -> float:
+def _elasticity(lives: _Lives, trial: SolveTrial) -> float:
     """Relative change of the life over that of the value, by a step to each side that can be run."""
     step = 1.0 / trial.value if lives.whole else _STEP
     around = [lives.at(trial.value * (1.0 + part)) for part in (-step, step)]

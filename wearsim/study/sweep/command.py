@@ -4,18 +4,18 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.options import overrides, standard, warn
-from wearsim.command.study import Place, place_options
+from wearsim.command.options import common_options, overrides, warn
+from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 
 @click.command(short_help="Lives over values of any keys: grids, lists, designs.")
 @click.argument("study", type=click.Path(path_type=Path), metavar="STUDY.toml")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
-@place_options
+@study_options
 @overrides
-@standard
-def sweep(study: Path, as_json: bool, place: Place, settings: tuple[str, ...]) -> int:
+@common_options
+def sweep(study: Path, as_json: bool, place: StudyOptions, settings: tuple[str, ...]) -> int:
     """Run a case over values of its keys and print the lives.
 
     STUDY.toml names the case and gives values in [grid] (every combination), [[zip]] (keys that
@@ -27,8 +27,8 @@ def sweep(study: Path, as_json: bool, place: Place, settings: tuple[str, ...]) -
     from wearsim.study.sweep.model import load_sweep
 
     loaded = load_sweep(study, settings)
-    told = {"study": "sweep", "title": loaded.title, "case": loaded.design.name}
-    table = run(loaded.design, place, told, f"sweeping {loaded.title}")
+    report_progress = {"study": "sweep", "title": loaded.title, "case": loaded.design.name}
+    table = run(loaded.design, place, report_progress, f"sweeping {loaded.title}")
     if table is None:
         return 0
     from wearsim.study.sweep.sheet import save_sweep, sweep_json, sweep_text

@@ -13,12 +13,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from wearsim.quantities import grouped, quantities
-from wearsim.report.lines import literal
+from wearsim.report.text_lines import literal
 from wearsim.study.sweep.model import Sweep
 
-_MOST_CURVES = 10
-_MOST_LINES = 2000
-_MOST_NUMBERS = 100
+_MAX_CURVES = 10
+_MAX_LINES = 2000
+_MAX_NUMBERS = 100
 
 
 def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
@@ -28,7 +28,7 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
     figures: dict[str, Figure] = {}
     numeric = [axis[0] for axis in sweep.axes if len(axis) == 1 and _is_numeric(table[axis[0]])]
     others = [key for key in sweep.design.keys if not numeric or key != numeric[0]]
-    if numeric and len(table.groupby(others) if others else [0]) <= _MOST_CURVES:
+    if numeric and len(table.groupby(others) if others else [0]) <= _MAX_CURVES:
         figures["curves"] = _curves(table, numeric[0], others)
     if len(sweep.axes) == len(numeric) == 2:
         figures["heat_map"] = _heat_map(table, *numeric)
@@ -102,7 +102,7 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     image = panel.pcolormesh(np.ma.masked_invalid(cells), norm=norm, cmap="viridis")
     for place, axis in ((hours.columns, panel.xaxis), (hours.index, panel.yaxis)):
         axis.set_ticks(np.arange(len(place)) + 0.5, [f"{value:.4g}" for value in place])
-    if cells.size <= _MOST_NUMBERS:
+    if cells.size <= _MAX_NUMBERS:
         for (row, column), value in np.ndenumerate(cells):
             dark = value < np.sqrt(_least(table) * _hours(table).max())
             sign = "" if reached[row, column] else "> "
@@ -137,7 +137,7 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     An open arrow is a life that was not reached.
     """
     rows = table[table["error"] == ""].assign(life=_hours)
-    rows = rows.iloc[:: max(1, len(rows) // _MOST_LINES)].sort_values("life")
+    rows = rows.iloc[:: max(1, len(rows) // _MAX_LINES)].sort_values("life")
     columns = [*keys, "life"]
     figure = Figure(figsize=(2.0 + 1.7 * len(columns), 4.6), layout="constrained")
     panel = figure.subplots()

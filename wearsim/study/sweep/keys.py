@@ -9,7 +9,7 @@ from wearsim.input.schema.table import CalculationTables, Finite, Table, all_dif
 Value = bool | Finite | str | list[bool | Finite | str]
 Values = Annotated[list[Value], Field(min_length=1)]
 
-_MOST = 1_000_000
+_MAX = 1_000_000
 
 
 class Range(Table):
@@ -17,7 +17,7 @@ class Range(Table):
 
     first: Annotated[int | float, Field(alias="from", allow_inf_nan=False)]
     last: Annotated[int | float, Field(alias="to", allow_inf_nan=False)]
-    count: Annotated[PositiveInt, Field(ge=2, le=_MOST)]
+    count: Annotated[PositiveInt, Field(ge=2, le=_MAX)]
     spacing: Literal["linear", "log"] = "linear"
 
     def conflicts(self) -> list[tuple[str, str]]:

@@ -14,7 +14,7 @@ from wearsim.input.document import read_document, retitled
 from wearsim.runner.design import Design, design
 from wearsim.study.sweep.keys import Range, SweepTables
 
-MOST_CASES = 10_000_000
+MAX_CASES = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
     axes = list(_axes(tables))
     keys = [key for names, _ in axes for key in names]
     count = int(np.prod([len(rows) for _, rows in axes], dtype=float))
-    if count > MOST_CASES:
-        text = f"a sweep may have at most {MOST_CASES} cases, this has {count}: give fewer values"
+    if count > MAX_CASES:
+        text = f"a sweep may have at most {MAX_CASES} cases, this has {count}: give fewer values"
         raise CaseError([Fault(text, "grid", str(path))])
     rows = [
         tuple(itertools.chain.from_iterable(parts))
@@ -42,9 +42,9 @@ def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
     ]
     document, written = (read_document(path.parent / tables.case, sets) for sets in (overrides, ()))
     title = {"title": tables.title}
-    told = retitled({**document.data, **title}, {**written.data, **title})["title"]
+    report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, str(path))
-    return Sweep(told, tuple(names for names, _ in axes), cases)
+    return Sweep(report_progress, tuple(names for names, _ in axes), cases)
 
 
 Axis = tuple[tuple[str, ...], list[tuple[Any, ...]]]

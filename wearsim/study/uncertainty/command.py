@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import NOT_MET, finite, overrides, print_json, standard, warn, working
-from wearsim.command.study import Place, place_options
+from wearsim.command.options import NOT_MET, common_options, finite, overrides, print_json, warn, working
+from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 if TYPE_CHECKING:
     from wearsim.study.uncertainty.model import Method
-    from wearsim.study.uncertainty.sampled_lives import Answer
+    from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 
 
 _ROUNDING = 1e-9
@@ -49,9 +49,9 @@ _ROUNDING = 1e-9
     help="Repeat the fits by the library reliability (pip install 'wearsim[crosscheck]').",
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
-@place_options
+@study_options
 @overrides
-@standard
+@common_options
 def uncertainty(
     case: Path,
     samples: int,
@@ -60,7 +60,7 @@ def uncertainty(
     require_hours: float | None,
     cross_check: bool,
     as_json: bool,
-    place: Place,
+    place: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
     """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
@@ -77,18 +77,23 @@ def uncertainty(
     if cross_check:
         check_installed(("reliability",), "crosscheck", "--cross-check")
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    told = {"study": "uncertainty", "case": study.scattered.case.name, "method": method, "seed": seed}
-    table = run(study.design, place, told, f"sampling {study.scattered.case.title}")
+    report_progress = {
+        "study": "uncertainty",
+        "case": study.scattered.case.name,
+        "method": method,
+        "seed": seed,
+    }
+    table = run(study.design, place, report_progress, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0
-    from wearsim.study.uncertainty.sampled_lives import Answer, warnings_of
+    from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
     from wearsim.study.uncertainty.sheet import save_uncertainty, uncertainty_json, uncertainty_text
 
-    code, answer = exit_code(table), Answer(study, table)
+    code, answer = exit_code(table), UncertaintyAnswer(study, table)
     if cross_check:
         answer = _cross_checked(answer)
     if as_json:
-        print_json(uncertainty_json(answer), case, warnings_of(answer))
+        print_json(uncertainty_json(answer), case, uncertainty_warnings(answer))
     else:
         click.echo(uncertainty_text(answer))
     if place.out is not None:
@@ -98,7 +103,7 @@ def uncertainty(
     return code or missed
 
 
-def _cross_checked(answer: "Answer") -> "Answer":
+def _cross_checked(answer: "UncertaintyAnswer") -> "UncertaintyAnswer":
     # The library takes two seconds to load.
     from wearsim.study.uncertainty.cross_check import cross_check
 
@@ -106,7 +111,7 @@ def _cross_checked(answer: "Answer") -> "Answer":
         return replace(answer, crossed=cross_check(answer.hours, answer.reached, answer.fits))
 
 
-def _missed(answer: "Answer", require_hours: float | None) -> int:
+def _missed(answer: "UncertaintyAnswer", require_hours: float | None) -> int:
     p10 = answer.percentiles[0]
     if require_hours is None or p10.hours >= (1.0 - _ROUNDING) * require_hours:
         return 0

@@ -13,15 +13,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.geometry.profile import Vector
-from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Flags
+from wearsim.geometry.profile_points import Vector
+from wearsim.study.uncertainty.percentiles import CONFIDENCE, DistributionFit, Flags
 
 TOLERANCE = 0.01
 """Relative difference of parameters from which the two fits are told to disagree."""
 
 
 @dataclass(frozen=True)
-class Bounded:
+class BoundedValue:
     """A parameter between its bounds."""
 
     value: float  # estimate of greatest likelihood
@@ -34,10 +34,10 @@ class CrossFit:
     """A distribution fitted by reliability."""
 
     name: str  # `lognormal` or `weibull`
-    # shape, scale: those of `Fit`: sigma of ln L and the median [h]; modulus and characteristic
+    # shape, scale: those of `DistributionFit`: sigma of ln L and the median [h]; modulus and characteristic
     # life [h]
-    shape: Bounded
-    scale: Bounded
+    shape: BoundedValue
+    scale: BoundedValue
 
 
 @dataclass(frozen=True)
@@ -46,29 +46,29 @@ class CrossCheck:
 
     library: str  # its name and version
     fits: tuple[CrossFit, ...]  # in the order of the fits that they repeat
-    doubts: tuple[str, ...]  # where it differs from those, has failed or warns
+    differences_found: tuple[str, ...]  # where it differs from those, has failed or warns
 
 
-def cross_check(lives: Vector, reached: Flags, fits: Sequence[Fit]) -> CrossCheck:
+def cross_check(lives: Vector, reached: Flags, fits: Sequence[DistributionFit]) -> CrossCheck:
     """Return the fits to some lives repeated by reliability."""
     library = f"reliability {version('reliability')}"
     if not fits:
         return CrossCheck(library, (), ())
     # As a unit the library's optimisers take a middling life better than an hour.
     unit = float(np.median(lives[reached]))
-    found, doubts = [], []
+    found, differences_found = [], []
     for fit in fits:
         try:
             crossed, printed = _repeated(fit.name, lives[reached] / unit, lives[~reached] / unit)
         except (ArithmeticError, RuntimeError, ValueError) as error:
-            doubts.append(f"{library} finds no {fit.name} fit: {error}")
+            differences_found.append(f"{library} finds no {fit.name} fit: {error}")
             continue
-        scale = Bounded(*(unit * part for part in vars(crossed.scale).values()))
+        scale = BoundedValue(*(unit * part for part in vars(crossed.scale).values()))
         crossed = CrossFit(fit.name, crossed.shape, scale)
         found.append(crossed)
-        doubts += [f"{library}, {fit.name}: {text}" for text in printed]
-        doubts += _differences(library, fit, crossed)
-    return CrossCheck(library, tuple(found), tuple(doubts))
+        differences_found += [f"{library}, {fit.name}: {text}" for text in printed]
+        differences_found += _differences(library, fit, crossed)
+    return CrossCheck(library, tuple(found), tuple(differences_found))
 
 
 def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFit, list[str]]:
@@ -90,11 +90,11 @@ def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFi
 
 def _parameters(name: str, found: Any) -> CrossFit:
     if name == "weibull":
-        shape = Bounded(float(found.beta), float(found.beta_lower), float(found.beta_upper))
-        scale = Bounded(float(found.alpha), float(found.alpha_lower), float(found.alpha_upper))
+        shape = BoundedValue(float(found.beta), float(found.beta_lower), float(found.beta_upper))
+        scale = BoundedValue(float(found.alpha), float(found.alpha_lower), float(found.alpha_upper))
     else:
-        shape = Bounded(float(found.sigma), float(found.sigma_lower), float(found.sigma_upper))
-        scale = Bounded(*map(math.exp, (found.mu, found.mu_lower, found.mu_upper)))
+        shape = BoundedValue(float(found.sigma), float(found.sigma_lower), float(found.sigma_upper))
+        scale = BoundedValue(*map(math.exp, (found.mu, found.mu_lower, found.mu_upper)))
     return CrossFit(name, shape, scale)
 
 
@@ -114,7 +114,7 @@ def _kept_to_itself() -> Iterator[io.StringIO]:
         yield printed
 
 
-def _differences(library: str, fit: Fit, crossed: CrossFit) -> list[str]:
+def _differences(library: str, fit: DistributionFit, crossed: CrossFit) -> list[str]:
     found = []
     for part in ("shape", "scale"):
         ours, theirs = getattr(fit, part), getattr(crossed, part).value

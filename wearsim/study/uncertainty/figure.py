@@ -7,17 +7,17 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 from scipy import stats
 
-from wearsim.study.uncertainty.sampled_lives import Answer
+from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 
 _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 
 
-def uncertainty_figures(answer: Answer) -> dict[str, Figure]:
+def uncertainty_figures(answer: UncertaintyAnswer) -> dict[str, Figure]:
     """Return the pictures by file stem."""
     return {"lives": _lives(answer), "convergence": _convergence(answer)}
 
 
-def _lives(answer: Answer) -> Figure:
+def _lives(answer: UncertaintyAnswer) -> Figure:
     figure = Figure(figsize=(7.0, 5.0), layout="constrained")
     panel = figure.subplots()
     lives = np.sort(np.where(answer.reached, answer.hours, np.inf))
@@ -57,7 +57,7 @@ def _lives(answer: Answer) -> Figure:
     return figure
 
 
-def _convergence(answer: Answer) -> Figure:
+def _convergence(answer: UncertaintyAnswer) -> Figure:
     figure = Figure(figsize=(7.0, 4.4), layout="constrained")
     panel = figure.subplots()
     table = answer.convergence

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 from scipy.stats import qmc
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import Design
-from wearsim.runner.scatter import Scattered, load_scattered
+from wearsim.runner.scatter import ScatteredCase, load_scattered
 
 Method = Literal["sobol", "lhs", "random"]
 METHODS: tuple[Method, ...] = ("sobol", "lhs", "random")
@@ -24,7 +24,7 @@ EDGE = 0.5**33
 class UncertaintyStudy:
     """The samples of a case."""
 
-    scattered: Scattered  # the case and what of it scatters
+    scattered: ScatteredCase  # the case and what of it scatters
     method: Method  # `sobol`, `lhs` or `random`
     seed: int  # of the samples
     design: Design  # the cases of the samples

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from wearsim.geometry.profile import Vector
+from wearsim.geometry.profile_points import Vector
 
 CONFIDENCE = 0.95
 
@@ -50,7 +50,7 @@ def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
 
 
 @dataclass(frozen=True)
-class Fit:
+class DistributionFit:
     """A distribution fitted to lives by maximum likelihood."""
 
     name: str  # `lognormal` or `weibull`
@@ -60,7 +60,7 @@ class Fit:
     b10: float  # life that 90 % reach, by the fit [h]
 
 
-def fits(lives: Vector, reached: Flags) -> list[Fit]:
+def fit_distributions(lives: Vector, reached: Flags) -> list[DistributionFit]:
     """Return a log-normal and a Weibull distribution fitted to lives."""
     seen = lives[reached]
     if seen.size < 2 or np.ptp(seen) <= 1e-9 * seen.max() or seen.min() == 0.0:
@@ -74,5 +74,5 @@ def fits(lives: Vector, reached: Flags) -> list[Fit]:
         likelihood = frozen.logpdf(seen / unit).sum() + frozen.logsf(lives[~reached] / unit).sum()
         likelihood -= seen.size * math.log(unit)
         b10 = unit * float(frozen.ppf(0.1))
-        found.append(Fit(name, float(shape), unit * float(scale), float(likelihood), b10))
+        found.append(DistributionFit(name, float(shape), unit * float(scale), float(likelihood), b10))
     return sorted(found, key=lambda fit: -fit.log_likelihood)

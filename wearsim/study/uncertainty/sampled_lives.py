@@ -6,20 +6,26 @@ from functools import cached_property
 
 import pandas as pd
 
-from wearsim.geometry.profile import Vector
-from wearsim.report.lines import kinds
+from wearsim.geometry.profile_points import Vector
+from wearsim.report.text_lines import defaults_by_kind
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
-from wearsim.study.uncertainty.percentiles import Fit, Flags, Percentile, fits, percentile
+from wearsim.study.uncertainty.percentiles import (
+    DistributionFit,
+    Flags,
+    Percentile,
+    fit_distributions,
+    percentile,
+)
 
 SHARES = (0.1, 0.5, 0.9)
-_MOST_KINDS = 8
+_MAX_KINDS = 8
 _FEWEST = 16
 """Samples from which the convergence of the percentiles is followed."""
 
 
 @dataclass(frozen=True)
-class Answer:
+class UncertaintyAnswer:
     """The lives of the samples and what they tell."""
 
     study: UncertaintyStudy  # what was asked
@@ -48,9 +54,9 @@ class Answer:
         return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
 
     @cached_property
-    def fits(self) -> list[Fit]:
+    def fits(self) -> list[DistributionFit]:
         """Distributions fitted to the lives, the better one first."""
-        return fits(self.hours, self.reached)
+        return fit_distributions(self.hours, self.reached)
 
     @cached_property
     def convergence(self) -> pd.DataFrame:
@@ -66,7 +72,7 @@ class Answer:
         return pd.DataFrame(rows)
 
 
-def warnings_of(answer: Answer) -> list[str]:
+def uncertainty_warnings(answer: UncertaintyAnswer) -> list[str]:
     """Return what is doubtful about the percentiles."""
     found = []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
@@ -83,14 +89,14 @@ def warnings_of(answer: Answer) -> list[str]:
             f"Sobol' points are balanced for powers of two only: take {below} or {2 * below} samples"
         )
     if answer.crossed is not None:
-        found += answer.crossed.doubts
+        found += answer.crossed.differences_found
     return found + _of_samples(answer.sound["warnings"])
 
 
 def _of_samples(warnings: "pd.Series[str]") -> list[str]:
     """Warnings of the samples, those that differ in their numbers only as one."""
-    most = kinds(text for joined in warnings for text in filter(None, joined.split("\n")))
-    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in most[:_MOST_KINDS]]
-    if len(most) > _MOST_KINDS:
-        found.append(f"and {len(most) - _MOST_KINDS} other kinds of warnings, see cases.csv")
+    greatest = defaults_by_kind(text for joined in warnings for text in filter(None, joined.split("\n")))
+    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in greatest[:_MAX_KINDS]]
+    if len(greatest) > _MAX_KINDS:
+        found.append(f"and {len(greatest) - _MAX_KINDS} other kinds of warnings, see cases.csv")
     return found

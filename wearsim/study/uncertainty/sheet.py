@@ -8,13 +8,13 @@ import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_texts
 from wearsim.quantities import grouped
-from wearsim.study.uncertainty.cross_check import Bounded, CrossCheck, CrossFit
+from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
-from wearsim.study.uncertainty.percentiles import CONFIDENCE, Fit, Percentile
-from wearsim.study.uncertainty.sampled_lives import Answer, warnings_of
+from wearsim.study.uncertainty.percentiles import CONFIDENCE, DistributionFit, Percentile
+from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
 
 
-def uncertainty_text(answer: Answer) -> str:
+def uncertainty_text(answer: UncertaintyAnswer) -> str:
     """Return percentiles, what they rest on, and fits, as text."""
     study = answer.study
     lines = [study.scattered.case.title, ""]
@@ -35,7 +35,7 @@ def uncertainty_text(answer: Answer) -> str:
     lines += [f"  {line}" for line in _columns(answer.convergence)]
     lines += ["", "assumptions:"]
     lines += [f"  {number}. {text}" for number, text in enumerate(_assumptions(study), start=1)]
-    lines += [f"warning: {text}" for text in warnings_of(answer)]
+    lines += [f"warning: {text}" for text in uncertainty_warnings(answer)]
     return "\n".join(lines)
 
 
@@ -47,7 +47,7 @@ _OF_INTERVALS = (
 )
 
 
-def uncertainty_json(answer: Answer) -> dict[str, Any]:
+def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     """Return the answer as plain values."""
     study = answer.study
     case = study.scattered.case
@@ -80,11 +80,11 @@ def uncertainty_json(answer: Answer) -> dict[str, Any]:
         {name: plain(value) for name, value in row.items()} for row in answer.convergence.to_dict("records")
     ]
     content["assumptions"] = _assumptions(study)
-    content["warnings"] = warnings_of(answer)
+    content["warnings"] = uncertainty_warnings(answer)
     return content
 
 
-def save_uncertainty(answer: Answer, folder: Path) -> None:
+def save_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     """Write tables and pictures into the folder of a study."""
     from wearsim.study.uncertainty.figure import uncertainty_figures
 
@@ -111,7 +111,7 @@ def _interval(found: Percentile) -> str:
     return f"({grouped(found.low)} to {high})"
 
 
-def _parameters(fit: Fit) -> str:
+def _parameters(fit: DistributionFit) -> str:
     if fit.name == "lognormal":
         return f"median {grouped(fit.scale)} h, sigma_ln {fit.shape:.3f}"
     return f"shape {fit.shape:.3f}, scale {grouped(fit.scale)} h"
@@ -153,5 +153,5 @@ def _cross_check_json(crossed: CrossCheck) -> dict[str, Any]:
     }
 
 
-def _bounded(name: str, found: Bounded) -> dict[str, float | None]:
+def _bounded(name: str, found: BoundedValue) -> dict[str, float | None]:
     return {name: plain(found.value), f"{name}_low": plain(found.low), f"{name}_high": plain(found.high)}

@@ -1,0 +1,228 @@
+"""What cases of all kinds complete alike: materials, wear law, fatigue and how the life is calculated."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from wearsim.case.duty_blocks import GivenLoad
+from wearsim.case.model import FatigueInput, RunInput, WearInput
+from wearsim.catalogue.catalogues import Chain, materials, wear_conditions
+from wearsim.contact.hertz import contact_modulus
+from wearsim.fatigue.contact_fatigue import FlankMaterial
+from wearsim.input.case_record import CaseRecord, ChainRecord
+from wearsim.input.schema import MaterialTable, RunTable, SprocketTable, Table, WearTable
+from wearsim.input.schema.wear_tables import FatigueTable, FlankMaterialTable
+
+DEFAULT_BAND = 3.0
+"""Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
+
+TOLERANCE = 1e-3
+"""Relative tolerance of a life by default."""
+
+FLANK_NODES = 201
+"""Points of a flank by default."""
+
+_PLAUSIBLE_WEAR_RATE = (1e-15, 1e-6)
+
+_NAMED_DEFAULTS = {
+    "wear": {"law": "default"},
+    "run": {"method": "default", "horizon_hours": "default: until a limit is met"},
+}
+"""Defaults of the schema itself that matter for the life, and what is said of them."""
+
+
+_SPROCKET = (
+    "contact fatigue of the sprocket by formulas (21) to (26) of source 001, which are those of gears: "
+    "that they hold for its teeth is this project's reconstruction",
+    "the stress of contact fatigue is the highest contact pressure on the new flank, once in a cycle; "
+    "loads of a duty add up by the sixth power of it (Miner), and what wear does to it is left out",
+)
+
+
+def take_defaults(case: CaseRecord, tables: Table) -> None:
+    """Record the defaults of the schema that matter for the life and were not given."""
+    for table, keys in _NAMED_DEFAULTS.items():
+        model = getattr(tables, table)
+        for key, why in keys.items():
+            if key not in model.model_fields_set:
+                case.take(f"{table}.{key}", getattr(model, key), why)
+
+
+def contact_modulus_of(case: CaseRecord, bodies: Mapping[str, MaterialTable]) -> float:
+    """Return the contact modulus of two materials."""
+    (e1, nu1), (e2, nu2) = (_material(case, body, table) for body, table in bodies.items())
+    return contact_modulus((e1, e2), (nu1, nu2))
+
+
+def _material(case: CaseRecord, body: str, table: MaterialTable) -> tuple[float, float]:
+    if table.name is not None:
+        known = materials()[table.name]
+        return known.youngs_modulus, known.poissons_ratio
+    steel, modulus, ratio = materials()["steel"], table.youngs_modulus_MPa, table.poissons_ratio
+    if modulus is None:
+        modulus = steel.youngs_modulus
+        case.take(f"material.{body}.youngs_modulus_MPa", modulus, "steel, default")
+    if ratio is None:
+        ratio = steel.poissons_ratio
+        case.take(f"material.{body}.poissons_ratio", ratio, "steel, default")
+    return modulus, ratio
+
+
+def run_input(case: CaseRecord, table: RunTable, tolerance: float) -> RunInput:
+    """Return how the life is calculated."""
+    if table.method == "per_cycle" and table.cycles_per_update is None:
+        case.take("run.cycles_per_update", 1, "every cycle")
+    if table.life_tolerance is None:
+        case.take("run.life_tolerance", tolerance, "default")
+    return RunInput(
+        table.method, table.cycles_per_update or 1, table.life_tolerance or tolerance, table.horizon_hours
+    )
+
+
+def wear_input(case: CaseRecord, table: WearTable) -> WearInput:
+    """Return the wear law with its band."""
+    return _changing(table, _law(case, table))
+
+
+def _law(case: CaseRecord, table: WearTable) -> WearInput:
+    if table.condition is not None:
+        return _condition(case, table, table.condition)
+    coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
+    assert coefficient is not None
+    low, high = _PLAUSIBLE_WEAR_RATE
+    if table.law == "archard" and not low <= coefficient <= high:
+        case.warnings.append(
+            f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
+            "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
+        )
+    case.assumptions.append("the constants of the wear law are the user's")
+    factor = _band_factor(case, table)
+    return WearInput(
+        law=table.law,
+        coefficient=coefficient,
+        pressure_exponent=table.pressure_exponent or 1.0,
+        hardness=table.hardness_MPa or 1.0,
+        reference_speed=table.reference_speed_mm_per_s or 1.0,
+        speed_exponent=table.speed_exponent or 0.0,
+        low=1.0 / factor,
+        high=factor,
+        band=f"factor {factor:g} to either side",
+    )
+
+
+def _changing(table: WearTable, wear: WearInput) -> WearInput:
+    """Add what changes the coefficient as the drive wears."""
+    if table.case_depth_mm is not None and table.core_factor is not None:
+        wear = replace(wear, case_depth=table.case_depth_mm, core_factor=table.core_factor)
+    if table.running_in_factor is not None and table.running_in_distance_mm is not None:
+        wear = replace(
+            wear, running_in_factor=table.running_in_factor, running_in_distance=table.running_in_distance_mm
+        )
+    if table.roller_wear_ratio is not None:
+        wear = replace(wear, roller_ratio=table.roller_wear_ratio)
+    return wear
+
+
+def _band_factor(case: CaseRecord, table: WearTable) -> float:
+    if table.band_factor is not None:
+        return table.band_factor
+    case.take(
+        "wear.band_factor",
+        DEFAULT_BAND,
+        "the coefficient is the user's; a tooth life is only as good as it, factor 3 to 10",
+    )
+    return DEFAULT_BAND
+
+
+def _condition(case: CaseRecord, table: WearTable, name: str) -> WearInput:
+    condition = wear_conditions()[name]
+    typical = condition.typical
+    low, high = condition.low / typical, condition.high / typical
+    band = f"{name!r}: {condition.source}"
+    if table.band_factor is not None:
+        low, high = 1.0 / table.band_factor, table.band_factor
+        band = f"factor {table.band_factor:g} to either side"
+    case.assumptions.append(
+        f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
+        f"(wear condition {name!r})"
+    )
+    return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
+
+
+def fatigue_input(case: CaseRecord, table: FatigueTable | None) -> FatigueInput | None:
+    """Return what a case says about contact fatigue."""
+    if table is None:
+        return None
+    if "load_factor" not in table.model_fields_set:
+        case.assumptions.append("fatigue.load_factor = 1 (default)")
+    sides = {name: side for name, side in dict(table).items() if isinstance(side, FlankMaterialTable)}
+    if "sprocket" in sides:
+        case.assumptions += _SPROCKET
+    return FatigueInput(
+        load_factor=table.load_factor,
+        materials={
+            name: FlankMaterial(
+                treatment=side.treatment,
+                hardness=side.hardness_HB or side.hardness_HRC or 0.0,
+                scale="HB" if side.hardness_HB else "HRC",
+                contact_limit=side.contact_limit_MPa,
+                contact_safety=side.contact_safety,
+            )
+            for name, side in sides.items()
+        },
+    )
+
+
+_SAFETY = 7.0
+"""Breaking load over tension below which a chain is loaded beyond its endurance."""
+
+
+def slip_fraction(case: ChainRecord, default: float = 1.0) -> float:
+    """Return the part of the sliding of a roller that does not turn."""
+    given = case.tables.mechanism.roller_slip_fraction
+    if given is None:
+        why = "default" if default == 1.0 else "a roller free to turn"
+        case.take("mechanism.roller_slip_fraction", default, why)
+        return default
+    return given
+
+
+def effective_pull(block: GivenLoad, speed: float, lever: float) -> float:
+    """Return the force that the load of a block asks of the chain."""
+    if block.kind == "tension_N":
+        return block.value
+    if block.kind == "power_kW":
+        return 1e6 * block.value / speed
+    return 1e3 * block.value / lever
+
+
+def within_strength(case: ChainRecord, pull: float, chain: Chain, key: str) -> bool:
+    """Compare a pull with the chain's tensile strength: a fault above it, a warning near it."""
+    if not chain.tensile:
+        case.assumptions.append("tensile strength of the chain not known: the pull is not checked")
+        return True
+    if pull >= chain.tensile:
+        case.faults.add(
+            key, f"the pull must stay below the chain's tensile strength {chain.tensile:g} N, is {pull:.4g} N"
+        )
+        return False
+    if pull * _SAFETY > chain.tensile:
+        case.warnings.append(
+            f"the pull of {pull:.4g} N is more than 1/{_SAFETY:g} of the chain's tensile strength "
+            f"{chain.tensile:g} N: the plates will not last"
+        )
+    return True
+
+
+def face_width(case: ChainRecord, table: SprocketTable, chain: Chain) -> float:
+    """Return the width of the tooth that carries load."""
+    if table.face_width_mm is None:
+        width = float(f"{chain.face_width:.4g}")
+        case.take("sprocket.face_width_mm", width, "standard tooth width for the chain")
+        return width
+    if table.face_width_mm > chain.strands * chain.inner_width:
+        case.faults.add(
+            "sprocket.face_width_mm",
+            "the tooth must fit between the inner plates, "
+            f"{chain.strands * chain.inner_width:g} mm (got {table.face_width_mm:g})",
+        )
+    return table.face_width_mm

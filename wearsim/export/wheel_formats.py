@@ -1,0 +1,68 @@
+"""Wheels of a case or run in the formats of CAD."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from wearsim._version import __version__
+from wearsim.case.model import Case
+from wearsim.export.printed_page import drawing_bytes
+from wearsim.export.wheel_drawing import wheel_points, wheel_scene
+from wearsim.geometry.wheel_outline import State, WheelShape
+from wearsim.quantities import grouped
+from wearsim.report.scene import wheel_shapes
+from wearsim.result import WearResult
+
+if TYPE_CHECKING:
+    pass
+
+
+def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
+    """Return the wheels of a case as the content of a file."""
+    shapes = wheel_shapes(case, result)
+    if form == "csv":
+        return wheel_points(shapes, states).to_csv(index=False).encode()
+    if form == "step":
+        from wearsim.export.step import step_bytes
+
+        return step_bytes(shapes, states)
+    scene, layers = wheel_scene(shapes, states, wheel_note(case, result, shapes, states))
+    return drawing_bytes(scene, layers, form)
+
+
+def wheel_note(
+    case: Case, result: WearResult | None, shapes: Sequence[WheelShape], states: Sequence[State]
+) -> list[str]:
+    """Return what stands below the wheels in a drawing."""
+    taken = [f"{shape.name}: {text}" for shape in shapes for text in shape.notes]
+    if len(shapes) > 1 and shapes[0].notes == shapes[1].notes:
+        taken = list(shapes[0].notes)
+    return [
+        f"{case.title} (case {case.name})",
+        _condition(result if "worn" in states else None, states),
+        "All in mm, 1:1. Vertices lie on the computed outline within 1e-6 mm; between points of a curve "
+        f"run arcs, {_greatest_sagitta(shapes):.1g} mm off their chords at most.",
+        *(f"{text[0].upper()}{text[1:]}." for text in taken),
+        f"wearsim {__version__}",
+    ]
+
+
+def _condition(result: WearResult | None, states: Sequence[State]) -> str:
+    if result is None:
+        return "New."
+    both = "New, and worn" if len(states) > 1 else "Worn"
+    deepest = f"{result.max_depth:.3g} mm off at the deepest point"
+    return f"{both} after {grouped(result.hours_run)} h: {deepest}."
+
+
+def _greatest_sagitta(shapes: Sequence[WheelShape]) -> float:
+    """Greatest distance of an arc between computed points from its chord [mm], 0 without any."""
+    return max(
+        (
+            stretch.sagitta
+            for shape in shapes
+            for space in (*shape.new[:1], *shape.worn[:2])
+            for stretch in (*space.right, *space.left)
+            if stretch.is_curve
+        ),
+        default=0.0,
+    )

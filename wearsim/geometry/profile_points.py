@@ -1,0 +1,265 @@
+"""A flank as a row of points, with its normals and signed curvature."""
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from wearsim.errors import GeometryError
+from wearsim.kernels.flank_geometry import flank_frame
+
+Vector = NDArray[np.float64]
+
+_END_PIECES, _END_PARTS = 8, 40
+"""Pieces of the first and the last interval of a flank with fine ends, and 1 over the part of the
+flank in which their number falls to 1/e."""
+
+
+def _vector(values: ArrayLike) -> Vector:
+    array = np.array(values, dtype=float)
+    array.setflags(write=False)
+    return array
+
+
+def chord_lengths(x: Vector, y: Vector) -> Vector:
+    """Return the length along the chords of a row of points.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray
+        Points [mm], shape (n,).
+
+    Returns
+    -------
+    numpy.ndarray
+        From 0 at the first one [mm], shape (n,).
+
+    Examples
+    --------
+    >>> chord_lengths(np.array([0.0, 3.0, 3.0]), np.array([0.0, 4.0, 6.0])).tolist()
+    [0.0, 5.0, 7.0]
+    """
+    return np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+
+
+def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> float:
+    """Return the area between two flanks, by the shoelace formula.
+
+    Parameters
+    ----------
+    x_before, y_before : numpy.ndarray
+        Points of the flank before, root to tip [mm].
+    x, y : numpy.ndarray
+        Points of the flank after, root to tip [mm].
+
+    Returns
+    -------
+    float
+        Area [mm2], positive where material was removed.
+
+    Examples
+    --------
+    A flank along +y with the gap on its right recedes by 0.5 mm over 2 mm:
+
+    >>> import numpy as np
+    >>> y = np.array([0.0, 1.0, 2.0])
+    >>> area_between(0.0 * y, y, 0.0 * y - 0.5, y)
+    1.0
+    """
+    u = np.concatenate([x_before - x_before[0], (x - x_before[0])[::-1]])
+    v = np.concatenate([y_before - y_before[0], (y - y_before[0])[::-1]])
+    return 0.5 * float(np.dot(u, np.roll(v, -1)) - np.dot(v, np.roll(u, -1)))
+
+
+def area_swept(x: Vector, y: Vector, depth: Vector) -> float:
+    """Return the area that a flank loses as its points recede along their normals.
+
+    Parameters
+    ----------
+    x, y, depth : numpy.ndarray
+        Points and depth of the flank at successive times [mm], shape (times, points).
+
+    Returns
+    -------
+    float
+        Sum over the times of depth gained times the length that belongs to each point in the
+        mean of both times [mm2].
+
+    Examples
+    --------
+    A flank of 2 mm that recedes by 0.5 mm:
+
+    >>> import numpy as np
+    >>> y = np.array([[0.0, 1.0, 2.0]] * 2)
+    >>> depth = np.array([[0.0] * 3, [0.5] * 3])
+    >>> area_swept(-depth, y, depth)
+    1.0
+    """
+    half = 0.5 * np.hypot(np.diff(x, axis=1), np.diff(y, axis=1))
+    length = np.zeros_like(x)
+    length[:, 1:] += half
+    length[:, :-1] += half
+    return float(np.sum(np.diff(depth, axis=0) * 0.5 * (length[1:] + length[:-1])))
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Points of a flank from root to tip, with what follows from them.
+
+    Raises
+    ------
+    GeometryError
+        Too few points, a value that is not finite, or two successive points that coincide.
+
+    Examples
+    --------
+    Three points of a circle of radius 5 mm around the origin, run through
+    counterclockwise so that the material is inside:
+
+    >>> profile = Profile([5.0, 3.0, 0.0], [0.0, 4.0, 5.0])
+    >>> float(round(profile.curvature[1], 12))
+    0.2
+    """
+
+    # x, y: coordinates in the sprocket's frame [mm], at least three points, no two successive ones equal; the
+    # gap lies to the right of the direction of travel
+    x: Vector
+    y: Vector
+    # normal_x, normal_y: unit normal into the gap, of the circle through a point and its neighbours (at the
+    # ends of the parabola through the three end points)
+    normal_x: Vector = field(init=False)
+    normal_y: Vector = field(init=False)
+    curvature: Vector = field(init=False)  # signed curvature [1/mm], positive where the flank is convex
+
+    def __post_init__(self) -> None:
+        x, y = _vector(self.x), _vector(self.y)
+        if x.ndim != 1 or x.shape != y.shape or x.size < 3:
+            raise GeometryError(
+                f"profile: needs at least three points with as many x as y, got {x.shape} x and "
+                f"{y.shape} y: give one x and one y for every point"
+            )
+        if not (np.isfinite(x).all() and np.isfinite(y).all()):
+            raise GeometryError("profile: every coordinate must be finite: remove nan and inf")
+        gaps = np.hypot(np.diff(x), np.diff(y))
+        if not gaps.min() > 0.0:
+            raise GeometryError(
+                f"profile: successive points must differ, points {gaps.argmin() + 1} and "
+                f"{gaps.argmin() + 2} coincide: remove one"
+            )
+        frame = np.empty((4, x.size))
+        flank_frame(x.copy(), y.copy(), *frame)
+        values = (x, y, *(_vector(row) for row in frame[:3]))
+        for name, value in zip(("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True):
+            object.__setattr__(self, name, value)
+
+    @property
+    def arc_length(self) -> Vector:
+        """Length along the points from the first one [mm], each chord taken as its circle's arc."""
+        chord = np.hypot(np.diff(self.x), np.diff(self.y))
+        mean = 0.5 * (self.curvature[1:] + self.curvature[:-1])
+        return np.concatenate([[0.0], np.cumsum(chord * (1.0 + (mean * chord) ** 2 / 24.0))])
+
+    def recede(self, depth: ArrayLike) -> "Profile":
+        """Return the profile with every point moved against its normal."""
+        return Profile(*self.receded(depth))
+
+    def receded(self, depth: ArrayLike) -> tuple[Vector, Vector]:
+        """Return where the points lie after moving against their normals."""
+        removed = np.asarray(depth, dtype=float)
+        return self.x - removed * self.normal_x, self.y - removed * self.normal_y
+
+    def mirrored(self) -> "Profile":
+        """Return the mirror image on the gap's centre line, run from tip to root."""
+        return Profile(-self.x[::-1], self.y[::-1])
+
+    def rotated(self, angle: float) -> "Profile":
+        """Return the profile turned counterclockwise about the origin."""
+        cosine, sine = np.cos(angle), np.sin(angle)
+        return Profile(self.x * cosine - self.y * sine, self.x * sine + self.y * cosine)
+
+    def area_from(self, other: "Profile") -> float:
+        """Return the area between this flank and another, by the shoelace formula."""
+        return area_between(other.x, other.y, self.x, self.y)
+
+    def regridded(self, nodes: int) -> "Profile":
+        """Return the same flank on points at equal arc length, conserving removed area.
+
+        A cubic spline carries the points over; a uniform shift along the normals then
+        closes the area between old and new flank.
+        """
+        from scipy.interpolate import CubicSpline
+
+        arc = self.arc_length
+        spline = CubicSpline(arc, np.column_stack([self.x, self.y]))
+        new = Profile(*spline(np.linspace(0.0, arc[-1], nodes)).T)
+        for _ in range(4):
+            new = new.recede(-new.area_from(self) / arc[-1])
+        return new
+
+    def with_fine_ends(self, intervals: int) -> "Profile":
+        """Return the same flank on even intervals, of which those near both ends are divided.
+
+        The first and the last are divided into eight; over a fortieth of the flank the number
+        falls to 1/e. Lagrange's polynomial through six neighbours carries the points over; where
+        they are those of this flank they stay as they are.
+
+        Parameters
+        ----------
+        intervals : int
+            Even ones, at least two; this flank has one less than points.
+
+        Returns
+        -------
+        Profile
+            With both ends as they are.
+
+        Examples
+        --------
+        >>> straight = Profile(np.linspace(0.0, 8.0, 9), np.zeros(9))
+        >>> straight.with_fine_ends(4).x.tolist()[:10]
+        [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 4.0]
+        """
+        return _with_fine_ends(self, intervals)
+
+    @property
+    def is_simple(self) -> bool:
+        """Whether the line through the points neither crosses nor touches itself."""
+        return bool(shapely.LineString(np.column_stack([self.x, self.y])).is_simple)
+
+    @property
+    def crossing(self) -> int:
+        """Number of the point nearest to where a line that is not simple first meets itself.
+
+        Examples
+        --------
+        A loop that closes at (1, 0), between the first point and the second and nearest to neither
+        but to the last but one:
+
+        >>> Profile([0.0, 3.0, 3.0, 1.0, 1.0], [0.0, 0.0, 2.0, 0.5, -2.0]).crossing
+        3
+        """
+        parts = shapely.node(shapely.LineString(np.column_stack([self.x, self.y])))
+        where = parts.geoms[0].coords[-1]
+        return int(np.hypot(self.x - where[0], self.y - where[1]).argmin())
+
+
+@lru_cache(maxsize=64)
+def _with_fine_ends(flank: Profile, intervals: int) -> Profile:
+    """Divide the intervals near the ends; cases of a study share their flank."""
+    last, even = flank.x.size - 1, np.arange(intervals)
+    from_end = np.minimum(even, intervals - 1 - even)
+    pieces = _END_PIECES * np.exp(-from_end * _END_PARTS / intervals)
+    pieces = np.maximum(1, pieces.round().astype(int))
+    part = np.concatenate([np.arange(count) / count for count in pieces])
+    at = np.append((np.repeat(even, pieces) + part) * (last / intervals), last)
+    near = np.arange(min(6, last + 1))
+    first = np.clip(np.floor(at).astype(int) - 2, 0, last + 1 - near.size)
+    way = (at - first)[:, None]
+    weight = np.ones((at.size, near.size))
+    for place in near:
+        others = near[near != place]
+        weight[:, place] = np.prod((way - others) / (place - others), axis=1)
+    points = first[:, None] + near
+    return Profile(*((weight * values[points]).sum(axis=1) for values in (flank.x, flank.y)))

@@ -1,0 +1,193 @@
+"""Faults of an input file: where each key stands and what is wrong with it, in plain words."""
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from wearsim.errors import CaseError, Fault
+from wearsim.input.former_words import written_key
+from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
+
+_MARK = "\x00wearsim\x00"
+_MAX_SHOWN = 20
+
+
+class Faults:
+    """What is wrong with one input or read otherwise than it is written, collected in one pass."""
+
+    def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
+        self.file = file
+        self.text = text
+        self.overrides = tuple(overrides)
+        self.notes: list[str] = []
+        self._found: list[Fault] = []
+        self._lines: dict[str, int] = {}
+        self._distrusted: set[str] = set()
+
+    @property
+    def count(self) -> int:
+        """Number of faults found so far."""
+        return len(self._found)
+
+    def note(self, key: str, message: str) -> None:
+        """Add what is to be known about a key that is right."""
+        self.notes.append(f"{key} {message}")
+
+    def add(self, key: str, message: str) -> None:
+        """Add a fault of a key."""
+        if key.partition(".")[0] in self._distrusted:
+            return
+        if any(key == given or key.startswith(f"{given}.") for given in self.overrides):
+            self._found.append(Fault(message, "", f"--set {key}"))
+            return
+        if key not in self._lines:
+            self._lines[key] = line_of(self.text, written_key(key, self.text))
+        self._found.append(Fault(message, key, self.file, self._lines[key]))
+
+    def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
+        """Add everything that pydantic found."""
+        names = known_keys(model)
+        for entry in error.errors(include_url=False):
+            key = ".".join(
+                str(part + 1 if isinstance(part, int) else part)
+                for part in entry["loc"]
+                if part not in CHOSEN
+            )
+            if entry["type"] == "conflicts":
+                for name, message in entry["ctx"]["faults"]:
+                    self.add(f"{key}.{name}" if key else name, message)
+                continue
+            self.add(key, _message(dict(entry), key, names))
+
+    def distrust(self, tables: Iterable[str]) -> None:
+        """Take no more faults of some tables: they may only follow from those already found."""
+        self._distrusted = set(tables)
+
+    def check(self) -> None:
+        """Raise if anything was found."""
+        if not self._found:
+            return
+        ordered = sorted(self._found, key=lambda fault: (fault.line == 0, fault.line))
+        shown = ordered[:_MAX_SHOWN]
+        if len(ordered) > len(shown):
+            shown.append(Fault(f"and {len(ordered) - len(shown)} more", "", self.file))
+        raise CaseError(shown)
+
+
+def known_keys(model: type[BaseModel]) -> list[str]:
+    """Return the dotted names of all tables and keys of a model."""
+    names = []
+    for name, field in model.model_fields.items():
+        names.append(name)
+        inner = field.annotation
+        candidates = [inner, *getattr(inner, "__args__", ())]
+        for candidate in candidates:
+            if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+                names += [f"{name}.{below}" for below in known_keys(candidate)]
+    return names
+
+
+def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
+    kind, got = entry["type"], entry["input"]
+    if kind == "extra_forbidden":
+        what = "table" if isinstance(got, Mapping) else "key"
+        return f"unknown {what}{_similar(key, names)}"
+    if kind == "missing":
+        what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
+        return f"this {what} is required and missing"
+    if kind in ("too_short", "too_long"):
+        return _length_message(entry["ctx"], kind)
+    text = str(entry["msg"]).removeprefix("Value error, ")
+    text = text.replace("Input should be", "must be")
+    if kind == "model_type":
+        text = "must be a table"
+    if kind == "list_type":
+        text = f"must be tables under headers [[{key}]]"
+    if isinstance(got, Mapping):
+        return f"{text} (got a table)"
+    hint = ""
+    if kind == "literal_error" and isinstance(got, str):
+        allowed = [part.strip("' ") for part in str(entry["ctx"]["expected"]).split(" or ")]
+        allowed = [word.strip("' ") for part in allowed for word in part.split(",")]
+        close = difflib.get_close_matches(got, allowed, n=1, cutoff=0.5)
+        hint = f"; did you mean {close[0]!r}?" if close else ""
+    return f"{text} (got {_shown(got)}){hint}"
+
+
+def _length_message(found: Mapping[str, Any], kind: str) -> str:
+    word, count = ("least", found["min_length"]) if kind == "too_short" else ("most", found["max_length"])
+    one, many = ("key", "keys") if found["field_type"] == "Dictionary" else ("value", "values")
+    return f"must hold at {word} {count} {one if count == 1 else many} (holds {found['actual_length']})"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _similar(key: str, names: list[str]) -> str:
+    """Name the keys like an unknown one: of its own table first, then the same word elsewhere.
+
+    A table by the dotted name of another key is not of the schema, and has its keys alone.
+    """
+    table, _, last = without_numbers(key).rpartition(".")
+    if table and table not in names:
+        return ""
+    siblings = {name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table}
+    close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
+    if close:
+        return f"; did you mean '{close[0]}'?"
+    everywhere = {name.rpartition(".")[2]: name for name in names}
+    close = difflib.get_close_matches(last, everywhere, n=1, cutoff=0.6)
+    return f"; did you mean '{everywhere[close[0]]}'?" if close else ""
+
+
+def line_of(text: str, key: str) -> int:
+    """Return the line of a key in a TOML text."""
+    if not text:
+        return 0
+    parts = key.split(".")
+    line = _line_of_value(text, parts)
+    while not line and len(parts) > 1:
+        parts = parts[:-1]
+        line = _line_of_value(text, parts)
+    return line
+
+
+def _line_of_value(text: str, parts: list[str]) -> int:
+    import tomlkit
+    from tomlkit.items import AoT
+
+    document: Any = tomlkit.parse(text)
+    place = document
+    for part in parts[:-1]:
+        if isinstance(place, list) and is_number(part) and 0 < int(part) <= len(place):
+            place = place[int(part) - 1]
+        else:
+            place = place.get(part) if isinstance(place, Mapping) else None
+    if isinstance(place, AoT) and is_number(parts[-1]):
+        return _line_of_header(text, ".".join(parts[:-1]), int(parts[-1]))
+    if not isinstance(place, Mapping) or parts[-1] not in place:
+        return 0
+    value = place[parts[-1]]
+    if isinstance(value, AoT):
+        return _line_of_header(text, ".".join(parts))
+    if isinstance(value, Mapping) and value:
+        lines = [_line_of_value(text, [*parts, name]) for name in value]
+        return min((line for line in lines if line), default=0)
+    place[parts[-1]] = _MARK  # type: ignore[index]
+    dumped = tomlkit.dumps(document)
+    marked = tomlkit.item(_MARK).as_string()
+    before, found, _ = dumped.partition(marked)
+    return before.count("\n") + 1 if found else 0
+
+
+def _line_of_header(text: str, name: str, which: int = 1) -> int:
+    """Return the line of one of the headers of an array of tables, counted from 1."""
+    lines = enumerate(text.splitlines(), start=1)
+    found = [number for number, line in lines if line.strip().startswith(f"[[{name}]]")]
+    return found[which - 1] if which <= len(found) else 0

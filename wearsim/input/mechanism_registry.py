@@ -1,0 +1,139 @@
+"""Which mechanism a case is about, and which keys belong to it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from wearsim.input.case_record import ChainRecord
+from wearsim.input.schema import CaseTables
+
+WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
+"""Tooth forms for a chain that wraps the sprocket."""
+
+
+HISTORY = (
+    "cycles",
+    "time_hours",
+    "max_depth_mm",
+    "peak_pressure_MPa",
+    "max_sliding_speed_mm_per_s",
+    "removed_area_mm2",
+    "worn_contact_ratio",
+)
+FLANK = (
+    "cycles",
+    "node",
+    "arc_length_mm",
+    "x_mm",
+    "y_mm",
+    "depth_mm",
+    "pressure_MPa",
+    "sliding_speed_mm_per_s",
+    "load_per_width_N_per_mm",
+    "relative_curvature_per_mm",
+)
+"""Columns of both tables where a mechanism names no others."""
+
+
+@dataclass(frozen=True)
+class MechanismEntry:
+    """Where a mechanism stands; its modules are imported only for a case of it."""
+
+    tables: str  # `module:class` of the tables of its input
+    read: str  # `module:function` from a document to a complete case
+    history: tuple[str, ...] = HISTORY  # columns of history.csv
+    flank: tuple[str, ...] = FLANK  # columns of flank.csv
+
+    def load(self, name: str) -> Any:
+        """Return the object behind one of these fields."""
+        module, _, attribute = getattr(self, name).partition(":")
+        return getattr(import_module(module), attribute)
+
+
+_CHAIN = "wearsim.input.schema:CaseTables"
+
+MECHANISMS = {
+    "strand": MechanismEntry(_CHAIN, "wearsim.mechanisms.strand.build:read"),
+    "prescribed": MechanismEntry(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
+    "wrap": MechanismEntry(
+        _CHAIN,
+        "wearsim.mechanisms.wrap.build:read",
+        (
+            *HISTORY[:3],
+            "elongation_percent",
+            "roller_wear_mm",
+            "chain",
+            *HISTORY[3:6],
+            "tip_land_mm",
+            "over_pins_mm",
+        ),
+        ("cycles", "gap_kind", *FLANK[1:6]),
+    ),
+    "gear_pair": MechanismEntry(
+        "wearsim.mechanisms.gear_pair.keys:GearTables",
+        "wearsim.mechanisms.gear_pair.build:read",
+        flank=(*FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
+    ),
+}
+"""The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""
+
+
+def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
+    """Return the mechanism that tables are about, whether or not they are right."""
+    if "gear" in data:
+        return MECHANISMS["gear_pair"]
+    mechanism, sprocket = data.get("mechanism"), data.get("sprocket")
+    kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
+    profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
+    default = "wrap" if profile in WRAP_PROFILES else "strand"
+    return MECHANISMS.get(kind or default, MECHANISMS[default])
+
+
+_BELONGS_TO = {
+    "mechanism.table_file": "prescribed",
+    "mechanism.phases": "wrap",
+    "mechanism.friction_roller_tooth": "wrap",
+    "mechanism.friction_roller_bush": "wrap",
+    "drive": "wrap",
+    "joint": "wrap",
+    "sprocket.role": "wrap",
+    "stop.elongation_percent": "wrap",
+    "stop.over_pins_change_mm": "wrap",
+    "stop.min_slack_tension_N": "wrap",
+    "wear.roller_wear_ratio": "wrap",
+    "chain.pin_diameter_mm": "wrap",
+    "chain.bush_diameter_mm": "wrap",
+    "chain.bearing_area_mm2": "wrap",
+    "chain.mass_kg_per_m": "wrap",
+}
+
+
+def mechanism_kind(case: ChainRecord) -> str:
+    """Return the kind of mechanism, and name the keys that belong to another one."""
+    tables = case.tables
+    profile = tables.sprocket.profile if tables.sprocket else ""
+    kind = tables.mechanism.kind
+    if kind is None:
+        kind = "wrap" if profile in WRAP_PROFILES else "strand"
+        case.take("mechanism.kind", kind, "default for this profile")
+    if kind == "strand" and profile in WRAP_PROFILES:
+        case.faults.add(
+            "sprocket.profile",
+            f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "
+            "use profile = 'evolute' or 'points' on a strand",
+        )
+    for place, owner in _BELONGS_TO.items():
+        for key in _given(tables, place) if owner != kind else ():
+            case.faults.add(key, f"belongs to kind = {owner!r}: remove it")
+    return kind
+
+
+def _given(tables: CaseTables, place: str) -> list[str]:
+    """Return the keys that were given of a table, or the one key that is named."""
+    table, _, name = place.partition(".")
+    model = getattr(tables, table)
+    if model is None:
+        return []
+    names = sorted(model.model_fields_set) if not name else [name]
+    return [f"{table}.{key}" for key in names if getattr(model, key) is not None]

@@ -1,0 +1,296 @@
+"""Wear in long steps of controlled error, and what lies between two of them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.hertz_wear import (
+    BROKEN,
+    CONFORMING,
+    DEPTH_REACHED,
+    HORIZON,
+    RUNNING,
+    SAWTOOTH,
+    flank_rate,
+    sawtooth,
+)
+from wearsim.kernels.signatures import (
+    CONTACT_FUNCTION,
+    CUBE,
+    STEP_FUNCTION,
+    TABLE,
+    VECTOR,
+    float64,
+    int64,
+    void,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from wearsim.geometry.profile_points import Vector
+
+STATE_ROWS = 8
+"""Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
+
+TIME, STEP, WRITTEN, RATES, END = range(5)
+"""Of the clock: time, next step, states on the path, rates evaluated, time at which the run has
+ended within its last step. A clock of zeros starts a run."""
+CLOCK = 5
+
+LOOSEST, FINEST, TIGHTEST = 1e-3, 1e-9, 0.9e-11
+PART_OF_TOLERANCE = 0.1
+"""A run starts with this part of the tolerance of the life between the first two, and with a tenth of
+it again and again, not below the third, until two lives agree."""
+
+FIRST_STEP = 0.1
+"""Depth of the first step tried, in parts of the depth allowed and of the cube root of the
+tolerance: runs of other tolerances shall not make the same steps."""
+
+SAFETY, LEAST, MAX = 0.9, 0.2, 4.0
+"""A step grows or shrinks by SAFETY error^(-1/3) within these."""
+
+LEAST_STEP = 1e-11
+"""A step shorter than this part of the time so far is none."""
+
+
+@kernel(float64(TABLE, TABLE, float64, int64, float64, int64))
+def between(start: Vector, end: Vector, step: float, row: int, part: float, point: int) -> float:
+    """Return x, y or depth (row 0, 1, 2) of a point at a part of a step.
+
+    It is the cubic through both ends; that of the depth rises all the way, its slopes are
+    at most three times the mean (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238).
+    """
+    if row == 2:
+        greatest = 3.0 * (end[2, point] - start[2, point]) / step
+        slope, slope_end = min(start[3, point], greatest), min(end[3, point], greatest)
+    else:
+        slope = -start[3, point] * start[4 + row, point]
+        slope_end = -end[3, point] * end[4 + row, point]
+    rest = 1.0 - part
+    value: float = rest * rest * (
+        (1.0 + 2.0 * part) * start[row, point] + part * step * slope
+    ) + part * part * ((1.0 + 2.0 * rest) * end[row, point] - rest * step * slope_end)
+    return value
+
+
+@kernel(void(VECTOR, CUBE, VECTOR, CUBE))
+def states_between(times: Vector, path: Vector, wanted: Vector, states: Vector) -> None:
+    """Write x, y and depth at the wanted increasing times within those of the path."""
+    place = 0
+    for k in range(wanted.size):
+        while place < times.size - 2 and wanted[k] > times[place + 1]:
+            place += 1
+        step = times[place + 1] - times[place]
+        part = (wanted[k] - times[place]) / step
+        for row in range(3):
+            for j in range(path.shape[2]):
+                states[k, row, j] = between(path[place], path[place + 1], step, row, part, j)
+
+
+@kernel(float64(TABLE, TABLE, float64, float64))
+def part_to_depth(start: Vector, end: Vector, step: float, limit: float) -> float:
+    """Return the part of a step at which the first point reaches a depth, by bisection.
+
+    The deepest point comes first, so that few others need to be searched.
+    """
+    first, deepest, points = 1.0, 0, start.shape[1]
+    for j in range(points):
+        deepest = j if end[2, j] > end[2, deepest] else deepest
+    for i in range(points):
+        j = (deepest + i) % points
+        if end[2, j] < limit or between(start, end, step, 2, first, j) < limit:
+            continue
+        low, high = 0.0, first
+        middle = 0.5 * (low + high)
+        while low < middle < high:
+            if between(start, end, step, 2, middle, j) < limit:
+                low = middle
+            else:
+                high = middle
+            middle = 0.5 * (low + high)
+        first = high
+    return first
+
+
+@kernel(int64(TABLE, TABLE, VECTOR, VECTOR, CUBE))
+def write_state(state: Vector, work: Vector, clock: Vector, times: Vector, path: Vector) -> int:
+    """Write a state with its rate as the next of the path, round and round; return its place."""
+    place = int(clock[WRITTEN]) % times.size
+    here = path[place]
+    for j in range(state.shape[1]):
+        here[0, j], here[1, j], here[2, j] = state[0, j], state[1, j], state[2, j]
+        here[3, j], here[4, j], here[5, j] = work[9, j], work[0, j], work[1, j]
+        here[6, j], here[7, j] = work[7, j], work[2, j]
+    times[place] = clock[TIME]
+    clock[WRITTEN] += 1.0
+    return place
+
+
+@kernel(int64(TABLE, TABLE, float64))
+def copy_removed(start: Vector, state: Vector, step: float) -> int:
+    """Leave a point where it was at the start of a step if it came out with more material.
+
+    Return how many did by more than rounding and the error of the step can do: by a tenth of
+    what they should have lost.
+    """
+    gained = 0
+    for j in range(state.shape[1]):
+        if state[2, j] < start[2, j]:
+            gained += 1 if start[2, j] - state[2, j] > 0.1 * step * start[3, j] else 0
+            state[0, j], state[1, j], state[2, j] = start[0, j], start[1, j], start[2, j]
+    return gained
+
+
+@kernel(float64(TABLE, TABLE, VECTOR, float64))
+def part_to_layer(start: Vector, state: Vector, law: Vector, allowed: float) -> float:
+    """Return the part of a step after which it should end, 1 where that is its end.
+
+    It ends where the first point passes through the hardened layer, so that what it wears
+    below as if it were hard is at most half of what is allowed there.
+    """
+    part = 1.0
+    if law[5] != 1.0:
+        below = allowed / abs(law[5] - 1.0)
+        for j in range(state.shape[1]):
+            if start[2, j] <= law[4] and state[2, j] > law[4] + below:
+                way = law[4] + 0.5 * below - start[2, j]
+                part = min(part, way / (state[2, j] - start[2, j]))
+    return part
+
+
+@kernel(void(TABLE, TABLE, VECTOR))
+def pass_layer(start: Vector, state: Vector, law: Vector) -> None:
+    """Let what a point has gone below the hardened layer in a step wear as the core does.
+
+    The step has taken it for hard to its end; the way below the layer is ``law[5]`` times as long.
+    """
+    if law[5] != 1.0:
+        for j in range(state.shape[1]):
+            if start[2, j] <= law[4] < state[2, j]:
+                more = (law[5] - 1.0) * (state[2, j] - law[4])
+                state[0, j] -= more * start[4, j]
+                state[1, j] -= more * start[5, j]
+                state[2, j] += more
+
+
+@kernel(
+    int64(
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        TABLE,
+        VECTOR,
+        TABLE,
+        float64,
+        VECTOR,
+        float64,
+        int64,
+        float64,
+        float64,
+        float64,
+        int64,
+        TABLE,
+        TABLE,
+        VECTOR,
+        VECTOR,
+        CUBE,
+    )
+)
+def wear_in_steps(
+    make_step: Callable[..., float],
+    contact: Callable[..., None],
+    state: Vector,
+    constants: Vector,
+    columns: Vector,
+    modulus: float,
+    law: Vector,
+    diffusion: float,
+    ends: int,
+    depth_limit: float,
+    tolerance: float,
+    end: float,
+    greatest: int,
+    work: Vector,
+    increments: Vector,
+    clock: Vector,
+    times: Vector,
+    path: Vector,
+) -> int:
+    """Wear the flank, physics.md (10) to (12), step by step in place until something ends it.
+
+    A step is repeated shorter until its error at every point is at most the tolerance, a part
+    of the depth allowed; one in which the flank would conform or gain material is too long. Every
+    state is written to the path until ``greatest`` of them are. The time is in cycles times the
+    coefficient that ``law`` leaves out. Ends with DEPTH_REACHED or HORIZON within the last
+    step, RUNNING where the path is full, VANISHED, CONFORMING at once, TOOTHED where the
+    depth alternates from point to point, or BROKEN where no step is short enough: ``state``
+    and ``work`` are then those that failed. The step is handed in like the contact: linked
+    in, it would be compiled twice.
+    """
+    status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
+    clock[RATES] += 1.0
+    if clock[TIME] == 0.0:
+        fastest = 0.0
+        for j in range(state.shape[1]):
+            fastest = max(fastest, work[9, j])
+        clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * depth_limit / fastest
+    while True:
+        place = write_state(state, work, clock, times, path)
+        here, deepest = path[place], 0.0
+        for j in range(state.shape[1]):
+            deepest = max(deepest, state[2, j])
+        if deepest >= depth_limit:
+            before = (place - 1) % times.size
+            step = times[place] - times[before]
+            reached = times[before] + step * part_to_depth(path[before], here, step, depth_limit)
+            clock[END] = min(reached, end)
+            return DEPTH_REACHED if reached <= end else HORIZON
+        if clock[TIME] >= end:
+            clock[END] = end
+            return HORIZON
+        clock[END] = clock[TIME]
+        if status != RUNNING:
+            return status
+        if sawtooth(state[2], depth_limit) >= 0:
+            return SAWTOOTH
+        if clock[WRITTEN] >= greatest:
+            return RUNNING
+        grown = MAX
+        while True:
+            step = clock[STEP]
+            error = make_step(
+                contact,
+                here,
+                constants,
+                columns,
+                modulus,
+                law,
+                diffusion,
+                ends,
+                step,
+                work,
+                state,
+                increments,
+            ) / (tolerance * depth_limit)
+            part = 1.0
+            if error <= 1.0:
+                error = math.nan if copy_removed(here, state, step) > 0 else error
+                part = part_to_layer(here, state, law, tolerance * depth_limit)
+            if error <= 1.0 and part == 1.0:
+                pass_layer(here, state, law)
+                status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
+            clock[RATES] += 5.0
+            if error <= 1.0 and part == 1.0 and status not in (CONFORMING, BROKEN):
+                break
+            if step < LEAST_STEP * clock[TIME]:
+                return BROKEN
+            grown = 1.0
+            if part < 1.0:
+                clock[STEP] = step * part
+                continue
+            shorter = SAFETY / error ** (1.0 / 3.0) if error > 1.0 else LEAST
+            clock[STEP] = step * max(LEAST, shorter)
+        clock[TIME] += step
+        clock[STEP] = step * min(grown, SAFETY / max(error, 1e-9) ** (1.0 / 3.0))

@@ -1,0 +1,109 @@
+"""Saving a case and exporting its wheel, with the questions that come before."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from nicegui import ui
+
+from wearsim.case.model import Case
+from wearsim.errors import WearsimError
+from wearsim.export.wheel_formats import export
+from wearsim.geometry.wheel_outline import State
+from wearsim.page.case_file import CaseFile, named_beside, read_file
+from wearsim.page.dialogs import ask_export, ask_name, choose
+from wearsim.page.threads import in_thread
+from wearsim.result import WearResult
+
+_FORMATS = ("dxf", "svg", "csv")
+_STATES: dict[str, tuple[State, ...]] = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
+
+
+class FileSaver:
+    """The file of a page."""
+
+    def __init__(
+        self,
+        file: CaseFile,
+        text: Callable[[], str],
+        found: Callable[[], tuple[Case, WearResult] | None],
+        on_reload: Callable[[str], None],
+        on_change: Callable[[], None],
+    ) -> None:
+        self.file = file
+        self._text, self._found = text, found
+        self._on_reload, self._on_change = on_reload, on_change
+
+    async def save(self) -> None:
+        """Write the file; ask where the disk holds something that the page does not know."""
+        if self.file.content is None:
+            await self.save_as()
+            return
+        if not self.file.changed:
+            self._write(self.file)
+            return
+        answer = await choose(
+            f"{self.file.path} has changed on disk since it was loaded here.",
+            ("Replace it", "Load it, and lose what is on this page", "Cancel"),
+        )
+        if answer == "Replace it":
+            self._write(self.file)
+        elif answer and answer.startswith("Load"):
+            self._reload()
+
+    async def save_as(self) -> None:
+        """Write a file of another name in the same folder; ask where it is taken."""
+        name = await ask_name(self.file.path.name)
+        if name is None:
+            return
+        try:
+            place = named_beside(self.file.path, name)
+        except WearsimError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        file = self.file if _same(place, self.file) else self.file.renamed(place)
+        if file.changed:
+            if await choose(f"{place} is there already.", ("Replace it", "Cancel")) != "Replace it":
+                return
+            file = self.file.renamed(place)
+        self._write(file)
+
+    async def export(self) -> None:
+        """Send the wheel as a file to the browser."""
+        if self._found() is None:
+            ui.notify("The present input has no answer yet: wait for it, or mend the input.")
+            return
+        wanted = await ask_export(_FORMATS, tuple(_STATES))
+        found = self._found()
+        if wanted is None or found is None:
+            return
+        (case, result), (form, state) = found, wanted
+        states = _STATES[state]
+        worn = result if "worn" in states else None
+        try:
+            content = await in_thread(lambda: export(case, worn, states, form))
+        except WearsimError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        ui.download.content(content, f"{case.name}.{form}")
+
+    def _write(self, file: CaseFile) -> None:
+        try:
+            self.file = file.saved(self._text())
+        except WearsimError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        self._on_change()
+        ui.notify(f"saved to {self.file.path}", type="positive")
+
+    def _reload(self) -> None:
+        try:
+            self.file = read_file(self.file.path)
+        except WearsimError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        self._on_reload(self.file.text)
+        self._on_change()
+
+
+def _same(place: Path, file: CaseFile) -> bool:
+    return file.content is not None and place == file.path

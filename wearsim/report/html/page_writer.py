@@ -1,0 +1,99 @@
+"""The pages as files in a folder."""
+
+import hashlib
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from wearsim._version import __version__
+from wearsim.files import new_folder
+from wearsim.report.html.page_content import comparison_page, drive_page
+from wearsim.result import WearResult
+
+_HERE = Path(__file__).parent
+_SCRIPT = "plotly.min.js"
+
+
+def save_report(
+    results: Sequence[WearResult], folder: Path, force: bool, single_file: bool, detail: str
+) -> list[str]:
+    """Write a page for each result, and one that compares them where there are several."""
+    names = page_names([result.case for result in results])
+    brief = detail == "brief"
+    pages = {
+        f"{name}.html": ("drive.html.j2", drive_page(result, name, brief))
+        for name, result in zip(names, results, strict=True)
+    }
+    written: dict[str, tuple[str, Any]] = dict(pages)
+    if len(results) == 1:
+        written = {"index.html": pages[f"{names[0]}.html"]}
+    else:
+        written = {"index.html": ("comparison.html.j2", comparison_page(results, names)), **pages}
+    with new_folder(folder, force) as place:
+        for file, (template, page) in written.items():
+            text = render(template, page, single_file, several=len(results) > 1)
+            (place / file).write_text(text, encoding="utf-8", newline="\n")
+        if not single_file:
+            (place / _SCRIPT).write_text(get_plotlyjs(), encoding="utf-8", newline="\n")
+    return list(written)
+
+
+def render(template: str, page: Any, single_file: bool, several: bool) -> str:
+    """Return a page as HTML."""
+    loader = FileSystemLoader(_HERE / "templates")
+    environment = Environment(
+        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters["kept"] = pages_kept
+    own = (_HERE / "report.js").read_text(encoding="utf-8")
+    charts = [*getattr(page, "tooth", ()), *page.charts]
+    content = {chart.name: chart.content for chart in charts}
+    # Not to be guessed by whoever writes a title: it follows from all that the page holds.
+    nonce = hashlib.sha256(repr((__version__, content, page)).encode()).hexdigest()[:32]
+    return environment.get_template(template).render(
+        page=page,
+        content=content,
+        version=__version__,
+        several=several,
+        nonce=nonce,
+        style=Markup((_HERE / "style.css").read_text(encoding="utf-8")),  # noqa: S704
+        script=Markup(own),  # noqa: S704
+        plotly=Markup(get_plotlyjs()) if single_file else None,  # noqa: S704
+        plotly_file=_SCRIPT,
+    )
+
+
+def pages_kept(text: str) -> str:
+    """Return a text whose numbers do not break off their groups and units.
+
+    Examples
+    --------
+    >>> pages_kept("until 21 090 h").encode("ascii", "replace")
+    b'until 21?090?h'
+    """
+    return re.sub(r"(?<=\d) (?=\d{3}\b|(?:h|mm|N|MPa|%)(?:\W|$))", "\u00a0", text)
+
+
+def page_names(cases: Sequence[str]) -> list[str]:
+    """Return names of files for cases, all different whatever the file system makes of capitals.
+
+    Examples
+    --------
+    >>> page_names(["drive", "Drive", "index", "a/b <c>"])
+    ['drive', 'Drive-2', 'index-2', 'a_b_c_']
+    """
+    taken, found = {"index"}, []
+    for case in cases:
+        stem = re.sub(r"[^\w.-]+", "_", case).lstrip(".") or "drive"
+        number, name = 1, stem
+        while name.lower() in taken:
+            number += 1
+            name = f"{stem}-{number}"
+        taken.add(name.lower())
+        found.append(name)
+    return found

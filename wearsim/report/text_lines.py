@@ -1,0 +1,76 @@
+"""Lines of text as the screen and figures show them."""
+
+import re
+import textwrap
+from collections.abc import Iterable
+
+_WIDTH = 100
+_LABEL = 13
+
+_DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
+
+
+def row(label: str, text: str) -> str:
+    """Return one line of an answer, folded under its label."""
+    lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
+    return textwrap.fill(
+        text,
+        _WIDTH,
+        initial_indent=lead,
+        subsequent_indent=" " * _LABEL,
+        break_on_hyphens=False,
+        break_long_words=False,
+    )
+
+
+def numbered_assumptions(assumptions: tuple[str, ...]) -> str:
+    """Return assumptions with their numbers; the defaults taken share the last one.
+
+    Examples
+    --------
+    >>> numbered_assumptions(("alike", "run.method = advance (default)", "wear.law = power (default)"))
+    '1 alike; 2 defaults: run.method = advance, wear.law = power'
+    """
+    shown, defaults = stated_and_defaults(assumptions)
+    if defaults:
+        shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
+    return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
+
+
+def stated_and_defaults(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    """Return what a result takes for granted, and the defaults it takes.
+
+    Examples
+    --------
+    >>> stated_and_defaults(("all teeth alike", "wear.law = archard (default)"))
+    (['all teeth alike'], ['wear.law = archard (default)'])
+    """
+    defaults = [text for text in assumptions if _DEFAULT.match(text)]
+    return [text for text in assumptions if text not in defaults], defaults
+
+
+def defaults_by_kind(texts: Iterable[str]) -> list[tuple[str, int]]:
+    """Return the first text of each kind, and how many there are of it.
+
+    Examples
+    --------
+    >>> defaults_by_kind(["below 1 from 3 h on", "too wide", "below 1 from -4.5e3 h on"])
+    [('below 1 from 3 h on', 2), ('too wide', 1)]
+    """
+    found: dict[str, tuple[str, int]] = {}
+    for text in texts:
+        kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", text)
+        first, count = found.get(kind, (text, 0))
+        found[kind] = first, count + 1
+    return sorted(found.values(), key=lambda entry: -entry[1])
+
+
+def literal(text: str) -> str:
+    r"""Return a text that a figure shows as it is.
+
+    Examples
+    --------
+    >>> print(literal("3 $ an hour"))
+    3 \$ an hour
+    """
+    return text.replace("$", r"\$")

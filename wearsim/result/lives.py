@@ -1,0 +1,176 @@
+"""A life, or what is known of one that was not reached."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from wearsim.errors import LimitNotReachedError
+
+
+@dataclass(frozen=True)
+class Life:
+    """A life that was reached.
+
+    Attributes
+    ----------
+    cycles : float
+        Loading cycles of one gap.
+    hours : float
+        Running time [h], physics.md (13), of the source: cycles over those of an hour.
+    """
+
+    cycles: float
+    hours: float
+
+    @property
+    def cycles_run(self) -> float:
+        """Loading cycles that the run covers: those of the life."""
+        return self.cycles
+
+    @property
+    def hours_run(self) -> float:
+        """Running time that the run covers [h]: the life."""
+        return self.hours
+
+
+@dataclass(frozen=True)
+class LowerBound:
+    """A run that ended before any limit was met.
+
+    Attributes
+    ----------
+    cycles_run : float
+        Loading cycles that it covers.
+    hours_run : float
+        Running time that it covers [h].
+    """
+
+    cycles_run: float
+    hours_run: float
+
+    @property
+    def cycles(self) -> float:
+        """Raise: the life is not known.
+
+        Raises
+        ------
+        LimitNotReachedError
+            Always, with the bound.
+        """
+        raise LimitNotReachedError(self._message)
+
+    @property
+    def hours(self) -> float:
+        """Raise: the life is not known.
+
+        Raises
+        ------
+        LimitNotReachedError
+            Always, with the bound.
+        """
+        raise LimitNotReachedError(self._message)
+
+    @property
+    def _message(self) -> str:
+        return (
+            f"life: no limit was met within {self.hours_run:g} h ({self.cycles_run:g} cycles), the "
+            "life is longer: raise run.horizon_hours"
+        )
+
+
+def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | LowerBound:
+    """Return the life that a run of so many cycles has shown.
+
+    Parameters
+    ----------
+    cycles : float
+        Loading cycles of one gap.
+    cycles_per_hour : float
+        How many there are in an hour.
+    reached : bool
+        Whether the run ended at a limit.
+
+    Returns
+    -------
+    Life or LowerBound
+        The life, or that it is longer.
+
+    Examples
+    --------
+    >>> life_of(12000.0, 6000.0, True)
+    Life(cycles=12000.0, hours=2.0)
+    """
+    hours = cycles / cycles_per_hour
+    return Life(cycles, hours) if reached else LowerBound(cycles, hours)
+
+
+def life_keys(name: str, life: Life | LowerBound | None) -> dict[str, float | None]:
+    """Return a life as two plain numbers, one of which is None.
+
+    Parameters
+    ----------
+    name : str
+        Key of the life.
+    life : Life, LowerBound or None
+        The life, None where it was not calculated.
+
+    Returns
+    -------
+    dict
+        Its hours, and under the key with ``_at_least`` what it is at least where only that is known.
+
+    Examples
+    --------
+    >>> life_keys("life_hours", Life(12000.0, 2.0))
+    {'life_hours': 2.0, 'life_hours_at_least': None}
+    >>> life_keys("life_hours", LowerBound(12000.0, 2.0))
+    {'life_hours': None, 'life_hours_at_least': 2.0}
+    """
+    return {
+        name: life.hours if isinstance(life, Life) else None,
+        f"{name}_at_least": life.hours_run if isinstance(life, LowerBound) else None,
+    }
+
+
+def first_life(wear: Life | LowerBound, fatigue: Mapping[str, Life | LowerBound]) -> str | None:
+    """Return which of the lives by wear and by contact fatigue ends first.
+
+    Parameters
+    ----------
+    wear : Life or LowerBound
+        Life by wear.
+    fatigue : mapping of str to Life or LowerBound
+        Lives by contact fatigue; a bound is a stress that is always endured.
+
+    Returns
+    -------
+    str or None
+        ``wear`` or a name of `fatigue`; None where no life ends, or where the run ended before
+        the first life by fatigue without a limit of wear.
+
+    Examples
+    --------
+    >>> first_life(Life(12000.0, 2.0), {"sprocket_fatigue": Life(9000.0, 1.5)})
+    'sprocket_fatigue'
+    >>> first_life(LowerBound(6000.0, 1.0), {"sprocket_fatigue": Life(9000.0, 1.5)})
+    """
+    reached = {name: life.hours for name, life in {"wear": wear, **fatigue}.items() if isinstance(life, Life)}
+    first = min(reached, key=lambda name: reached[name], default=None)
+    if first is None or reached[first] > wear.hours_run:
+        return None
+    return first
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """A limit and how near to it the drive is when its life ends."""
+
+    name: str  # key of the limit with its unit
+    limit: float  # its value
+    value: float  # what the quantity has come to
+
+    @property
+    def left(self) -> float:
+        """Distance to the limit, 0 where only rounding is left."""
+        met = math.isclose(self.limit, self.value, rel_tol=1e-9)
+        return 0.0 if met else abs(self.limit - self.value)

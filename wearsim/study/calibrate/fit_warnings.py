@@ -1,0 +1,113 @@
+"""What the user of a calibration should look at."""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from scipy.stats import chi2
+
+from wearsim.case.model import Case
+from wearsim.geometry.profile_points import Vector
+from wearsim.study.calibrate.calibration import FittedCoefficient, PartLife
+from wearsim.study.calibrate.least_squares import LeastSquaresFit
+from wearsim.study.calibrate.observations import Observation
+from wearsim.study.calibrate.parameters import EXPONENT, SHAPES
+
+_TOGETHER = 0.95
+"""Correlation above which two values are looked at together."""
+
+_WIDE = 2.0
+"""Ratio of the ends of an interval above which a value counts as not determined."""
+
+_TOO_GOOD = 0.001
+
+_MANY = 0.25
+"""Part of the points of a profile above which it matters that they are left out."""
+
+
+def fit_warnings(
+    case: Case,
+    values: Sequence[FittedCoefficient],
+    correlation: Vector,
+    found: LeastSquaresFit,
+    observations: Sequence[Observation],
+    freedom: int,
+) -> Iterator[str]:
+    """Give what is doubtful about a fit."""
+    yield from _identifiability(values, correlation)
+    yield from _residuals(found, freedom)
+    if values[0].key.startswith("wear.") and not any(one.key in SHAPES for one in values):
+        factor = values[0].value / values[0].given
+        if not case.wear.low <= factor <= case.wear.high:
+            yield (
+                f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its "
+                f"band of {case.wear.low:.3g} to {case.wear.high:.3g}: check the readings and the load"
+            )
+    for one in observations:
+        if one.left_out > _MANY * one.reading.x.size:
+            yield (
+                f"line {one.reading.row}: {one.left_out} of {one.reading.x.size} points lie beyond the "
+                "ends of the flank and are left out: check that the profile is that of this flank"
+            )
+    if case.fatigue is not None:
+        yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it before)"
+    yield from case.warnings
+
+
+def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -> Iterator[str]:
+    report_progress = set()
+    for (i, one), (j, other) in combinations(enumerate(values), 2):
+        alike = abs(correlation[i, j])
+        if alike > _TOGETHER and _loose(one) and _loose(other):
+            report_progress |= {one.key, other.key}
+            ways = "of their ratio" if correlation[i, j] > 0.0 else "of their product"
+            yield (
+                f"the data cannot tell {one.key} and {other.key} apart (correlation "
+                f"{correlation[i, j]:.2f}): they know something like a value {ways} only; "
+                "fix one of them, or measure where they act differently"
+            )
+    # The unit of a coefficient goes with the exponent, and with that its size.
+    judged = values[1:] if any(value.key == EXPONENT for value in values) else values
+    for value in judged:
+        if _loose(value) and value.key not in report_progress:
+            yield (
+                f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the case"
+            )
+
+
+def _loose(value: FittedCoefficient) -> bool:
+    interval = value.interval
+    return not interval.known or interval.high > _WIDE * interval.low
+
+
+def _residuals(found: LeastSquaresFit, freedom: int) -> Iterator[str]:
+    if freedom == 0:
+        yield "there are as many fitted values as readings: nothing is left to check the fit by"
+        if found.chi_square > 1.0:
+            yield "and no values meet the readings: check them"
+        return
+    if found.scale > 1.0:
+        yield (
+            f"the readings are {found.scale:.2g} times as far from the fit as their errors say: check "
+            "them, the errors and the load; the intervals are widened by as much"
+        )
+    if chi2.cdf(found.chi_square, freedom) < _TOO_GOOD:
+        size = math.sqrt(found.chi_square / freedom)
+        yield (
+            f"the readings are only {size:.2g} times as far from the fit as their errors say: the errors "
+            "are stated too large, or the readings are not independent"
+        )
+
+
+def warnings_of_runs(settled: bool, numerical_error: float, parts: Sequence[PartLife]) -> Iterator[str]:
+    """Give what is doubtful about the runs that readings were held against."""
+    if not settled:
+        yield "the fit has not settled: its runs or the registration still change with it"
+    for part in parts:
+        half = 0.5 * math.log(part.interval.high / part.interval.low)
+        if part.name != "chain" and numerical_error > half:
+            yield (
+                f"the numerical error of the runs, {numerical_error:.1g}, is larger than the interval of "
+                f"the {part.name}'s life, +-{100 * half:.1g} %: use more nodes and phases, a smaller "
+                "run.life_tolerance"
+            )

@@ -1,0 +1,111 @@
+"""What coefficients say of every reading, over its error."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from wearsim.geometry.profile_points import Vector
+from wearsim.study.calibrate.history_interpolation import WeightedHistory
+from wearsim.study.calibrate.predicted_history import PredictedHistory
+from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, POINT, Reading
+
+
+@dataclass(frozen=True)
+class PredictedState:
+    """A drive with one set of coefficients."""
+
+    predicted: WeightedHistory | None  # how its teeth wear; None where that is not asked for
+    life: float  # of the teeth [h], nan with that
+    elongation_rate: float  # of its chain [%/h]
+
+
+@dataclass(frozen=True)
+class ReadingResidual:
+    """One value as it was measured and as it is predicted."""
+
+    row: int  # line of the reading in its file
+    hours: float  # running time [h]
+    quantity: str  # what it is
+    arc_length: float  # where on the flank [mm], nan for what has no place
+    value: float  # in the unit of the quantity, the error as standard deviation
+    predicted: float  # in the unit of the quantity, the error as standard deviation
+    error: float  # in the unit of the quantity, the error as standard deviation
+    residual: float  # predicted less measured over the error, those of one profile made independent
+
+
+class Observation(Protocol):
+    """A reading that a state can be held against."""
+
+    @property
+    def reading(self) -> Reading:
+        """What was measured."""
+
+    @property
+    def freedom(self) -> int:
+        """Independent values less what registration takes."""
+
+    @property
+    def left_out(self) -> int:
+        """Points that could not be used."""
+
+    def residuals(self, state: PredictedState) -> Vector:
+        """Return independent residuals of size 1."""
+
+    def shown(self, state: PredictedState) -> list[ReadingResidual]:
+        """Return the values beside their predictions."""
+
+
+@dataclass(frozen=True, eq=False)
+class GaugeReading:
+    """One measured value."""
+
+    reading: Reading  # the reading
+
+    @property
+    def freedom(self) -> int:
+        """One value."""
+        return 1
+
+    @property
+    def left_out(self) -> int:
+        """No points."""
+        return 0
+
+    def predicted(self, state: PredictedState) -> float:
+        """Return what the reading should be, in its unit."""
+        if self.reading.quantity == ELONGATION:
+            return state.elongation_rate * self.reading.hours
+        assert state.predicted is not None
+        part = self.reading.hours / state.life
+        return state.predicted.mean(lambda one: self._of_teeth(one, part))
+
+    def _of_teeth(self, predicted: PredictedHistory, part: float) -> float:
+        reading = self.reading
+        if reading.quantity == DEEPEST and reading.gap_kind is not None:
+            return predicted.deepest(part, reading.gap_kind)
+        if reading.quantity == DEEPEST:
+            return predicted.history(DEEPEST, part)
+        if reading.quantity == POINT:
+            return predicted.depth_at(part, reading.arc_length, reading.gap_kind or 1)
+        return predicted.history(reading.quantity, 0.0) - predicted.history(reading.quantity, part)
+
+    def residuals(self, state: PredictedState) -> Vector:
+        """Return independent residuals of size 1."""
+        return np.array([(self.predicted(state) - self.reading.value) / self.reading.error])
+
+    def shown(self, state: PredictedState) -> list[ReadingResidual]:
+        """Return the value beside its prediction."""
+        reading, predicted = self.reading, self.predicted(state)
+        return [
+            ReadingResidual(
+                reading.row,
+                reading.hours,
+                reading.quantity,
+                reading.arc_length,
+                reading.value,
+                predicted,
+                reading.error,
+                (predicted - reading.value) / reading.error,
+            )
+        ]

@@ -1,0 +1,211 @@
+"""Worn outlines and a chain, and one step of their wear."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.errors import ContactError, ConvergenceError
+from wearsim.geometry.profile_points import Profile
+from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
+from wearsim.kernels.half_space import WORK_ROWS, influence_coefficients
+from wearsim.kernels.wrap_wear import (
+    AREA,
+    CASE_DEPTH,
+    COEFFICIENT,
+    CORE_FACTOR,
+    CYCLES,
+    FINDINGS,
+    HARD_AREA,
+    MATE_RADIUS,
+    NUMBERS,
+    PEAK_PRESSURE,
+    PRESSURE_EXPONENT,
+    REACH,
+    SPEED_EXPONENT,
+    TOLERANCE,
+    UNBALANCED,
+    wear_events,
+)
+from wearsim.wear.law import WearLaw
+
+Rows = NDArray[np.float64]
+
+_REACH = 1.2
+"""Half of the stretch of outline that an event may touch, in radii of the mate."""
+
+
+@dataclass(frozen=True, eq=False)
+class StartState:
+    """Worn outlines and a used chain that a run may begin with."""
+
+    depth: Rows  # depth of every body along the normals of the new outline [mm], shape (bodies, points)
+    wear: ChainWear  # what the chain has lost
+    chain: int  # its number from 1
+
+
+@dataclass(frozen=True, eq=False)
+class WornState:
+    """Outlines, depth, area, chain and cycles at one time; pressure and speed of the last step."""
+
+    x: Rows
+    y: Rows
+    depth: Rows
+    removed: float
+    wear: ChainWear
+    cycles: float
+    chain: int
+    pressure: float
+    speed: float
+
+
+class WornBodies:
+    """Worn outlines, the chain, and one step of their wear.
+
+    Parameters
+    ----------
+    contact : RestingContact
+        The outlines and their contacts.
+    law : WearLaw
+        The wear law.
+    start : StartState or None
+        What has worn off already.
+    """
+
+    def __init__(self, contact: RestingContact, law: WearLaw, start: StartState | None) -> None:
+        self.contact = contact
+        profile, bodies = contact.profile, contact.bodies
+        points = profile.x.size
+        arc = contact.arc_length
+        spacing = np.zeros(points)
+        spacing[1:] += 0.5 * np.diff(arc)
+        spacing[:-1] += 0.5 * np.diff(arc)
+        self.unworn = np.array(
+            [profile.x, profile.y, profile.normal_x, profile.normal_y, profile.curvature, spacing]
+        )
+        self.x, self.y = np.tile(profile.x, (bodies, 1)), np.tile(profile.y, (bodies, 1))
+        self.area, self.depth = np.zeros((bodies, points)), np.zeros((bodies, points))
+        step = float(arc[-1]) / (points - 1)
+        # Coefficients of a line of unit cells times the size of a cell.
+        self.coefficients = np.empty(2 * points - 1)
+        influence_coefficients(contact.modulus, self.coefficients)
+        self.numbers = np.zeros(NUMBERS)
+        self.numbers[COEFFICIENT] = law.coefficient
+        self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
+        self.numbers[SPEED_EXPONENT] = law.speed_exponent
+        self.numbers[CASE_DEPTH], self.numbers[CORE_FACTOR] = law.case_depth, law.core_factor
+        self.numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
+        self.numbers[TOLERANCE] = 1e-6
+        self.work = np.zeros((3 + WORK_ROWS, points))
+        self.findings = np.zeros(FINDINGS)
+        self.pressures = np.zeros((0, points))
+        self.memory = contact.memory()
+        self.wear, self.cycles, self.chain = NEW_CHAIN, 0.0, 1
+        self.running_in, self.chain_new_at = law.running_in, 0.0
+        self.updates, self.removed, self.speed = 0, 0.0, 0.0
+        if start is not None:
+            self._begin(profile, start)
+
+    def _begin(self, profile: Profile, start: StartState) -> None:
+        self.depth = start.depth.copy()
+        self.area = self.depth * (1.0 - 0.5 * profile.curvature * self.depth)
+        self.x, self.y = profile.receded(self.depth)
+        self.wear, self.chain = start.wear, start.chain
+
+    def state(self) -> "WornState":
+        """Return a copy of all that changes."""
+        return WornState(
+            self.x.copy(),
+            self.y.copy(),
+            self.depth.copy(),
+            self.removed,
+            self.wear,
+            self.cycles,
+            self.chain,
+            float(self.findings[PEAK_PRESSURE]),
+            self.speed,
+        )
+
+    def step(self, cycles: float) -> float:
+        """Wear for so many cycles at once."""
+        at = self.contact.at(self.updates)
+        table = self.contact.events(self.x, self.y, self.wear, self.memory, at)
+        if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
+            raise ContactError(
+                f"contact at cycle {self.cycles:.6g}: loaded rollers must slide, but none does: without "
+                "load and sliding there is no wear and no life"
+            )
+        before = self.depth.copy()
+        self.press(table, cycles)
+        self.speed = highest_speed(table)
+        self.removed += float(self.findings[AREA])
+        hard_area = float(self.findings[HARD_AREA]) / self.contact.bodies
+        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
+        self.wear = self.contact.chain_after(self.wear, joints, hard_area)
+        self.cycles += cycles
+        self.updates += 1
+        return float((self.depth - before).max())
+
+    def joint_cycles(self, until: float) -> float:
+        """Return for how many cycles of constant coefficient the chain in use has worn."""
+        return self.running_in.renewed(self.chain_new_at, until)
+
+    def cycles_to(self, elongation: float) -> float:
+        """Return the cycles from now until the chain in use is longer by so much."""
+        worn = self.joint_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
+        return self.running_in.until_renewed(self.chain_new_at, worn) - self.cycles
+
+    @property
+    def chain_is_worn(self) -> bool:
+        """Whether the chain in use has grown to its limit."""
+        contact = self.contact
+        worn = self.wear.elongation >= contact.elongation_limit * (1.0 - 1e-9)
+        return worn and contact.elongation_per_cycle > 0.0
+
+    def replace_chain(self) -> None:
+        """Put on a new chain."""
+        self.wear, self.chain, self.chain_new_at = NEW_CHAIN, self.chain + 1, self.cycles
+
+    def press(self, table: Rows, cycles: float) -> None:
+        """Let events wear the bodies."""
+        if self.pressures.shape[0] != table.shape[1]:
+            self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
+        self.numbers[CYCLES] = cycles
+        self.numbers[MATE_RADIUS] = self.contact.roller_radius - self.wear.roller
+        wear_events(
+            table,
+            self.updates % 2,
+            self.x,
+            self.y,
+            self.area,
+            self.depth,
+            self.unworn,
+            self.coefficients,
+            self.numbers,
+            self.pressures,
+            self.work,
+            self.findings,
+        )
+        if self.findings[UNBALANCED] > 0.0 or not np.isfinite(self.depth).all():
+            raise ConvergenceError(
+                f"wear at cycle {self.cycles:.6g}: the pressure of every roller must be found, but "
+                f"{int(self.findings[UNBALANCED])} of {table.shape[1]} were not: use more nodes"
+            )
+
+
+def highest_load(
+    contact: RestingContact, law: WearLaw, start: StartState | None, load_factor: float = 1.0
+) -> tuple[float, float]:
+    """Return the highest pressure and sliding speed of all events of a cycle."""
+    bodies = WornBodies(contact, law, start)
+    table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
+    table[EVENT_LOAD] *= load_factor
+    bodies.press(table, 0.0)
+    return float(bodies.findings[PEAK_PRESSURE]), highest_speed(table)
+
+
+def highest_speed(table: Rows) -> float:
+    """Return the highest sliding speed of loaded events."""
+    return float(table[EVENT_SPEED][table[EVENT_LOAD] > 0.0].max(initial=0.0))
