@@ -115,13 +115,13 @@ def test_horizon_gives_a_lower_bound() -> None:
 def test_coefficients_scale_the_life_without_another_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only the coefficient may scale; another tension is another run."""
     runs: list[int] = []
-    advance_many = many.advance_many
+    advance_batch = many.advance_batch
 
     def counted(flanks: Any) -> Any:
         runs.append(len(flanks))
-        return advance_many(flanks)
+        return advance_batch(flanks)
 
-    monkeypatch.setattr(many, "advance_many", counted)
+    monkeypatch.setattr(many, "advance_batch", counted)
     rates = [f"wear.specific_wear_rate_mm2_per_N={5e-11 * factor!r}" for factor in (1.0, 2.0, 7.0)]
     cases = [strand(rate, "run.horizon_hours=1e6") for rate in rates]
     found = list(simulate_many([*cases, strand(rates[1], "load.tension_N=5001")], 1))

@@ -62,7 +62,7 @@ def test_a_straight_line_of_action_is_the_involute() -> None:
     """All that a mesh holds, the gaps of the corners of the tips included."""
     exact = C14.mesh(401)
     found = mesh_on(involute(C14.circles, C14.working_angle, exact.pitch_point_distance), C14.teeth)
-    for what in ("pole_distance", "lever", "rolling", "curvature", "arc", "levers"):
+    for what in ("pitch_point_distance", "lever", "rolling", "curvature", "arc", "levers"):
         np.testing.assert_allclose(getattr(found, what), getattr(exact, what), rtol=0, atol=1e-10)
     both = np.isfinite(exact.gaps) & np.isfinite(found.gaps)
     np.testing.assert_allclose(found.gaps[both], exact.gaps[both], rtol=0, atol=1e-8)

@@ -421,7 +421,7 @@ class TestTreatments:
         assert gear.bending.curve.limit == near(650.0 / 1.7)
 
     def test_the_input_knows_them_all(self):
-        schema = StrengthTables.model_json_schema()["$defs"]["GearTable"]["properties"]
+        schema = StrengthTables.model_json_schema()["$defs"]["StrengthGearTable"]["properties"]
         assert schema["treatment"]["enum"] == list(treatments())
 
     def test_exponents_safeties_and_limits(self):

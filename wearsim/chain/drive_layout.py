@@ -179,26 +179,6 @@ class DriveLayout:
 def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> DriveLayout:
     """Return the layout of a chain of given links, centre distance by `handbook_centre`.
 
-    Parameters
-    ----------
-    pitch : float
-        Chain pitch [mm].
-    teeth_1, teeth_2 : int
-        Gaps of the driving and the driven sprocket.
-    links : int
-        Links of the chain; an odd number is taken as it is (`DriveLayout.needs_offset_link`).
-
-    Returns
-    -------
-    DriveLayout
-        Layout of the taut chain; the distance to install is less by 0.002 to 0.004 of it, which
-        gives the slack span its sag.
-
-    Raises
-    ------
-    GeometryError
-        The sprockets would overlap on so short a chain, or a number is out of its range.
-
     Examples
     --------
     >>> round(layout_with_links(25.4, 27, 51, 100).centre_distance, 2)
@@ -218,26 +198,6 @@ def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> D
 
 def layout_with_centre(pitch: float, teeth_1: int, teeth_2: int, centre_distance: float) -> DriveLayout:
     """Return the layout nearest above a wished centre distance that has an even number of links.
-
-    Parameters
-    ----------
-    pitch : float
-        Chain pitch [mm].
-    teeth_1, teeth_2 : int
-        Gaps of the driving and the driven sprocket.
-    centre_distance : float
-        Wished centre distance [mm].
-
-    Returns
-    -------
-    DriveLayout
-        With the next even number of links and the centre distance that belongs to it, longer
-        than the wish by less than a pitch and a bit.
-
-    Raises
-    ------
-    GeometryError
-        The sprockets overlap at the wished distance, or a number is out of its range.
 
     Examples
     --------

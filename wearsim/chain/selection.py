@@ -122,16 +122,6 @@ def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     which is a limit of its own. Where a rating of the load applies as it stands, those that are
     only indicative overload no drive by themselves.
 
-    Parameters
-    ----------
-    ratings : sequence of RatingFinding
-        All of a drive.
-
-    Returns
-    -------
-    tuple of Finding
-        Empty where it is not overloaded.
-
     Examples
     --------
     >>> plates = RatingFinding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
@@ -179,16 +169,6 @@ def elongation_limit(teeth: int, adjustable: bool = True) -> float:
 def rating_note(series: str) -> str:
     """Return what limits the use of the ANSI power ratings for a series of chains.
 
-    Parameters
-    ----------
-    series : str
-        As in the catalogue.
-
-    Returns
-    -------
-    str
-        Empty for the A series, for which they are made.
-
     Examples
     --------
     >>> rating_note("ISO606-A/ANSI B29.1")
@@ -211,26 +191,6 @@ def assess(
 
     Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference
     drive; joint pressure and speed against the tables of GOST practice; tensile strength.
-
-    Parameters
-    ----------
-    drive : RatedDrive
-        The drive.
-    service_factor : float
-        f1 on the power, `application_factor` times whatever reserve is wanted.
-    exploitation : float
-        K_e on the joint pressure, of `joint_application_factor`.
-
-    Returns
-    -------
-    tuple of Finding
-        Rules that need a number which is not known, or a row that a table does not have, are
-        left out.
-
-    Raises
-    ------
-    CaseError
-        The ANSI table has no such number of strands.
 
     Examples
     --------

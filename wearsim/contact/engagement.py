@@ -65,13 +65,7 @@ class FlankContact:
         return 0.5 * float(steps[0] + steps[-1])
 
     def coarsened(self) -> "FlankContact":
-        """Return the same contact on about every second point.
-
-        Returns
-        -------
-        Contact
-            Both ends are kept.
-        """
+        """Return the same contact on about every second point."""
         points = self.profile.x.size
         keep = np.unique(np.linspace(0, points - 1, max(3, (points + 1) // 2)).round().astype(int))
         columns = self.columns
@@ -85,20 +79,7 @@ class FlankContact:
         )
 
     def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
-        """Return the engagement of a worn flank.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank [mm].
-        depth : numpy.ndarray
-            Material removed along the normal [mm].
-
-        Returns
-        -------
-        Engagement
-            Every point of the flank once per cycle.
-        """
+        """Return the engagement of a worn flank."""
         frame, touch = np.empty((4, x.size)), np.empty((4, x.size))
         flank_frame(x, y, *frame)
         self.kernel(x, y, *frame[:3], depth, self.constants, self.columns, *touch)
@@ -114,61 +95,16 @@ class Mechanism(Protocol):
         """The flank and its contact."""
 
     def other_grids(self) -> tuple[FlankContact, ...]:
-        """Return the new flank on other points, whose lives tell how wrong that on its own is.
-
-        Returns
-        -------
-        tuple of Contact
-            Cheaper ones, none with the same spacing at the ends.
-        """
+        """Return the new flank on other points, whose lives tell how wrong that on its own is."""
 
     def refined(self, level: int) -> "Mechanism | None":
-        """Return the same mechanism on a flank that tells its life better.
-
-        Parameters
-        ----------
-        level : int
-            From 1, each better than the one before.
-
-        Returns
-        -------
-        Mechanism or None
-            None where the points are all that is known of the flank.
-        """
+        """Return the same mechanism on a flank that tells its life better."""
 
     def mate_columns(self, depth: Vector) -> "dict[str, Vector]":
-        """Return columns of a mate that wears with the flank.
-
-        Parameters
-        ----------
-        depth : numpy.ndarray
-            Depth of the flank [mm], shape (snapshots, points).
-
-        Returns
-        -------
-        dict of str to numpy.ndarray
-            For the table of the flank, shape (snapshots * points,); empty where none wears.
-        """
+        """Return columns of a mate that wears with the flank."""
 
     def worn_contact_ratio(self, x: Vector, y: Vector) -> float:
-        """Return the contact ratio of a worn flank.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn flank [mm].
-
-        Returns
-        -------
-        float
-            Mean number of rollers in contact by geometry; nan where it has no meaning.
-        """
+        """Return the contact ratio of a worn flank."""
 
     def assumptions(self) -> "list[str]":
-        """Return what this picture takes for granted, one sentence each.
-
-        Returns
-        -------
-        list of str
-            Sentences for the result.
-        """
+        """Return what this picture takes for granted, one sentence each."""

@@ -123,98 +123,27 @@ class RestingContact(ABC):
         )
 
     def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
-        """Tell whether worn bodies hold the chain with the least slack tension allowed.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
-            What the chain has lost.
-
-        Returns
-        -------
-        bool
-            True where there is no such limit.
-        """
+        """Tell whether worn bodies hold the chain with the least slack tension allowed."""
         return True
 
     @abstractmethod
     def coarsened(self) -> "RestingContact":
-        """Return the same contacts on about every second point.
-
-        Returns
-        -------
-        Dwelling
-            Both ends are kept.
-        """
+        """Return the same contacts on about every second point."""
 
     @abstractmethod
     def memory(self) -> Rows:
-        """Return what ``events`` is to remember from call to call, as it is before the first.
-
-        Returns
-        -------
-        numpy.ndarray
-            Numbers of the mechanism's own.
-        """
+        """Return what ``events`` is to remember from call to call, as it is before the first."""
 
     def at(self, step: int) -> float:
-        """Return which phases of the cycle a step of the wear takes.
-
-        Parameters
-        ----------
-        step : int
-            Number of the step from 0.
-
-        Returns
-        -------
-        float
-            For ``events``.
-        """
+        """Return which phases of the cycle a step of the wear takes."""
         return 0.5
 
     @abstractmethod
     def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
-        """Return what the worn bodies meet in one cycle, a column an event.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
-            What the chain has lost.
-        memory : numpy.ndarray
-            Of this run; changed in place.
-        at : float, optional
-            From 0 to 1: which phases of the cycle stand for all others.
-
-        Returns
-        -------
-        numpy.ndarray
-            Rows as ``kernels.dwelling`` orders them: centre x, y of the mate and the unit
-            normal out of the outline [mm], place touched [points], load per width
-            [N/mm], path slid [mm] and its speed [mm/s], how often in a cycle, number of
-            the body.
-        """
+        """Return what the worn bodies meet in one cycle, a column an event."""
 
     def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
-        """Return the engagement of a worn outline, all bodies worn alike.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray
-            Points of the worn outline [mm].
-        depth : numpy.ndarray
-            Material removed along the normal [mm].
-
-        Returns
-        -------
-        Engagement
-            Every point of the outline with the events of one cycle that touch the first
-            body there: how often, mean load, path at that load, highest speed (nan where
-            none). The relative curvature is that of mate and outline at the point.
-        """
+        """Return the engagement of a worn outline, all bodies worn alike."""
         frame = np.empty((4, depth.size))
         flank_frame(x, y, *frame)
         outlines = np.tile(x, (self.bodies, 1)), np.tile(y, (self.bodies, 1))

@@ -30,20 +30,6 @@ def depth_limit(critical_depth: float) -> StopLimit:
 def rising(name: str, limit: float, value: Callable[[Vector, Vector, Vector], float]) -> StopLimit:
     """Return the stop limit that a quantity rises to a limit.
 
-    Parameters
-    ----------
-    name : str
-        Key with its unit.
-    limit : float
-        Value at which the life ends.
-    value : callable
-        The quantity, of x, y and depth [mm].
-
-    Returns
-    -------
-    Criterion
-        Met where the value has reached the limit.
-
     Examples
     --------
     >>> import numpy as np
@@ -56,20 +42,6 @@ def rising(name: str, limit: float, value: Callable[[Vector, Vector, Vector], fl
 
 def falling(name: str, limit: float, value: Callable[[Vector, Vector, Vector], float]) -> StopLimit:
     """Return the stop limit that a quantity falls to a limit.
-
-    Parameters
-    ----------
-    name : str
-        Key with its unit.
-    limit : float
-        Value at which the life ends.
-    value : callable
-        The quantity, of x, y and depth [mm].
-
-    Returns
-    -------
-    Criterion
-        Met where the value has come down to the limit.
 
     Examples
     --------

@@ -41,20 +41,7 @@ def service_hours(years: float, year_share: float = 1.0, day_share: float = 1.0)
 
 
 def cycles_per_hour(speed: float, meshings: int = 1) -> float:
-    """Return the load cycles of a tooth in an hour, 60 n n_z, strength.md (21).
-
-    Parameters
-    ----------
-    speed : float
-        n of the gear [rpm].
-    meshings : int
-        n_z, how often a tooth meshes in a revolution.
-
-    Returns
-    -------
-    float
-        Cycles in an hour.
-    """
+    """Return the load cycles of a tooth in an hour, 60 n n_z, strength.md (21)."""
     return 60.0 * speed * meshings
 
 
@@ -106,32 +93,11 @@ class FatigueCurve:
         return self.base_cycles * float(self.least_factor**-self.tail_exponent)
 
     def raw_factor(self, cycles: float) -> float:
-        """Return the life factor without its limits, strength.md (25), (N_G/N_E)^(1/m).
-
-        Parameters
-        ----------
-        cycles : float
-            Equivalent cycles N_E.
-
-        Returns
-        -------
-        float
-            Factor.
-        """
+        """Return the life factor without its limits, strength.md (25), (N_G/N_E)^(1/m)."""
         return float((self.base_cycles / cycles) ** (1.0 / self.exponent))
 
     def factor(self, cycles: float) -> float:
         """Return the life factor K_HL or K_FL within its limits.
-
-        Parameters
-        ----------
-        cycles : float
-            Equivalent cycles N_E.
-
-        Returns
-        -------
-        float
-            Factor.
 
         Examples
         --------
@@ -145,18 +111,7 @@ class FatigueCurve:
         return float(max(tail, self.least_factor))
 
     def allowable(self, cycles: float) -> float:
-        """Return the allowable stress [sigma]_H or [sigma]_F, strength.md (26) and (27).
-
-        Parameters
-        ----------
-        cycles : float
-            Equivalent cycles N_E.
-
-        Returns
-        -------
-        float
-            Stress [MPa].
-        """
+        """Return the allowable stress [sigma]_H or [sigma]_F, strength.md (26) and (27)."""
         return self.limit * self.factor(cycles)
 
     def endured_cycles(self, stress: float) -> float:

@@ -37,16 +37,6 @@ class Treatment:
     def contact_limit(self, hardness: float) -> float:
         """Return the endurance limit in contact, sigma_Hlim of table 2.3.
 
-        Parameters
-        ----------
-        hardness : float
-            Of the flank, in the treatment's scale.
-
-        Returns
-        -------
-        float
-            Stress [MPa]; nan for nitrided teeth.
-
         Examples
         --------
         >>> treatments()["quenched_and_tempered"].contact_limit(285.5)
@@ -61,16 +51,6 @@ class Treatment:
 
     def outside(self, hardness: float) -> str:
         """Return what is wrong with a hardness for which the formulas are not given.
-
-        Parameters
-        ----------
-        hardness : float
-            In the treatment's scale.
-
-        Returns
-        -------
-        str
-            Empty where it is within their range.
 
         Examples
         --------
@@ -93,18 +73,6 @@ class Treatment:
 
         2.8 sigma_T of homogeneous teeth, 44 HRC of those hardened along the contour or
         carburised, 35 HRC of nitrided ones and at most 2000 MPa.
-
-        Parameters
-        ----------
-        hardness : float
-            Of the flank, in the treatment's scale.
-        yield_strength : float
-            sigma_T [MPa]; nan where it is not known.
-
-        Returns
-        -------
-        float
-            Stress [MPa]; nan where it needs a yield strength that is not known.
         """
         base = yield_strength if self.overload_of == "yield" else hardness
         greatest = self.overload_slope * base

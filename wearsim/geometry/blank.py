@@ -28,18 +28,6 @@ def gap_space(outline: Profile, gap: Gap | None) -> ToothSpace:
 def blank_area(space: ToothSpace, teeth: int) -> float:
     """Return the area of a wheel of equal spaces, without a bore.
 
-    Parameters
-    ----------
-    space : ToothSpace
-        The space between two teeth.
-    teeth : int
-        Number of them.
-
-    Returns
-    -------
-    float
-        Area [mm2].
-
     Examples
     --------
     Four notches from corner to corner of a square of 2 mm take trapezia of 0.75 mm2 from it:

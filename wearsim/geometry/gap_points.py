@@ -40,32 +40,6 @@ def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller
     tangent is continuous and its curvature is not. Between joints it gets as few knots as
     the same stop limit asks for. Corners sharper than 0.1 rad stay corners.
 
-    Parameters
-    ----------
-    x, y : array_like
-        Points [mm], at least 24, the sprocket's centre at the origin and the gap's centre
-        line on +y: either from the tip of the right flank through the seat to the tip of
-        the left flank, or one half from the centre line to the tip of either flank, which
-        is then mirrored.
-    noise : float
-        Standard deviation of each coordinate [mm]; 0 for a drawing.
-    nodes : int
-        Points of the result, at equal steps of arc length.
-    roller_radius : float
-        Radius of the roller that has to enter the gap [mm].
-
-    Returns
-    -------
-    Profile
-        The outline from right to left. Between exact points of arcs that lie 0.02 to 0.2 mm
-        apart it strays less than 2e-4 mm.
-
-    Raises
-    ------
-    GeometryError
-        Points in the wrong order or of one flank only, an outline that crosses itself, or
-        a roller that rests on the tips.
-
     Examples
     --------
     Half a turn of radius 5 mm around (0, 30), of which the roller touches the bottom:
@@ -96,18 +70,6 @@ def lowest_centre(x: Vector, y: Vector, roller_radius: float) -> tuple[float, fl
 
     On the line of abscissa x the centre stops at max_j(y_j + sqrt(r^2 - (x - x_j)^2)); the
     lowest of these between the tips is searched by narrowing a grid.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Points of the gap's outline, right to left [mm]; dense against the roller radius.
-    roller_radius : float
-        Radius of the roller r [mm].
-
-    Returns
-    -------
-    tuple of float
-        Coordinates of the centre [mm].
 
     Examples
     --------

@@ -53,18 +53,6 @@ def line(part: str, start: Vector, end: Vector) -> tuple[OutlineStretch, ...]:
 def arc_through(part: str, start: Vector, middle: Vector, end: Vector) -> OutlineStretch:
     """Return the arc whose ends and middle are given.
 
-    Parameters
-    ----------
-    part : str
-        What it is.
-    start, middle, end : numpy.ndarray
-        Coordinates [mm].
-
-    Returns
-    -------
-    Stretch
-        The arc.
-
     Examples
     --------
     A half circle, run counterclockwise:
@@ -83,18 +71,6 @@ def along_points(part: str, points: Vector) -> OutlineStretch:
 
     Of two neighbours the lesser of the curvatures is taken, and none where they differ in sign,
     so that corners stay corners.
-
-    Parameters
-    ----------
-    part : str
-        What it is.
-    points : numpy.ndarray
-        Coordinates [mm], shape (n, 2), at least three.
-
-    Returns
-    -------
-    Stretch
-        All points are its vertices.
 
     Examples
     --------

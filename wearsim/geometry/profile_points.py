@@ -26,16 +26,6 @@ def _vector(values: ArrayLike) -> Vector:
 def chord_lengths(x: Vector, y: Vector) -> Vector:
     """Return the length along the chords of a row of points.
 
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Points [mm], shape (n,).
-
-    Returns
-    -------
-    numpy.ndarray
-        From 0 at the first one [mm], shape (n,).
-
     Examples
     --------
     >>> chord_lengths(np.array([0.0, 3.0, 3.0]), np.array([0.0, 4.0, 6.0])).tolist()
@@ -46,18 +36,6 @@ def chord_lengths(x: Vector, y: Vector) -> Vector:
 
 def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> float:
     """Return the area between two flanks, by the shoelace formula.
-
-    Parameters
-    ----------
-    x_before, y_before : numpy.ndarray
-        Points of the flank before, root to tip [mm].
-    x, y : numpy.ndarray
-        Points of the flank after, root to tip [mm].
-
-    Returns
-    -------
-    float
-        Area [mm2], positive where material was removed.
 
     Examples
     --------
@@ -75,17 +53,6 @@ def area_between(x_before: Vector, y_before: Vector, x: Vector, y: Vector) -> fl
 
 def area_swept(x: Vector, y: Vector, depth: Vector) -> float:
     """Return the area that a flank loses as its points recede along their normals.
-
-    Parameters
-    ----------
-    x, y, depth : numpy.ndarray
-        Points and depth of the flank at successive times [mm], shape (times, points).
-
-    Returns
-    -------
-    float
-        Sum over the times of depth gained times the length that belongs to each point in the
-        mean of both times [mm2].
 
     Examples
     --------
@@ -204,16 +171,6 @@ class Profile:
         The first and the last are divided into eight; over a fortieth of the flank the number
         falls to 1/e. Lagrange's polynomial through six neighbours carries the points over; where
         they are those of this flank they stay as they are.
-
-        Parameters
-        ----------
-        intervals : int
-            Even ones, at least two; this flank has one less than points.
-
-        Returns
-        -------
-        Profile
-            With both ends as they are.
 
         Examples
         --------

@@ -85,25 +85,6 @@ def roller_path(outline: Profile, roller_radius: float, nodes: int) -> RollerPat
     parts where the roller would enter the outline elsewhere; at the corner that such a
     part leaves, nodes turn from one direction to the other.
 
-    Parameters
-    ----------
-    outline : Profile
-        The gap from its right tip through the seat to its left tip.
-    roller_radius : float
-        Radius of the roller [mm].
-    nodes : int
-        Number of nodes, about.
-
-    Returns
-    -------
-    RollerPath
-        The line.
-
-    Raises
-    ------
-    GeometryError
-        The roller does not reach into the gap.
-
     Examples
     --------
     A roller of 4 mm in a round seat of 5 mm around (0, 0) is centred within 1 mm of it:

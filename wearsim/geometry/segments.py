@@ -192,18 +192,6 @@ Segment = ArcSegment | LineSegment
 def points_along(segments: tuple[Segment, ...], arc_length: ArrayLike) -> Vector:
     """Return points of a row of segments, exactly on them.
 
-    Parameters
-    ----------
-    segments : tuple of ArcSegment or LineSegment
-        Each starts where the one before ends.
-    arc_length : array_like
-        Way from the first start [mm], shape (n,), from 0 to the sum of the lengths.
-
-    Returns
-    -------
-    numpy.ndarray
-        Coordinates [mm], shape (n, 2).
-
     Examples
     --------
     >>> row = (LineSegment((0.0, 0.0), 0.0, 1.0), LineSegment((1.0, 0.0), 0.5 * math.pi, 1.0))

@@ -90,18 +90,6 @@ def worn_gap(new: ToothSpace, points: Vector) -> ToothSpace:
 def to_circle(points: Vector, radius: float) -> Vector:
     """Return points of a flank that ends on a circle about the axis.
 
-    Parameters
-    ----------
-    points : numpy.ndarray
-        Coordinates from root to tip [mm], shape (n, 2).
-    radius : float
-        Radius of the circle [mm].
-
-    Returns
-    -------
-    numpy.ndarray
-        Cut off where they pass the circle, else extended straight to it.
-
     Examples
     --------
     >>> flank = np.array([[0.0, 1.0], [0.0, 2.0], [0.0, 3.0]])
@@ -127,18 +115,6 @@ def _to_tip(points: Vector, tip: Vector) -> tuple[Vector, tuple[OutlineStretch, 
 
 def ring(spaces: Sequence[ToothSpace], turn: float = 0.0) -> tuple[OutlineChain, ...]:
     """Return the outline of a wheel from its spaces, joined by arcs about the axis over the tips.
-
-    Parameters
-    ----------
-    spaces : sequence of ToothSpace
-        One a tooth, counterclockwise; the first has its centre line on +y.
-    turn : float
-        Angle by which all of it is turned counterclockwise [rad].
-
-    Returns
-    -------
-    tuple of Chain
-        One closed chain; without roots an open one a tooth, from root to root.
 
     Examples
     --------

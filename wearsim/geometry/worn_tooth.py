@@ -12,21 +12,6 @@ from wearsim.geometry.profile_points import Vector
 def tooth_thickness(x: Vector, y: Vector, teeth: int, radius: float) -> float:
     """Return the chordal thickness of a tooth between two gaps alike, on a circle.
 
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Outline of the gap from its right tip through the bottom to its left tip [mm].
-    teeth : int
-        Number of gaps of the wheel.
-    radius : float
-        Radius of the circle [mm], held between the bottom and the lower of both tips.
-
-    Returns
-    -------
-    float
-        2 R sin((2 pi/z - w)/2), w the angle that the gap takes on the circle [mm];
-        negative where the flanks of the tooth have met.
-
     Examples
     --------
     A gap with straight sides at +-1 mm takes 90 degrees of the circle of radius sqrt(2) mm.
@@ -49,18 +34,6 @@ def tooth_thickness(x: Vector, y: Vector, teeth: int, radius: float) -> float:
 def tip_land(x: Vector, y: Vector, teeth: int) -> float:
     """Return the length of the tip between two gaps alike.
 
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Outline of the gap from its right tip through the bottom to its left tip [mm].
-    teeth : int
-        Number of gaps of the wheel.
-
-    Returns
-    -------
-    float
-        Length along the tip circle [mm]; negative where the flanks have met below it.
-
     Examples
     --------
     >>> import numpy as np
@@ -75,23 +48,6 @@ def tip_land(x: Vector, y: Vector, teeth: int) -> float:
 
 def seated_radius(gap: Gap, pin_diameter: float) -> float:
     """Return the distance of a pin that rests on the bottom of an unworn gap.
-
-    Parameters
-    ----------
-    gap : Gap
-        Gap of the sprocket.
-    pin_diameter : float
-        Diameter dR of the measuring pin [mm], no larger than the seat's.
-
-    Returns
-    -------
-    float
-        Distance rc of the pin's centre from the sprocket's [mm].
-
-    Raises
-    ------
-    GeometryError
-        The pin does not reach the bottom.
 
     Examples
     --------

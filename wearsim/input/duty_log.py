@@ -45,7 +45,7 @@ def log_bins(log: DutyLog, tension_bins: int, speed_bins: int) -> list[LogBin]:
 
     >>> log = DutyLog(np.array([10.0, 30.0]), np.array([10.0, 50.0]), np.array([60.0, 60.0]))
     >>> log_bins(log, 1, 1)
-    [LogBlock(time=40.0, revolutions=40.0, tension=40.0)]
+    [LogBin(time=40.0, revolutions=40.0, tension=40.0)]
     """
     cell = _bin(log.tension, tension_bins) * speed_bins + _bin(log.speed, speed_bins)
     revolutions = log.speed * log.step / 60.0
@@ -74,7 +74,7 @@ def merged(blocks: list[LogBin], greatest: int) -> list[LogBin]:
     Examples
     --------
     >>> merged([LogBin(9.0, 9.0, 100.0), LogBin(3.0, 3.0, 60.0)], 1)
-    [LogBlock(time=12.0, revolutions=12.0, tension=90.0)]
+    [LogBin(time=12.0, revolutions=12.0, tension=90.0)]
     """
     time = np.array([block.time for block in blocks])
     turns = np.array([block.revolutions for block in blocks])

@@ -24,13 +24,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def source_hash() -> str:
-    """Return the hash of every kernel source, numba and Python that the machine code depends on.
-
-    Returns
-    -------
-    str
-        Sixteen hexadecimal digits.
-    """
+    """Return the hash of every kernel source, numba and Python that the machine code depends on."""
     digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode())
@@ -62,11 +56,6 @@ def cache_folder() -> Path | None:
 
     ``NUMBA_CACHE_DIR`` is the parent where it is set, else the user's cache folder,
     else a private folder under the temporary directory.
-
-    Returns
-    -------
-    pathlib.Path or None
-        A writable folder; None where there is none, and every process compiles anew.
     """
     name = f"numba-{source_hash()}"
     chosen = os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("wearsim")
@@ -89,18 +78,7 @@ _FOLDER = cache_folder()
 
 
 def kernel(signature: Any) -> Callable[[Function], Function]:
-    """Compile a function for one signature: strict arithmetic, no exceptions, safe cache.
-
-    Parameters
-    ----------
-    signature : numba signature
-        Types of the arguments and of the result.
-
-    Returns
-    -------
-    callable
-        Decorator that gives the compiled function.
-    """
+    """Compile a function for one signature: strict arithmetic, no exceptions, safe cache."""
 
     def compile_function(function: Function) -> Function:
         before = _CONFIG.CACHE_DIR

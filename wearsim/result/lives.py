@@ -81,20 +81,6 @@ class LowerBound:
 def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | LowerBound:
     """Return the life that a run of so many cycles has shown.
 
-    Parameters
-    ----------
-    cycles : float
-        Loading cycles of one gap.
-    cycles_per_hour : float
-        How many there are in an hour.
-    reached : bool
-        Whether the run ended at a limit.
-
-    Returns
-    -------
-    Life or LowerBound
-        The life, or that it is longer.
-
     Examples
     --------
     >>> life_of(12000.0, 6000.0, True)
@@ -106,18 +92,6 @@ def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | Lowe
 
 def life_keys(name: str, life: Life | LowerBound | None) -> dict[str, float | None]:
     """Return a life as two plain numbers, one of which is None.
-
-    Parameters
-    ----------
-    name : str
-        Key of the life.
-    life : Life, LowerBound or None
-        The life, None where it was not calculated.
-
-    Returns
-    -------
-    dict
-        Its hours, and under the key with ``_at_least`` what it is at least where only that is known.
 
     Examples
     --------
@@ -134,19 +108,6 @@ def life_keys(name: str, life: Life | LowerBound | None) -> dict[str, float | No
 
 def first_life(wear: Life | LowerBound, fatigue: Mapping[str, Life | LowerBound]) -> str | None:
     """Return which of the lives by wear and by contact fatigue ends first.
-
-    Parameters
-    ----------
-    wear : Life or LowerBound
-        Life by wear.
-    fatigue : mapping of str to Life or LowerBound
-        Lives by contact fatigue; a bound is a stress that is always endured.
-
-    Returns
-    -------
-    str or None
-        ``wear`` or a name of `fatigue`; None where no life ends, or where the run ended before
-        the first life by fatigue without a limit of wear.
 
     Examples
     --------

@@ -263,13 +263,7 @@ class WearResult:
 
 
 def environment() -> dict[str, str]:
-    """Return what a result depends on beside its inputs.
-
-    Returns
-    -------
-    dict
-        Versions of wearsim and its numerical libraries, Python, platform, kernel hash.
-    """
+    """Return what a result depends on beside its inputs."""
     libraries = ("numpy", "scipy", "shapely", "numba", "pandas", "pydantic")
     return {
         "wearsim": __version__,

@@ -66,25 +66,7 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
 
 
 def verify_grid(case: Case) -> "GridStudy":
-    """Run a case on three grids, of all, half and a quarter of its points.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-
-    Returns
-    -------
-    GridStudy
-        Of the sprocket's life: the lives, the observed order of convergence and the error.
-
-    Raises
-    ------
-    ContactError
-        The contact leaves its theory on one of the grids.
-    ConvergenceError
-        A life would be wrong.
-    """
+    """Run a case on three grids, of all, half and a quarter of its points."""
     tolerance = case.run.life_tolerance
     if case.drive.rests:
         from wearsim.simulation.wrap_life import wrap_grid_study

@@ -54,16 +54,6 @@ def grid_error(spacing: float, others: Iterable[tuple[float, float]]) -> float:
 def exceeds(error: float, tolerance: float) -> str:
     """Return in words that an error is larger than its tolerance, with digits enough to see it.
 
-    Parameters
-    ----------
-    error, tolerance : float
-        Relative, the error the larger.
-
-    Returns
-    -------
-    str
-        Both numbers.
-
     Examples
     --------
     >>> exceeds(0.0312, 0.01)
@@ -77,18 +67,6 @@ def exceeds(error: float, tolerance: float) -> str:
 
 def depth_missed(x: Vector, y: Vector, depth: Vector) -> float:
     """Return how much deeper a flank is between its points than at the deepest of them.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray
-        Points of the worn flank [mm].
-    depth : numpy.ndarray
-        Material removed along the normal [mm].
-
-    Returns
-    -------
-    float
-        Relative, from the parabola through that point and its neighbours; 0 at an end.
 
     Examples
     --------

@@ -94,18 +94,7 @@ class WearLaw:
         return np.array([factor, m - 1.0, 1.0, n, self.case_depth, self.core_factor])
 
     def unit_numbers(self, kind: ContactKind) -> Vector:
-        """Return the law as the kernel takes it, with the coefficient 1.
-
-        Parameters
-        ----------
-        kind : ContactKind
-            How the contact meets the points.
-
-        Returns
-        -------
-        numpy.ndarray
-            As ``numbers``.
-        """
+        """Return the law as the kernel takes it, with the coefficient 1."""
         return replace(self, coefficient=1.0).numbers(kind)
 
     def diffusion(self, kind: ContactKind, slip_curvature_exponent: float) -> float:

@@ -116,16 +116,6 @@ class RunningIn:
     def renewed(self, new_at: float, until: float) -> float:
         """Return what a part has worn that was new later than the drive.
 
-        Parameters
-        ----------
-        new_at, until : float
-            Times in cycles of constant coefficient since the drive was new.
-
-        Returns
-        -------
-        float
-            In cycles of constant coefficient: the part runs in once more.
-
         Examples
         --------
         Long after the drive has run in, a new part still costs (f - 1) N_r cycles:

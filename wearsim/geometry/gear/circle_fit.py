@@ -26,18 +26,6 @@ class CircleFit:
 def fit_circle(points: Vector, weights: Vector | None = None) -> CircleFit:
     """Fit a circle to points, by their distances from it.
 
-    Parameters
-    ----------
-    points : numpy.ndarray
-        Coordinates [mm], shape (n, 2).
-    weights : numpy.ndarray, optional
-        Of the squares; all 1 by default.
-
-    Returns
-    -------
-    CircleFit
-        Centre, radius and what is left.
-
     Examples
     --------
     >>> t = np.linspace(0.0, 1.0, 9)

@@ -99,35 +99,6 @@ def outline_from_dxf(
     turned onto +y by the mean angle of its two flanks over their common radii and cut
     where it comes within 1e-3 mm of its tips, so that it holds no tip land.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        DXF file; its unit is converted to mm, and taken as mm where it names none.
-    teeth : int
-        Number of gaps of the whole wheel.
-    layer : str or None
-        Layer of the outline; None for all of them.
-    centre : tuple of float or None
-        Centre of the sprocket in the drawing [mm]. None: the origin, or the centroid of a
-        wheel drawn elsewhere whose gaps are alike within 0.01 mm about it.
-    sagitta : float
-        Greatest distance between curves and the chords that replace them [mm].
-    tolerance : float
-        Distance [mm] below which ends of edges are joined.
-
-    Returns
-    -------
-    points : numpy.ndarray
-        Points from the tip of the right flank to that of the left one [mm], shape (n, 2).
-    notes : list of str
-        What was assumed, passed over, repaired or moved, and how much the gaps differ.
-
-    Raises
-    ------
-    GeometryError
-        A file that cannot be read, a unit or layer that is not known, or no outline with
-        the right number of gaps.
-
     Examples
     --------
     >>> outline_from_dxf(Path("no-such.dxf"), 17)

@@ -40,18 +40,6 @@ class RegisteredProfile:
 def feet(nominal: Profile, x: Vector, y: Vector) -> tuple[Vector, Vector]:
     """Return the feet of points on a profile.
 
-    Parameters
-    ----------
-    nominal : Profile
-        The profile, taken as straight between its points.
-    x, y : numpy.ndarray
-        Points [mm], of any shape.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Arc length along the chords [mm], and distance into the material [mm].
-
     Examples
     --------
     A flank along +y with the gap on its right:

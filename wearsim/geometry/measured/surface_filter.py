@@ -51,18 +51,6 @@ def gaussian_weights(places: Vector, stations: Vector, cutoff: float) -> Vector:
 def filter_stations(places: Vector, cutoff: float) -> Vector:
     """Return stations about one cut-off apart, each in the middle of points.
 
-    Parameters
-    ----------
-    places : numpy.ndarray
-        Arc lengths of the measured points [mm].
-    cutoff : float
-        Cut-off wavelength [mm].
-
-    Returns
-    -------
-    numpy.ndarray
-        Increasing; none where there are no points.
-
     Examples
     --------
     >>> filter_stations(np.array([0.0, 0.25, 0.5, 2.0]), 0.8).tolist()
