@@ -54,6 +54,11 @@ if TYPE_CHECKING:
     shell_complete=complete_key,
     help="Find the value of this number at which the CASE lives --require-hours.",
 )
+@click.option(
+    "--method",
+    type=click.Choice(("advance", "per_cycle")),
+    help="As --set run.method: step control, or the source's equations (10) to (13) cycle by cycle.",
+)
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
@@ -67,6 +72,7 @@ def life(
     as_json: bool,
     require_hours: float | None,
     key: str | None,
+    method: str | None,
     verify_grid: bool,
     strict: bool,
     settings: tuple[str, ...],
@@ -76,6 +82,7 @@ def life(
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
     flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases.
     """
+    settings += (f"run.method={method}",) if method else ()
     if key is not None:
         if verify_grid or strict or parquet or xlsx:
             raise click.UsageError("--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx")

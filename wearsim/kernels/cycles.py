@@ -1,4 +1,4 @@
-"""The loop over loading cycles."""
+"""The loop over loading cycles: physics.md (10) to (12) as the source prints them."""
 
 from __future__ import annotations
 
@@ -78,13 +78,13 @@ def run_cycles(
         status = update_status(load, relative, step, spacing_squared, diffusion)
         if status != RUNNING:
             return status
-        for j in range(n):
+        for j in range(n):  # (10): alpha - psi is the direction of the normal
             x[j] -= step[j] * normal_x[j]
             y[j] -= step[j] * normal_y[j]
         reached = 0
         for j in range(n):
-            depth[j] += step[j]
-            reached += 1 if depth[j] >= critical_depth else 0
+            depth[j] += step[j]  # (11)
+            reached += 1 if depth[j] >= critical_depth else 0  # (12)
         done[0] = update + 1
         if reached > 0:
             return DEPTH_REACHED

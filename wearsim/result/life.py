@@ -81,6 +81,8 @@ class LowerBound:
 def life_of(cycles: float, cycles_per_hour: float, reached: bool) -> Life | LowerBound:
     """Return the life that a run of so many cycles has shown.
 
+    Equation physics.md (13), with the cycles of an hour by (T1).
+
     Parameters
     ----------
     cycles : float

@@ -15,6 +15,7 @@ from wearsim.simulation.grids import LEVELS, Search, Settled, settle
 from wearsim.simulation.task import Task, limit_states, new_flank_pressure, running_in_assumptions, task
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
+from wearsim.wear.per_cycle import check_length, run_per_cycle
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
@@ -126,20 +127,19 @@ def _first_run(case: Case, contact: Contact, warnings: list[str]) -> tuple[Traje
         run, error = asked.run()
         check_fold(contact, run)
         return run, error
-    from wearsim.wear.per_cycle import run_per_cycle
-
-    run = asked.run_in(
-        run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, case.run.cycles_per_update)
-    )
-    check_fold(contact, run)
+    cycles, check = case.run.cycles_per_update, None
     try:
         check, change = asked.run()
     except WearsimError as reason:
         warnings.append(
             f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
         )
-        return run, 1.0
-    return run, change + difference(run, check)
+    else:
+        expected = asked.running_in.constant_cycles(float(check.cycles[-1]))
+        check_length(contact, asked.law, asked.criteria, expected, cycles)
+    run = asked.run_in(run_per_cycle(contact, asked.law, asked.criteria, asked.horizon, cycles))
+    check_fold(contact, run)
+    return run, 1.0 if check is None else change + difference(run, check)
 
 
 def _run_on(case: Case, contact: Contact) -> _GridRun | None:

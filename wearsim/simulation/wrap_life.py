@@ -11,7 +11,6 @@ from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.contact.criteria import Criterion
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, Dwelling
-from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile import Vector, area_between
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
@@ -23,14 +22,12 @@ from wearsim.wear.bodies import Rows, Start, highest_load
 from wearsim.wear.halving import advance_dwelling
 from wearsim.wear.implicit_steps import DwellingTrajectory, reporting, run_dwelling
 from wearsim.wear.law import Law
+from wearsim.wear.per_cycle import check_length
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
-
-_MOST_UPDATES = 200_000
-"""Updates of a cycle-by-cycle run, each of some milliseconds."""
 
 
 def wrap_of(case: Case) -> WrapDrive:
@@ -135,9 +132,10 @@ def _run(
         contact.thinned(), law, criteria, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
-        check, end = run, float(run.cycles[-1])
+        check, end, cycles = run, float(run.cycles[-1]), case.run.cycles_per_update
+        check_length(contact, law, criteria, end, cycles)
         until = horizon if check.met else end
-        run = _per_cycle(case, contact, law, criteria, until, end, progress)
+        run = run_dwelling(contact, law, criteria, until, 0, float(cycles), reporting(progress))
         error += difference(run, check)
     error *= amplification
     if error > tolerance:
@@ -155,26 +153,6 @@ def _gave_up(run: DwellingTrajectory, horizon: float) -> list[str]:
         f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
         "the sprocket outlives them, its own limit was not reached"
     ]
-
-
-def _per_cycle(
-    case: Case,
-    contact: WrapContact,
-    law: Law,
-    criteria: tuple[Criterion, ...],
-    horizon: float,
-    expected: float,
-    progress: Callable[[float], None],
-) -> DwellingTrajectory:
-    """Run the case with steps of given cycles; about so many are expected in all."""
-    cycles = float(case.run.cycles_per_update)
-    if expected > _MOST_UPDATES * cycles:
-        least = math.ceil(expected / _MOST_UPDATES)
-        raise ConvergenceError(
-            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MOST_UPDATES} updates, takes "
-            f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
-        )
-    return run_dwelling(contact, law, criteria, horizon, 0, cycles, reporting(progress))
 
 
 def _chain_life(case: Case, contact: WrapContact, horizon: float, warp: RunningIn) -> Life | LowerBound:

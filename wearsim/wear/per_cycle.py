@@ -1,8 +1,14 @@
-"""The reference run: physics.md (10) to (12) cycle by cycle."""
+"""The reference run: the source's equations physics.md (10) to (12), cycle by cycle.
+
+(10) and the sum of (11) stand in the compiled loop, `wearsim.kernels.cycles`; here the loop runs until the
+deepest point has come to the limit, (12). `wearsim.result.life` turns the cycles into hours, (13).
+"""
 
 import contextlib
+import math
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from types import FrameType
@@ -20,6 +26,12 @@ from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check
 
 _BLOCK = 50_000
 """Updates between two looks at the keyboard: compiled code does not see an interrupt."""
+
+_MOST_POINTS = 1e11
+"""Updates of a run times points, each of some nanoseconds: some ten minutes."""
+
+_MOST_DWELLING = 200_000
+"""Updates of a run where mates rest in the outline, each of some milliseconds."""
 
 
 @contextlib.contextmanager
@@ -132,6 +144,37 @@ class _Run:
         )
 
 
+def check_length(
+    contact: Contact | Dwelling,
+    law: Law,
+    criteria: tuple[Criterion, ...],
+    expected: float,
+    cycles_per_update: int,
+) -> None:
+    """Refuse a run of too many updates before it starts; so many cycles are expected in all."""
+    run: Callable[[], object]
+    if isinstance(contact, Contact):
+        most, tried = int(_MOST_POINTS / contact.profile.x.size), 1000
+        run = partial(_Run(contact, law, cycles_per_update, criteria[0].limit).wear, math.inf, tried)
+    else:
+        from wearsim.wear.implicit_steps import run_dwelling
+
+        most, tried = _MOST_DWELLING, 10
+        step = float(cycles_per_update)
+        run = partial(run_dwelling, contact, law, criteria, tried * step, 0, step)
+    updates = expected / cycles_per_update
+    if updates <= most:
+        return
+    begin = time.perf_counter()
+    run()
+    minutes = updates / tried * (time.perf_counter() - begin) / 60.0
+    length = f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
+    raise ConvergenceError(
+        f"wear: a cycle-by-cycle run must stay below {most} updates, takes {updates:.3g}, about {length}: "
+        f'take cycles_per_update = {math.ceil(expected / most)} or method = "advance"'
+    )
+
+
 def run_per_cycle(
     contact: Contact | Dwelling,
     law: Law,
@@ -139,7 +182,7 @@ def run_per_cycle(
     horizon: float,
     cycles_per_update: int,
 ) -> Trajectory:
-    """Wear a flank update by update until a criterion is met or the horizon is reached."""
+    """Wear a flank by physics.md (10) and (11) until a criterion is met, (12), or to the horizon."""
     if not isinstance(contact, Contact):
         # Its kernels compile where it is imported for the first time.
         from wearsim.wear.implicit_steps import run_dwelling
@@ -161,7 +204,7 @@ def run_per_cycle(
         run.wear(target, most - run.updates)
         if not interval:
             interval = float(min(run.depth_limit, run.depth.max() * most)) / SNAPSHOTS
-        met = first_met(criteria, run.x, run.y, run.depth)
+        met = first_met(criteria, run.x, run.y, run.depth)  # (12), and the limits beside it
         if met is not None and run.updates - before[1] > 1:
             _retreat(run, criteria, *before)
         kept.append((run.cycles, run.x.copy(), run.y.copy(), run.depth.copy()))
