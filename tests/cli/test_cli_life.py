@@ -3,7 +3,6 @@
 import json
 import re
 from importlib.resources import files
-from pathlib import Path
 
 import jsonschema
 import pytest
@@ -31,8 +30,6 @@ KEYS = (
     "assumptions",
     "warnings",
 )
-
-CASES = Path(__file__).parents[2] / "cases"
 
 TOO_COARSE = {"critical_depth_mm": '0.02\n[run]\nmethod = "per_cycle"\ncycles_per_update = 100000000'}
 """Deeper than the tooth: the contact ends before the limit is met."""
@@ -325,31 +322,3 @@ def test_verify_grid_at_the_horizon(cli, drive, conforms):
 def test_solve_for_alone(cli, drive, option):
     requested = ("--solve-for", "load.power_kW", "--require-hours", 100)
     assert cli("life", drive(), *requested, option).code == 2
-
-
-FAST = {
-    "strand": ("16b-20t-oiled", "stop.critical_depth_mm=0.01"),
-    "prescribed": ("hertz-arc-prescribed", "wear.specific_wear_rate_mm2_per_N=1e-8"),
-    "gear_pair": ("fzg-c14-16t-mild", "gear.nodes=51"),
-}
-"""A shipped case of each mechanism that counts cycles, and what makes its loop short."""
-
-
-@pytest.mark.parametrize("kind", FAST)
-def test_method_executes_the_loop_over_cycles(cli, kind):
-    name, setting = FAST[kind]
-    case = (CASES / f"{name}.toml", "--set", setting, "--json")
-    loop = strict(cli("life", *case, "--method", "per_cycle").out)
-    steps = strict(cli("life", *case, "--method", "advance").out)
-    assert (loop["method"], steps["method"]) == ("per_cycle", "advance")
-    assert loop["updates"] > 100 * steps["updates"]
-    assert loop["life_hours"] == pytest.approx(steps["life_hours"], rel=1e-3)
-
-
-def test_method_that_would_take_hours_is_refused(cli):
-    slow = ("--set", "load.speed_rpm=3000", "--set", "load.tension_N=3")
-    done = cli("life", CASES / "16b-20t-oiled.toml", "--method", "per_cycle", *slow)
-    assert done.code == 3
-    assert "must stay below 1e+10 updates, four hours, takes" in done.err
-    assert "take cycles_per_update = " in done.err
-    assert cli("life", CASES / "16b-20t-oiled.toml", "--method", "euler").code == 2

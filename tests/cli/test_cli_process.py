@@ -42,7 +42,7 @@ def test_closed_pipe_is_141_without_a_word():
     assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("horizon", ["5e4", "1e6"])
+@pytest.mark.parametrize("horizon", ["5e4", "3e5"])
 def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):
     """Some 1e8 or 1e9 cycles one by one take minutes; to end takes seconds at most."""
     command = [

@@ -159,7 +159,7 @@ def test_picture_is_of_the_life_in_the_answer(result):
 
 DOCUMENTS = (
     *("README.md", "CHANGELOG.md", "CONTRIBUTING.md"),
-    *(f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))),
+    *(path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "docs").rglob("*.md"))),
 )
 
 

@@ -133,8 +133,8 @@ def run_offset_cycles(
         made += 1
         reached = 0
         for j in range(n):
-            depth[j] += step[j]
-            reached += 1 if depth[j] >= critical_depth else 0
+            depth[j] += step[j]  # (11)
+            reached += 1 if depth[j] >= critical_depth else 0  # (12)
         if reached > 0:
             status = DEPTH_REACHED
         elif made < updates:
@@ -142,7 +142,7 @@ def run_offset_cycles(
             soften_edges(depth, law, step)
             if offset_failures(work) > 0:
                 status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
-    for j in range(n):
+    for j in range(n):  # (10), summed: the normal is that of the new flank
         x[j] -= (depth[j] - work[START, j]) * work[0, j]
         y[j] -= (depth[j] - work[START, j]) * work[1, j]
     done[0] = made

@@ -11,7 +11,6 @@ from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
-from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector, area_between
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
@@ -21,6 +20,7 @@ from wearsim.simulation.wear_task import case_running_in, limit_states, running_
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
+from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.running_in import RunningIn
 from wearsim.wear.step_halving import advance_resting
@@ -28,9 +28,6 @@ from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
-
-_MAX_UPDATES = 200_000
-"""Updates of a cycle-by-cycle run, each of some milliseconds."""
 
 
 def wrap_of(case: Case) -> WrapDrive:
@@ -139,9 +136,10 @@ def _run(
         contact.with_fewer_phases(), law, stop_limits, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
-        check, end = run, float(run.cycles[-1])
+        check, end, cycles = run, float(run.cycles[-1]), case.run.cycles_per_update
+        check_length(contact, law, stop_limits, end, cycles)
         until = horizon if check.met else end
-        run = _per_cycle(case, contact, law, stop_limits, until, end, progress)
+        run = run_resting(contact, law, stop_limits, until, 0, float(cycles), reported_progress(progress))
         error += difference(run, check)
     error *= amplification
     if error > tolerance:
@@ -159,26 +157,6 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
         f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
         "the sprocket outlives them, its own limit was not reached"
     ]
-
-
-def _per_cycle(
-    case: Case,
-    contact: WrapContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    expected: float,
-    progress: Callable[[float], None],
-) -> RestingTrajectory:
-    """Run the case with steps of given cycles; about so many are expected in all."""
-    cycles = float(case.run.cycles_per_update)
-    if expected > _MAX_UPDATES * cycles:
-        least = math.ceil(expected / _MAX_UPDATES)
-        raise ConvergenceError(
-            f"wear: a cycle-by-cycle run on kind = 'wrap' must stay below {_MAX_UPDATES} updates, takes "
-            f'{expected / cycles:.3g}: take cycles_per_update = {least} or method = "advance"'
-        )
-    return run_resting(contact, law, stop_limits, horizon, 0, cycles, reported_progress(progress))
 
 
 def _chain_life(case: Case, contact: WrapContact, horizon: float, running_in: RunningIn) -> Life | LowerBound:

@@ -5,6 +5,9 @@ it came as often as the step has cycles. The pressure of an event is that after 
 wear, and the next event meets what it left, so a step of any size is stable; its size
 is set by the depth it takes off. The answer is first order in that size: runs with half
 of it follow until two agree.
+
+With steps of one cycle it is physics.md (10) to (12) on a wrap: points along the normals of the
+new outline, their wear summed until the deepest has come to its limit.
 """
 
 import math

@@ -1,8 +1,14 @@
-"""The reference run: physics.md (10) to (12) cycle by cycle."""
+"""The reference run: the source's equations physics.md (10) to (12), cycle by cycle.
+
+(10) and the sum of (11) stand in the compiled loop, `wearsim.kernels.per_cycle_loop`; here it runs until the
+deepest point has come to the limit, (12). `wearsim.result.lives` turns the cycles into hours, (13).
+"""
 
 import contextlib
+import math
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from types import FrameType
@@ -20,6 +26,12 @@ from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check
 
 _BLOCK = 50_000
 """Updates between two looks at the keyboard: compiled code does not see an interrupt."""
+
+_MAX_POINTS = 1e11
+"""Updates of a run times points, each of some nanoseconds: some ten minutes."""
+
+_MAX_RESTING = 200_000
+"""Updates of a run where mates rest in the outline, each of some milliseconds."""
 
 
 @contextlib.contextmanager
@@ -132,6 +144,37 @@ class _CycleRun:
             f"{step:.3g} mm: the life would be wrong without notice; take {remedy} or method = "
             '"advance"'
         )
+
+
+def check_length(
+    contact: FlankContact | RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
+    expected: float,
+    cycles_per_update: int,
+) -> None:
+    """Refuse a run of too many updates before it starts; so many cycles are expected in all."""
+    run: Callable[[], object]
+    if isinstance(contact, FlankContact):
+        greatest, tried = int(_MAX_POINTS / contact.profile.x.size), 1000
+        run = partial(_CycleRun(contact, law, cycles_per_update, stop_limits[0].limit).wear, math.inf, tried)
+    else:
+        from wearsim.wear.implicit_steps import run_resting
+
+        greatest, tried = _MAX_RESTING, 10
+        step = float(cycles_per_update)
+        run = partial(run_resting, contact, law, stop_limits, tried * step, 0, step)
+    updates = expected / cycles_per_update
+    if updates <= greatest:
+        return
+    begin = time.perf_counter()
+    run()
+    minutes = updates / tried * (time.perf_counter() - begin) / 60.0
+    length = f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
+    raise ConvergenceError(
+        f"wear: a cycle-by-cycle run must stay below {greatest} updates, takes {updates:.3g}, about "
+        f'{length}: take cycles_per_update = {math.ceil(expected / greatest)} or method = "advance"'
+    )
 
 
 def run_per_cycle(
