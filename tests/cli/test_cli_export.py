@@ -384,7 +384,7 @@ def test_gears_have_two_gauges(cli, gears, tmp_path):
 
 def test_gap_that_never_carries_a_roller_stays_new():
     """28 gaps, every second one: half of them wear."""
-    from wearsim.report.scene import wheel_shapes
+    from wearsim.report.worn_flank import wheel_shapes
 
     path = Path(__file__).parents[2] / "cases" / "d6-crawler-27t-soil.toml"
     case = load_case(path, ["sprocket.teeth=28", "stop.critical_depth_mm=0.5"])

@@ -23,7 +23,7 @@ from wearsim.input.schema import CaseTables
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import grouped
 from wearsim.report.comparison import comparison_table
-from wearsim.report.flank_table import profile_table
+from wearsim.report.flank_view import profile_table
 from wearsim.report.loads_table import loads_json
 
 ROOT = Path(__file__).parents[2]

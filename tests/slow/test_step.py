@@ -7,7 +7,7 @@ import pytest
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.export.step import step_bytes
-from wearsim.report.scene import wheel_shapes
+from wearsim.report.worn_flank import wheel_shapes
 
 pytestmark = pytest.mark.slow
 

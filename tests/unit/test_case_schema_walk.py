@@ -9,7 +9,7 @@ import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.schema import CaseTables
-from wearsim.report.flank_table import profile_table
+from wearsim.report.flank_view import profile_table
 
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",

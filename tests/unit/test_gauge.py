@@ -13,7 +13,7 @@ from wearsim.case.load_case import load_case
 from wearsim.export.gauge import gauge
 from wearsim.geometry.wheel_outline import worn_gap, worn_space
 from wearsim.mechanisms.strand.drive import StrandDrive
-from wearsim.report.scene import wheel_shapes
+from wearsim.report.worn_flank import wheel_shapes
 
 CASES = Path(__file__).parents[2] / "cases"
 WRAP = """\

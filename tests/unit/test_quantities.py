@@ -25,9 +25,9 @@ from wearsim.input.schema.study_tables import Distribution
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table
-from wearsim.report.flank_table import profile_table
+from wearsim.report.flank_view import profile_table
 from wearsim.report.loads_table import loads_json
-from wearsim.report.scene import wheel_shapes
+from wearsim.report.worn_flank import wheel_shapes
 from wearsim.runner.scatter import ScatteredKey
 from wearsim.runner.shard import COLUMNS
 from wearsim.study.calibrate.model import calibrate

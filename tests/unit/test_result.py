@@ -13,7 +13,7 @@ import pytest
 import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
-from wearsim.report.flank_table import profile_table
+from wearsim.report.flank_view import profile_table
 from wearsim.result import Life, LowerBound, WearResult
 
 STRAND = {

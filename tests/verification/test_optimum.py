@@ -24,8 +24,7 @@ from wearsim.result import Life
 from wearsim.runner.run_study import run_study
 from wearsim.runner.workers import Threads
 from wearsim.simulation import new_peak_pressure
-from wearsim.study.optimise.mass import blank_mass
-from wearsim.study.optimise.model import OptimiseStudy, load_optimise
+from wearsim.study.optimise.model import OptimiseStudy, blank_mass, load_optimise
 from wearsim.study.optimise.search import search
 from wearsim.study.optimise.trials import Candidate, Trials, front
 

@@ -88,7 +88,7 @@ def export(
 
 def _check_shapes(case: "Case", kind: str | None) -> None:
     """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
-    from wearsim.report.scene import wheel_shapes
+    from wearsim.report.worn_flank import wheel_shapes
 
     shapes = wheel_shapes(case, None)
     if kind == "step" and not all(shape.new[0].rooted for shape in shapes):

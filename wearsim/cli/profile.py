@@ -25,7 +25,7 @@ def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> No
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
     check_place(out, case, force)
     (loaded,) = load_cases([case], settings, as_json=False)
-    from wearsim.report.flank_table import profile_table
+    from wearsim.report.flank_view import profile_table
 
     text = profile_table(loaded).to_csv(index=False)
     if str(out) == "-":

@@ -15,7 +15,7 @@ from wearsim.geometry.scene import Label, Scene, Shape, line
 from wearsim.geometry.wheel_outline import OutlineChain
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import flanks
-from wearsim.report.scene import wheel_shapes
+from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import Life, WearResult
 
 BAR = 50.0

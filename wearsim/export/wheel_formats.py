@@ -9,7 +9,7 @@ from wearsim.export.printed_page import drawing_bytes
 from wearsim.export.wheel_drawing import wheel_points, wheel_scene
 from wearsim.geometry.wheel_outline import State, WheelShape
 from wearsim.quantities import grouped
-from wearsim.report.scene import wheel_shapes
+from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
 
 if TYPE_CHECKING:

@@ -11,8 +11,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle
 from wearsim.quantities import grouped
 from wearsim.report.figures import LOOKS, draw_flank
-from wearsim.report.scene import around_flank
-from wearsim.report.worn_flank import WornFlank
+from wearsim.report.worn_flank import WornFlank, around_flank
 from wearsim.result import Life, WearResult
 
 _AROUND = 0.22

@@ -18,9 +18,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from wearsim.geometry.scene import Circle, Stroke
 from wearsim.report.flank_view import at_life, life_time, snapshot
-from wearsim.report.scene import around_flank
 from wearsim.report.text_lines import literal
-from wearsim.report.worn_flank import flanks_of_life
+from wearsim.report.worn_flank import around_flank, flanks_of_life
 from wearsim.result import Life, WearResult
 
 FIGURES = ("flanks", "along_flank", "depth_over_hours")

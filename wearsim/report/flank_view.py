@@ -4,9 +4,11 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 from wearsim.result import Life, WearResult
@@ -53,3 +55,12 @@ def flanks(result: WearResult, index: int) -> dict[str, Vector]:
     cycles = result.flank_columns["cycles"]
     at = cycles == np.unique(cycles)[index]
     return {name: values[at] for name, values in result.flank_columns.items()}
+
+
+def profile_table(case: Case) -> pd.DataFrame:
+    """Return the points of a flank with what follows from them."""
+    columns = case.drive.profile_columns()
+    if not columns:
+        message = "the case must have a sprocket, a table of loads or gears have none: nothing to write"
+        raise CaseError([Fault(message, "mechanism.kind", case.name)])
+    return pd.DataFrame(columns)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.result import Life, WearResult
 from wearsim.runner.distributions import quantile
@@ -26,3 +27,13 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     value = case.wear.coefficient
     coefficients = quantile(Distribution.model_validate(entry), value)(1.0 - np.array(shares))
     return [result.life.hours * value / float(coefficient) for coefficient in coefficients]
+
+
+def check_steady_coefficient(case: Case, command: str) -> None:
+    """Raise where the wear of a case runs in."""
+    if case.wear.running_in_factor != 1.0:
+        message = (
+            f"{command!r} scales lives, which holds for a constant coefficient only: remove "
+            "running_in_factor and running_in_distance_mm"
+        )
+        raise CaseError([Fault(message, "wear.running_in_factor", case.name)])

@@ -9,8 +9,7 @@ from wearsim.geometry.scene import Circle, Stroke
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import life_time
 from wearsim.report.html.charts import Chart, Trace, ValueTable, curve, json_numbers, panels, without_hover
-from wearsim.report.scene import around_flank
-from wearsim.report.worn_flank import WornFlank, flanks_of_life
+from wearsim.report.worn_flank import WornFlank, around_flank, flanks_of_life
 from wearsim.result import WearResult
 
 _AROUND = 0.22

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from wearsim.case.load_case import load_case
 from wearsim.input.document import read_document
+from wearsim.runner.scaled_percentiles import check_steady_coefficient
 from wearsim.runner.scatter import plain_document
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.case_fit import CaseFit
 from wearsim.study.calibrate.reading_checks import check_readings
 from wearsim.study.calibrate.readings import read_readings
-from wearsim.study.steady_coefficient import check_steady_coefficient
 
 
 def calibrate(

@@ -9,11 +9,11 @@ from wearsim.errors import CaseError, ContactError, ConvergenceError, WearsimErr
 from wearsim.input.schema import MaintenanceTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
+from wearsim.runner.scaled_percentiles import check_steady_coefficient
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
-from wearsim.study.steady_coefficient import check_steady_coefficient
 
 Progress = Callable[[int, int, str], None]
 """Told before each run how many are done, of how many, and what comes next."""

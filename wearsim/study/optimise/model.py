@@ -8,13 +8,13 @@ from typing import Any
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import materials
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document, read_document
 from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
 from wearsim.input.schema.table import all_differ
 from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
 from wearsim.runner.scatter import WITH_FATIGUE
-from wearsim.study.optimise.mass import blank_mass, mass_assumption
 from wearsim.study.optimise.search_space import SearchSpace, search_space
 
 _BEYOND = 1.02
@@ -139,3 +139,36 @@ def _value(inputs: Mapping[str, Any], key: str) -> Any:
     """Of a key in the case; of a file its name without folder."""
     found = value_at(inputs, key)
     return PurePath(found).name if key in NAMES_FILE and isinstance(found, str) else found
+
+
+_M3_PER_MM3 = 1e-9
+
+
+def blank_mass(case: Case) -> float:
+    """Return the mass of a new sprocket: its outline times face width and density."""
+    area = case.drive.blank_area()
+    if area is None:
+        text = (
+            "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do "
+            "not tell: leave mass_kg out of [optimise]"
+        )
+        raise CaseError([Fault(text, "mass_kg", case.name)])
+    width: float = case.inputs["sprocket"]["face_width_mm"]
+    return _M3_PER_MM3 * area * width * density(case)
+
+
+def density(case: Case) -> float:
+    """Return the density of a sprocket's material."""
+    return materials()[_material(case)].density
+
+
+def mass_assumption(case: Case) -> str:
+    """Return what the mass takes for granted."""
+    return (
+        "the mass is that of the new outline over the face width, without bore, hub and chamfers, of "
+        f"{_material(case)} with {density(case):g} kg/m3"
+    )
+
+
+def _material(case: Case) -> str:
+    return str(case.inputs.get("material", {}).get("sprocket", {}).get("name", "steel"))

@@ -14,8 +14,7 @@ from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
 from wearsim.simulation import new_peak_pressure
-from wearsim.study.optimise.mass import blank_mass
-from wearsim.study.optimise.model import OptimiseStudy
+from wearsim.study.optimise.model import OptimiseStudy, blank_mass
 
 MAXIMISED = ("life_hours",)
 """Measures of which more is better; of the others less is."""

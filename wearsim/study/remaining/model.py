@@ -9,9 +9,9 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
+from wearsim.runner.scaled_percentiles import check_steady_coefficient
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.study.steady_coefficient import check_steady_coefficient
 
 
 def ambiguous_reading(over_pins: Vector, error: float) -> str:
