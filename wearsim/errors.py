@@ -1,5 +1,6 @@
 """What can go wrong, by kind; every class is also the matching builtin."""
 
+import math
 from dataclasses import dataclass
 
 
@@ -47,6 +48,13 @@ class Fault:
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}" if self.line else self.file
         return ": ".join(part for part in (place, self.key, self.message) if part)
+
+
+def check_positive(calculation: str, **values: float) -> None:
+    """Raise for the first of some numbers, named as the arguments of a calculation, that is not above 0."""
+    for name, value in values.items():
+        if not 0.0 < value < math.inf:
+            raise GeometryError(f"{calculation}: {name} must be a number above 0, is {value:g}: correct it")
 
 
 class CaseError(WearsimError, ValueError):

@@ -11,7 +11,6 @@ from pydantic import BaseModel
 from wearsim.errors import CaseError
 from wearsim.handbook.strength.figure import strength_figure
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import pair_strength
 from wearsim.handbook.strength.sheet import strength_sheet
 from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
@@ -139,7 +138,7 @@ def of_base(name):
 
 def shown(tables):
     found = load_calculation(tables, StrengthTables)
-    sheet = strength_sheet(found, pair_strength(found))
+    sheet = strength_sheet(found, found.strength())
     return sheet.text, dict(sheet.content), sheet.warnings
 
 
@@ -186,7 +185,7 @@ def test_without_load_the_allowable_stresses_are_left():
 
 def lines(tables):
     """Lines of both panels of the picture by their labels."""
-    pair = pair_strength(load_calculation(tables, StrengthTables))
+    pair = load_calculation(tables, StrengthTables).strength()
     return [
         {line.get_label(): line.get_xydata() for line in panel.get_lines()}
         for panel in strength_figure("title", pair).axes

@@ -17,7 +17,6 @@ from wearsim.errors import CaseError, GeometryError
 from wearsim.fatigue.endurance import FatigueCurve, contact_base_cycles, service_hours
 from wearsim.fatigue.heat_treatment import treatments
 from wearsim.handbook.strength.keys import StrengthTables
-from wearsim.handbook.strength.model import pair_strength
 from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import SpurMesh
 from wearsim.input.calculation_file import load_calculation
@@ -35,7 +34,7 @@ def near(value):
 
 
 def pair(name, *overrides):
-    return pair_strength(load_calculation(CASES[name], StrengthTables, overrides))
+    return load_calculation(CASES[name], StrengthTables, overrides).strength()
 
 
 def both(found, stop_limit, attribute):
@@ -196,7 +195,7 @@ class TestLoad:
         steps = [(2.0, 0.4), (1.4, 0.35), (0.8, 0.25)]
         tables = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(exclude_unset=True)
         tables["load_spectrum"] = [{"relative_torque": t, "share_of_time": s} for t, s in steps]
-        double = pair_strength(load_calculation(tables, StrengthTables))
+        double = load_calculation(tables, StrengthTables).strength()
         assert double.spectrum.equivalence(9) == near(single.spectrum.equivalence(9))
         assert double.load.contact_stress == near(math.sqrt(2.0) * single.load.contact_stress)
         assert double.load.bending_stresses[1] == near(2.0 * single.load.bending_stresses[1])
@@ -438,5 +437,5 @@ class TestTreatments:
         rockwell = pair("b-carburised").gears[0]
         brinell = load_calculation(CASES["b-carburised"], StrengthTables).model_dump(exclude_unset=True)
         brinell["pinion"] = {"treatment": "carburised", "hardness_HB": 595}
-        found = pair_strength(load_calculation(brinell, StrengthTables)).gears[0]
+        found = load_calculation(brinell, StrengthTables).strength().gears[0]
         assert found.contact == rockwell.contact

@@ -18,9 +18,8 @@ def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     which it is allowed.
     """
     from wearsim.handbook.strength.keys import StrengthTables
-    from wearsim.handbook.strength.model import pair_strength
     from wearsim.handbook.strength.sheet import strength_sheet
     from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, StrengthTables, settings)
-    return strength_sheet(tables, pair_strength(tables))
+    return strength_sheet(tables, tables.strength())

@@ -5,6 +5,16 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.fatigue.endurance import service_hours
+from wearsim.handbook.strength.model import (
+    GearMaterial,
+    PairLoad,
+    PairStrength,
+    SpectrumStep,
+    StrengthRules,
+    pair_strength,
+)
+from wearsim.handbook.strength.spectrum import OVERLOAD_CYCLES
 from wearsim.input.schema.drive_tables import Regime
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.schema.wear_tables import (
@@ -17,9 +27,6 @@ from wearsim.input.schema.wear_tables import (
     one_hardness,
 )
 from wearsim.input.units import Number, Positive, PositiveNumber
-
-OVERLOAD_CYCLES = 5e4
-"""Number of load cycles below which a torque is an overload and does not fatigue."""
 
 _YIELDS = ("normalised", "quenched_and_tempered", "through_hardened")
 
@@ -39,6 +46,14 @@ class StrengthDriveTable(Table):
     year_share: Share = 1.0
     day_share: Share = 1.0
     regime: Regime | None = None
+
+    @property
+    def hours(self) -> float:
+        """Running time over the life [h]."""
+        if self.life_hours is not None:
+            return self.life_hours
+        assert self.life_years is not None
+        return service_hours(self.life_years, self.year_share, self.day_share)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -181,6 +196,21 @@ class StrengthTables(CalculationTables):
     fatigue: StrengthFatigueTable = StrengthFatigueTable()
     overload: OverloadTable = OverloadTable()
     load: StrengthLoadTable | None = None
+
+    def strength(self) -> PairStrength:
+        """Return the strength of the pair."""
+        rules = {**self.fatigue.model_dump(), **self.overload.model_dump()}
+        return pair_strength(
+            self.pinion.plain(GearMaterial),
+            self.wheel.plain(GearMaterial),
+            pinion_speed=self.drive.pinion_speed_rpm,
+            gear_ratio=self.drive.gear_ratio,
+            hours=self.drive.hours,
+            regime=self.drive.regime or "0",
+            load_spectrum=[step.plain(SpectrumStep) for step in self.load_spectrum],
+            rules=StrengthRules(**rules),
+            load=None if self.load is None else self.load.plain(PairLoad),
+        )
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""

@@ -3,8 +3,10 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from wearsim.contact.hertz import contact_modulus
+from wearsim.errors import GeometryError, check_positive
 from wearsim.fatigue.endurance import (
     CONTACT_EXPONENT,
     Endurance,
@@ -12,16 +14,8 @@ from wearsim.fatigue.endurance import (
     FatigueCurve,
     contact_base_cycles,
     cycles_per_hour,
-    service_hours,
 )
 from wearsim.fatigue.heat_treatment import Treatment, in_brinell, treatments
-from wearsim.handbook.strength.keys import (
-    OverloadTable,
-    StrengthFatigueTable,
-    StrengthGearTable,
-    StrengthLoadTable,
-    StrengthTables,
-)
 from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import (
     LoadFactor,
@@ -32,11 +26,91 @@ from wearsim.handbook.strength.tooth_stress import (
     run_in,
 )
 
+_LEAST_TEETH = 2.0
+"""Over sin^2 of the pressure angle: teeth below which a gear without shift is undercut."""
+
 _UNIFORM = 1.25
 """K_A of an even motor and a machine that is nearly so, under a constant load."""
 
 _GOST_TAIL = (20.0, 0.75)
 """Exponent and least life factor beyond the base number of cycles by GOST 21354."""
+
+
+@dataclass(frozen=True)
+class GearMaterial:
+    """What pinion or wheel is made of; what is left out follows from the heat treatment.
+
+    Stresses and moduli in MPa.
+    """
+
+    treatment: str  # of `wearsim.fatigue.heat_treatment.treatments`
+    hardness_HB: float | None = None  # of the flanks: give one of both
+    hardness_HRC: float | None = None
+    core_hardness_HRC: float | None = None  # of nitrided teeth
+    yield_strength: float | None = None
+    youngs_modulus: float = 2.1e5
+    poissons_ratio: float = 0.3
+    meshings_per_revolution: int = 1
+    contact_limit: float | None = None  # sigma_Hlim; of nitrided teeth it must be given
+    contact_base_cycles: float | None = None
+    contact_safety: float | None = None
+    greatest_contact_life_factor: float | None = None
+    greatest_contact: float | None = None  # allowed in an overload
+    roughness_factor: float = 1.0
+    speed_factor: float = 1.0
+    bending_limit: float | None = None
+    bending_base_cycles: float = 4e6
+    bending_exponent: float | None = None
+    bending_safety: float = 1.7
+    greatest_bending_life_factor: float | None = None
+    greatest_bending: float | None = None
+    fillet_factor: float = 1.0
+    reversal_factor: float = 1.0
+    form_factor: float | None = None
+
+
+@dataclass(frozen=True)
+class SpectrumStep:
+    """A torque of a load spectrum; give one of share and cycles."""
+
+    relative_torque: float
+    share_of_time: float | None = None
+    overload_cycles: float | None = None
+
+
+@dataclass(frozen=True)
+class StrengthRules:
+    """How the curves of fatigue are read, and the safety in an overload."""
+
+    base_cycles: Literal["gost", "source"] = "gost"
+    long_life: Literal["constant", "gost"] = "constant"  # by GOST the curve goes on falling
+    overload_ratio: float | None = None  # greatest torque over the largest long-acting one
+    overload_frequency_factor: float = 1.0
+    static_safety: float = 1.75
+
+
+@dataclass(frozen=True)
+class PairLoad:
+    """What a pair carries, and the factors on it."""
+
+    pinion_torque: float  # largest long-acting one [N mm]
+    module: float  # [mm]
+    pinion_teeth: int
+    face_width: float  # [mm]
+    initial_face_load_factor: float
+    running_in_share: float
+    contact_dynamic_factor: float
+    bending_dynamic_factor: float
+    pressure_angle: float = math.radians(20.0)  # [rad]
+    application_factor: float | None = None  # K_A
+    accuracy_grade: int | None = None  # give it or the next
+    initial_transverse_load_factor: float | None = None
+    formula: Literal["corrected", "printed"] = "corrected"
+
+    @property
+    def undercut_below(self) -> int:
+        """Least number of pinion teeth without undercut and without profile shift, 2/sin^2(alpha)."""
+        return math.floor(_LEAST_TEETH / math.sin(self.pressure_angle) ** 2)
 
 
 @dataclass(frozen=True)
@@ -151,70 +225,101 @@ def first_life(lives: Sequence[EnduredHours]) -> tuple[int, EnduredHours]:
     return place, lives[place]
 
 
-def pair_strength(tables: StrengthTables) -> PairStrength:
-    """Return the strength of the gear pair of a case.
+def pair_strength(
+    pinion: GearMaterial,
+    wheel: GearMaterial,
+    *,
+    pinion_speed: float,
+    gear_ratio: float,
+    hours: float,
+    regime: str = "0",
+    load_spectrum: Sequence[SpectrumStep] = (),
+    rules: StrengthRules = StrengthRules(),
+    load: PairLoad | None = None,
+) -> PairStrength:
+    """Return what the teeth of a gear pair endure and, where a load is given, what it comes to.
+
+    Allowable stresses follow from hardness, life and load spectrum by strength.md (21) to (26), source
+    document 001, with the numbers of GOST 21354 where the source leaves them out. Spur gears of steel.
 
     Parameters
     ----------
-    tables : StrengthTables
-        The case.
+    pinion, wheel : GearMaterial
+        What they are made of.
+    pinion_speed : float
+        Speed of the pinion [rpm], above 0.
+    gear_ratio : float
+        Teeth of the wheel over those of the pinion, at least 1.
+    hours : float
+        Running time over the life [h], above 0.
+    regime : str, optional
+        Typical regime of load: ``0`` (constant) or ``I`` to ``V``.
+    load_spectrum : sequence of SpectrumStep, optional
+        Torques with the time they act, in place of a regime.
+    rules : StrengthRules, optional
+        How the curves of fatigue are read.
+    load : PairLoad, optional
+        What the pair carries.
 
     Returns
     -------
     PairStrength
-        Allowable stresses and, where a load is given, what it comes to.
+        Allowable stresses, and margins and lives with a load.
 
     Raises
     ------
     GeometryError
-        Everything in the load spectrum is an overload.
+        A number cannot be, or everything in the load spectrum is an overload.
+
+    Examples
+    --------
+    Normalised steel of 200 HB, a limit of 2*200 + 70 = 470 MPa, a safety of 1.1, and more cycles than the
+    base number of 30*200^2.4 = 1e7:
+
+    >>> steel = GearMaterial("normalised", hardness_HB=200.0)
+    >>> found = pair_strength(steel, steel, pinion_speed=1000.0, gear_ratio=2.0, hours=10_000.0)
+    >>> found.gears[0].cycles, round(found.contact_governs.contact.allowable, 2)
+    (600000000.0, 427.27)
     """
-    drive = tables.drive
-    hours = drive.life_hours
-    if hours is None:
-        assert drive.life_years is not None
-        hours = service_hours(drive.life_years, drive.year_share, drive.day_share)
-    given = (("pinion", tables.pinion, 1.0), ("wheel", tables.wheel, drive.gear_ratio))
-    rates = [
-        cycles_per_hour(drive.pinion_speed_rpm / ratio, table.meshings_per_revolution)
-        for _, table, ratio in given
+    check_positive("strength", pinion_speed=pinion_speed, gear_ratio=gear_ratio, hours=hours)
+    given = (("pinion", pinion, 1.0), ("wheel", wheel, gear_ratio))
+    rates = [cycles_per_hour(pinion_speed / ratio, gear.meshings_per_revolution) for _, gear, ratio in given]
+    spectrum = _spectrum(load_spectrum, regime, hours * max(rates))
+    gears = [
+        _gear(name, gear, rules, spectrum, rate, hours)
+        for (name, gear, _), rate in zip(given, rates, strict=True)
     ]
-    spectrum = _spectrum(tables, hours * max(rates))
-    pinion, wheel = (
-        _gear(name, table, tables, spectrum, rate, hours)
-        for (name, table, _), rate in zip(given, rates, strict=True)
-    )
-    load = None if tables.load is None else _load(tables, tables.load, spectrum)
-    peak = max(spectrum.peak, tables.overload.overload_ratio or 1.0)
-    return PairStrength(hours, spectrum, peak, (pinion, wheel), load)
+    carried = None if load is None else _tooth_load(load, (pinion, wheel), gear_ratio, spectrum)
+    peak = max(spectrum.peak, rules.overload_ratio or 1.0)
+    return PairStrength(hours, spectrum, peak, (gears[0], gears[1]), carried)
 
 
-def _spectrum(tables: StrengthTables, cycles: float) -> LoadSpectrum:
+def _spectrum(steps: Sequence[SpectrumStep], regime: str, cycles: float) -> LoadSpectrum:
     """Return the loads; a torque is no overload once the gear with more cycles has enough."""
-    if not tables.load_spectrum:
-        return regime_spectrum(tables.drive.regime or "0")
-    steps = [
-        (step.relative_torque, step.overload_cycles or (step.share_of_time or 0.0) * cycles)
-        for step in tables.load_spectrum
+    if not steps:
+        return regime_spectrum(regime)
+    acting = [
+        (step.relative_torque, step.overload_cycles or (step.share_of_time or 0.0) * cycles) for step in steps
     ]
-    return load_spectrum(steps, cycles)
+    return load_spectrum(acting, cycles)
 
 
 def _gear(
-    name: str,
-    table: StrengthGearTable,
-    tables: StrengthTables,
-    spectrum: LoadSpectrum,
-    rate: float,
-    hours: float,
+    name: str, gear: GearMaterial, rules: StrengthRules, spectrum: LoadSpectrum, rate: float, hours: float
 ) -> GearEndurance:
-    treatment = treatments()[table.treatment]
-    brinell = table.hardness_HB or in_brinell(table.hardness_HRC or 0.0, "HRC")
+    if gear.treatment not in treatments():
+        raise GeometryError(
+            f"strength: {name}.treatment must be one of {', '.join(treatments())}, is {gear.treatment!r}"
+        )
+    if (gear.hardness_HB is None) == (gear.hardness_HRC is None):
+        raise GeometryError(f"strength: {name} must have one of hardness_HB and hardness_HRC: give one")
+    treatment = treatments()[gear.treatment]
+    brinell = gear.hardness_HB or in_brinell(gear.hardness_HRC or 0.0, "HRC")
     hardness = treatment.own_hardness(brinell)
     found = []
     for limit, curve, greatest, exponent in (
-        _contact(table, treatment, hardness, brinell, tables.fatigue),
-        _bending(table, treatment, hardness, tables.overload),
+        _contact(gear, treatment, hardness, brinell, rules),
+        _bending(gear, treatment, hardness, rules),
     ):
         mu = spectrum.equivalence(exponent)
         found.append(Endurance(limit, curve, mu, rate, hours, greatest))
@@ -226,13 +331,9 @@ Fatigue = tuple[float, FatigueCurve, float, float]
 
 
 def _contact(
-    table: StrengthGearTable,
-    treatment: Treatment,
-    hardness: float,
-    brinell: float,
-    reading: StrengthFatigueTable,
+    table: GearMaterial, treatment: Treatment, hardness: float, brinell: float, reading: StrengthRules
 ) -> Fatigue:
-    limit = table.contact_limit_MPa or treatment.contact_limit(hardness)
+    limit = table.contact_limit or treatment.contact_limit(hardness)
     surface = table.roughness_factor * table.speed_factor
     tail, least = _GOST_TAIL if reading.long_life == "gost" else (math.inf, 1.0)
     curve = FatigueCurve(
@@ -243,16 +344,14 @@ def _contact(
         tail_exponent=tail,
         least_factor=least,
     )
-    strength = table.yield_strength_MPa or math.nan
-    greatest = table.greatest_contact_MPa or treatment.greatest_contact(hardness, strength)
+    strength = table.yield_strength or math.nan
+    greatest = table.greatest_contact or treatment.greatest_contact(hardness, strength)
     return limit, curve, greatest, 0.5 * CONTACT_EXPONENT
 
 
-def _bending(
-    table: StrengthGearTable, treatment: Treatment, hardness: float, overload: OverloadTable
-) -> Fatigue:
+def _bending(table: GearMaterial, treatment: Treatment, hardness: float, overload: StrengthRules) -> Fatigue:
     of = table.core_hardness_HRC or hardness
-    limit = table.bending_limit_MPa or treatment.bending_limit(of)
+    limit = table.bending_limit or treatment.bending_limit(of)
     exponent = table.bending_exponent or treatment.bending_exponent
     curve = FatigueCurve(
         limit=limit * table.fillet_factor * table.reversal_factor / table.bending_safety,
@@ -261,19 +360,22 @@ def _bending(
         greatest_factor=table.greatest_bending_life_factor or treatment.bending_factor,
     )
     frequency = overload.overload_frequency_factor / overload.static_safety
-    greatest = table.greatest_bending_MPa or limit * curve.greatest_factor * frequency
+    greatest = table.greatest_bending or limit * curve.greatest_factor * frequency
     return limit, curve, greatest, exponent
 
 
-def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: LoadSpectrum) -> ToothLoad:
-    elastic = [(gear.youngs_modulus_MPa, gear.poissons_ratio) for gear in (tables.pinion, tables.wheel)]
+def _tooth_load(
+    load: PairLoad, gears: tuple[GearMaterial, GearMaterial], ratio: float, spectrum: LoadSpectrum
+) -> ToothLoad:
+    check_positive("strength", module=load.module, face_width=load.face_width, pinion_teeth=load.pinion_teeth)
+    elastic = [(gear.youngs_modulus, gear.poissons_ratio) for gear in gears]
     mesh = SpurMesh(
-        torque=1e3 * load.pinion_torque_N_m * spectrum.torque,
-        module=load.module_mm,
+        torque=load.pinion_torque * spectrum.torque,
+        module=load.module,
         teeth=load.pinion_teeth,
-        ratio=tables.drive.gear_ratio,
-        face_width=load.face_width_mm,
-        pressure_angle=math.radians(load.pressure_angle_deg),
+        ratio=ratio,
+        face_width=load.face_width,
+        pressure_angle=load.pressure_angle,
         contact_modulus=contact_modulus(*zip(*elastic, strict=True)),
     )
     contact, bending = _load_factors(load, constant=spectrum.name == "constant")
@@ -283,10 +385,7 @@ def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: LoadSpectru
     }
     pinion, wheel = (
         mesh.bending_stress(bending.total, table.form_factor or form_factor(teeth))
-        for table, teeth in (
-            (tables.pinion, load.pinion_teeth),
-            (tables.wheel, load.pinion_teeth * tables.drive.gear_ratio),
-        )
+        for table, teeth in zip(gears, (load.pinion_teeth, load.pinion_teeth * ratio), strict=True)
     )
     return ToothLoad(
         mesh,
@@ -299,7 +398,7 @@ def _load(tables: StrengthTables, load: StrengthLoadTable, spectrum: LoadSpectru
     )
 
 
-def _load_factors(load: StrengthLoadTable, constant: bool) -> tuple[LoadFactor, LoadFactor]:
+def _load_factors(load: PairLoad, constant: bool) -> tuple[LoadFactor, LoadFactor]:
     """Return K_H and K_F; a spectrum holds the shocks of the machine already, then K_A is 1."""
     application = load.application_factor or (_UNIFORM if constant else 1.0)
     initial = load.initial_transverse_load_factor

@@ -11,6 +11,7 @@ from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import (
     GearEndurance,
+    PairLoad,
     PairStrength,
     StressCheck,
     ToothLoad,
@@ -152,8 +153,6 @@ def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, .
 
 
 _NAMES = ("contact", "bending")
-_LEAST_TEETH = 2.0
-"""Over sin^2 of the pressure angle: teeth below which a gear without shift is undercut."""
 
 
 def strength_sheet(tables: StrengthTables, pair: PairStrength) -> CalculationSheet:
@@ -291,15 +290,12 @@ def _input_warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:
 
 
 def _undercut(tables: StrengthTables) -> list[str]:
-    load = tables.load
-    if load is None:
-        return []
-    least = _LEAST_TEETH / math.sin(math.radians(load.pressure_angle_deg)) ** 2
-    if load.pinion_teeth >= math.floor(least):
+    load = None if tables.load is None else tables.load.plain(PairLoad)
+    if load is None or load.pinion_teeth >= load.undercut_below:
         return []
     return [
         f"load.pinion_teeth: {load.pinion_teeth} teeth without profile shift are undercut, below "
-        f"{math.floor(least)} stress and life are only a guess"
+        f"{load.undercut_below} stress and life are only a guess"
     ]
 
 

@@ -10,7 +10,9 @@ from dataclasses import dataclass, field
 
 from wearsim.catalogue.catalogues import catalogue_rows, regimes
 from wearsim.errors import GeometryError
-from wearsim.handbook.strength.keys import OVERLOAD_CYCLES
+
+OVERLOAD_CYCLES = 5e4
+"""Number of load cycles below which a torque is an overload and does not fatigue."""
 
 
 @dataclass(frozen=True)

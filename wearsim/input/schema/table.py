@@ -1,7 +1,8 @@
 """What every table of the input file has in common."""
 
+import math
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Protocol, Self, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
@@ -36,6 +37,30 @@ def known(value: str | None, names: dict[str, object], what: str, command: str) 
     raise ValueError(f"no such {what}{nearest(value, names)} ({command} shows them all)")
 
 
+class _DataClass(Protocol):
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+
+_Plain = TypeVar("_Plain", bound=_DataClass)
+
+_SCALES = {"_mm": 1.0, "_MPa": 1.0, "_N_m": 1e3, "_deg": math.pi / 180.0, "_rpm": 1.0, "_N": 1.0}
+"""Ends of keys with a unit, and what makes their values plain."""
+
+
+def _without_unit(key: str) -> tuple[str, float]:
+    """Return the name of a key without its unit, and the scale of its values.
+
+    Examples
+    --------
+    >>> _without_unit("pinion_torque_N_m"), _without_unit("gear_ratio")
+    (('pinion_torque', 1000.0), ('gear_ratio', 1.0))
+    """
+    for end, scale in _SCALES.items():
+        if key.endswith(end):
+            return key.removesuffix(end), scale
+    return key, 1.0
+
+
 class Table(BaseModel):
     """A table of the input file; closed to unknown keys, strict in its types."""
 
@@ -44,6 +69,19 @@ class Table(BaseModel):
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         return []
+
+    def plain(self, target: type[_Plain], **others: Any) -> _Plain:
+        """Return the values as an object of plain numbers in mm, N, MPa, rpm and rad.
+
+        Its fields have the names of the keys without their units; what is left out keeps its default.
+        """
+        values = dict(others)
+        for key in type(self).model_fields:
+            value, (name, scale) = getattr(self, key), _without_unit(key)
+            if value is None or name in others or name not in target.__dataclass_fields__:
+                continue
+            values[name] = value if scale == 1.0 else scale * value
+        return target(**values)
 
     @model_validator(mode="after")
     def _check_conflicts(self) -> Self:
