@@ -4,7 +4,6 @@ import pytest
 
 from wearsim.errors import CaseError
 from wearsim.handbook.face_load.keys import FaceLoadTables
-from wearsim.handbook.face_load.model import face_load
 from wearsim.handbook.face_load.sheet import face_load_sheet
 from wearsim.input.calculation_file import load_calculation
 
@@ -47,7 +46,7 @@ CHANGES = {
 
 def sheet(tables):
     loaded = load_calculation(tables, FaceLoadTables)
-    return face_load_sheet(loaded.title, face_load(loaded), ()).content
+    return face_load_sheet(loaded.title, loaded.factors(), ()).content
 
 
 def with_value(key, value):

@@ -4,7 +4,6 @@ import pytest
 
 from wearsim.errors import CaseError
 from wearsim.handbook.wave_drive.keys import WaveDriveTables
-from wearsim.handbook.wave_drive.model import wave_drive
 from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
 from wearsim.input.calculation_file import load_calculation
 
@@ -62,7 +61,7 @@ CHANGES = {
 
 def sheet(tables):
     loaded = load_calculation(tables, WaveDriveTables)
-    return wave_drive_sheet(loaded.title, wave_drive(loaded), ()).content
+    return wave_drive_sheet(loaded.title, loaded.diameters(), ()).content
 
 
 def with_value(key, value):

@@ -17,9 +17,8 @@ def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     from mesh to mesh does not; with a fixed and with a self-aligning pinion.
     """
     from wearsim.handbook.face_load.keys import FaceLoadTables
-    from wearsim.handbook.face_load.model import face_load as along_the_face
     from wearsim.handbook.face_load.sheet import face_load_sheet
     from wearsim.input.calculation_file import defaults_taken, load_calculation
 
     tables = load_calculation(case, FaceLoadTables, settings)
-    return face_load_sheet(tables.title, along_the_face(tables), defaults_taken(tables))
+    return face_load_sheet(tables.title, tables.factors(), defaults_taken(tables))

@@ -1,13 +1,19 @@
 """The input of ``wearsim face-load``: a wide pair of gears, its misalignment and its wear."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
+from wearsim.handbook.face_load.model import (
+    FaceGaps,
+    FaceLoad,
+    FlankWear,
+    VariesWith,
+    WidePair,
+    face_load_factors,
+)
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Positive, PositiveNumber
-
-VariesWith = Literal["load", "wheel", "pinion"]
 
 
 class WidePairTable(Table):
@@ -60,3 +66,23 @@ class FaceLoadTables(CalculationTables):
     misalignment: MisalignmentTable
     running_in: RunningInTable
     self_aligning: SelfAligningTable = SelfAligningTable()
+
+    def factors(self) -> FaceLoad:
+        """Return the load along the face of the pair."""
+        gaps, wear = self.misalignment, self.running_in
+        return face_load_factors(
+            self.pair.plain(WidePair, mesh_stiffness=1e3 * self.pair.mesh_stiffness_N_per_mm_um),
+            FaceGaps(
+                fixed=1e-3 * gaps.fixed_misalignment_um,
+                varying=1e-3 * gaps.varying_misalignment_um,
+                varies_with=gaps.varies_with,
+                crown=1e-3 * gaps.crown_um,
+            ),
+            wear.plain(
+                FlankWear, specific_wear_rate=wear.specific_wear_rate_mm2_per_N, hours=wear.time_hours
+            ),
+            power=self.load.power_kW,
+            pinion_speed=self.load.pinion_speed_rpm,
+            application_factor=self.load.application_factor,
+            pivot_friction_lever=self.self_aligning.pivot_friction_lever_mm,
+        )

@@ -6,16 +6,50 @@ but no formula of theirs is at hand: all of this is reconstruction.
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from wearsim.errors import check_positive
 from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.face_load.face_slices import WideMesh, self_aligned_gap
 from wearsim.handbook.face_load.face_wear import FaceRunningIn, WearingFace, WearRates
-from wearsim.handbook.face_load.keys import FaceLoadTables, VariesWith
+
+VariesWith = Literal["load", "wheel", "pinion"]
 
 _PHASES = 8
 """Meshes from one extreme of a gap that turns with a wheel to the other."""
+
+
+@dataclass(frozen=True)
+class WidePair:
+    """A wide pair of spur gears."""
+
+    face_width: float  # b [mm]
+    pinion_pitch_diameter: float  # [mm]
+    gear_ratio: float  # u
+    mesh_stiffness: float = 2e4  # of the mesh over the face width [N/mm2]
+    slices: int = 200  # of the face
+
+
+@dataclass(frozen=True)
+class FaceGaps:
+    """Gap of the unloaded flanks over the face width [mm]."""
+
+    fixed: float = 0.0  # of one edge over the other, at every mesh
+    varying: float = 0.0  # the same of the part that changes, at most
+    varies_with: VariesWith = "load"
+    crown: float = 0.0  # of both edges over mid-face
+
+
+@dataclass(frozen=True)
+class FlankWear:
+    """What the flanks lose."""
+
+    specific_wear_rate: float  # of the pinion, k [mm2/N]
+    slip_ratio: float  # sliding speed over the speed of the contact along the flank, mean of both flanks
+    hours: float  # time at which the worn state is shown [h]
+    wheel_wear_ratio: float = 1.0  # wear rate of the wheel over that of the pinion
 
 
 def gap_kinds(
@@ -114,50 +148,97 @@ class FaceLoad:
     self_aligning: FaceRunningIn
 
 
-def face_load(tables: FaceLoadTables) -> FaceLoad:
-    """Return the load along the face of a pair, new, worn and run in.
+def face_load_factors(
+    pair: WidePair,
+    gaps: FaceGaps,
+    wear: FlankWear,
+    *,
+    power: float,
+    pinion_speed: float,
+    application_factor: float = 1.0,
+    pivot_friction_lever: float | None = None,
+) -> FaceLoad:
+    """Return the load along the face of a pair, new, worn and run in, with K_Hbeta.
+
+    Slices of the face share the load as springs over a gap, by face-load.md (1) to (5); wear takes off
+    the part of the gap that is the same at every mesh. All of it is this project's reconstruction.
 
     Parameters
     ----------
-    tables : FaceLoadTables
-        The input.
+    pair : WidePair
+        The gears.
+    gaps : FaceGaps
+        Gap of the unloaded flanks over the face.
+    wear : FlankWear
+        What the flanks lose.
+    power : float
+        That the pair carries [kW], above 0.
+    pinion_speed : float
+        Of the pinion [rpm], above 0.
+    application_factor : float, optional
+        K_A on the load.
+    pivot_friction_lever : float, optional
+        Friction lever of the pivot of a self-aligning pinion [mm]; without friction if left out.
 
     Returns
     -------
     FaceLoad
-        Complete.
+        With a pinion that cannot tilt and with one that can.
+
+    Raises
+    ------
+    GeometryError
+        A number cannot be.
+
+    Examples
+    --------
+    A gap of 0.02 mm over 100 mm, a stiffness of 2e4 N/mm2 and a mean load of 400 N/mm: the compliance gives
+    0.02 mm as well, so the load grows in line from 0.5 to 1.5 of its mean:
+
+    >>> found = face_load_factors(
+    ...     WidePair(face_width=100.0, pinion_pitch_diameter=100.0, gear_ratio=3.0),
+    ...     FaceGaps(fixed=0.02),
+    ...     FlankWear(specific_wear_rate=1e-10, slip_ratio=0.1, hours=1000.0),
+    ...     power=2.0 * math.pi / 60.0 * 2.0,
+    ...     pinion_speed=1.0,
+    ... )
+    >>> round(found.fixed.states[0].factor, 2)
+    1.5
     """
-    pair, load, gaps, wear = tables.pair, tables.load, tables.misalignment, tables.running_in
-    speed = 2.0 * math.pi * load.pinion_speed_rpm / 60.0
-    torque = 1e6 * load.power_kW / speed
-    force = load.application_factor * 2.0 * torque / pair.pinion_pitch_diameter_mm
-    stiffness = 1e3 * pair.mesh_stiffness_N_per_mm_um
-    mesh = WideMesh.of(pair.face_width_mm, pair.slices, stiffness, force)
-    fixed, varying, crown = (
-        1e-3 * gaps.fixed_misalignment_um,
-        1e-3 * gaps.varying_misalignment_um,
-        1e-3 * gaps.crown_um,
+    check_positive(
+        "face load",
+        face_width=pair.face_width,
+        pinion_pitch_diameter=pair.pinion_pitch_diameter,
+        gear_ratio=pair.gear_ratio,
+        mesh_stiffness=pair.mesh_stiffness,
+        power=power,
+        pinion_speed=pinion_speed,
+        specific_wear_rate=wear.specific_wear_rate,
+        hours=wear.hours,
     )
-    gap, share = gap_kinds(mesh.position, fixed, varying, gaps.varies_with, crown)
+    speed = 2.0 * math.pi * pinion_speed / 60.0
+    torque = 1e6 * power / speed
+    force = application_factor * 2.0 * torque / pair.pinion_pitch_diameter
+    mesh = WideMesh.of(pair.face_width, pair.slices, pair.mesh_stiffness, force)
+    gap, share = gap_kinds(mesh.position, gaps.fixed, gaps.varying, gaps.varies_with, gaps.crown)
     rates = wear_rates(
-        wear.specific_wear_rate_mm2_per_N,
+        wear.specific_wear_rate,
         wear.wheel_wear_ratio,
         wear.slip_ratio,
         pair.gear_ratio,
         gaps.varies_with,
-        60.0 * load.pinion_speed_rpm,
+        60.0 * pinion_speed,
     )
-    lever = tables.self_aligning.pivot_friction_lever_mm
 
     def _aligned(gap: Vector) -> Vector:
-        return self_aligned_gap(mesh, gap, share, lever)
+        return self_aligned_gap(mesh, gap, share, pivot_friction_lever)
 
     return FaceLoad(
         mesh,
         share,
-        rates.hours(stiffness, rates.total),
-        rates.hours(stiffness, rates.own),
-        lever,
-        WearingFace(mesh, gap, share, rates).run_in(wear.time_hours),
-        WearingFace(mesh, gap, share, rates, _aligned).run_in(wear.time_hours),
+        rates.hours(pair.mesh_stiffness, rates.total),
+        rates.hours(pair.mesh_stiffness, rates.own),
+        pivot_friction_lever,
+        WearingFace(mesh, gap, share, rates).run_in(wear.hours),
+        WearingFace(mesh, gap, share, rates, _aligned).run_in(wear.hours),
     )

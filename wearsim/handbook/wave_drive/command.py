@@ -17,9 +17,8 @@ def wave_drive(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     rests on; diameters that were published are held against it.
     """
     from wearsim.handbook.wave_drive.keys import WaveDriveTables
-    from wearsim.handbook.wave_drive.model import wave_drive as diameters
     from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
     from wearsim.input.calculation_file import defaults_taken, load_calculation
 
     tables = load_calculation(case, WaveDriveTables, settings)
-    return wave_drive_sheet(tables.title, diameters(tables), defaults_taken(tables))
+    return wave_drive_sheet(tables.title, tables.diameters(), defaults_taken(tables))

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.handbook.wave_drive.model import MethodComparison, flexspline_diameters
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber
 
@@ -100,3 +101,21 @@ class WaveDriveTables(CalculationTables):
     rim_bending: RimBendingTable = RimBendingTable()
     rim_endurance: RimEnduranceTable = RimEnduranceTable()
     generator_bearing: GeneratorBearingTable | None = None
+
+    def diameters(self) -> MethodComparison:
+        """Return the diameter by each of the methods."""
+        given = {name: table for name, table in self if isinstance(table, PublishedDiameterTable)}
+        return flexspline_diameters(
+            self.wave_drive.model_dump(),
+            {
+                name: table.model_dump(exclude={"published_diameter_mm", "formula"}, exclude_none=True)
+                for name, table in given.items()
+            },
+            printed=[name for name, table in given.items() if getattr(table, "formula", "") == "printed"],
+            published={
+                name: table.published_diameter_mm
+                for name, table in given.items()
+                if table.published_diameter_mm is not None
+            },
+            required=self.model_fields_set,
+        )

@@ -1,12 +1,13 @@
 """Diameter of the flexspline of a wave drive by eight methods side by side."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from scipy.optimize import brentq
 
-from wearsim.errors import GeometryError
+from wearsim.errors import GeometryError, check_positive
 from wearsim.handbook.wave_drive.formulas import (
     Values,
     crushing_diameter,
@@ -18,7 +19,6 @@ from wearsim.handbook.wave_drive.formulas import (
     tooth_wear_diameter,
     torsion_diameter,
 )
-from wearsim.handbook.wave_drive.keys import WaveDriveTables
 
 Ranges = Mapping[str, tuple[float, float]]
 
@@ -144,13 +144,32 @@ class MethodComparison:
     left_out: Mapping[str, str]
 
 
-def wave_drive(tables: WaveDriveTables) -> MethodComparison:
-    """Return the diameter of the flexspline by every method that has its numbers.
+def flexspline_diameters(
+    drive: Values,
+    methods: Mapping[str, Values],
+    *,
+    printed: Collection[str] = (),
+    published: Mapping[str, float] = MappingProxyType({}),
+    required: Collection[str] | None = None,
+) -> MethodComparison:
+    """Return the diameter of a flexspline by several methods, with what each rests on.
+
+    Formulas of six textbooks as collected by Tkachenko (2010), wave-drive.md (1) to (10).
 
     Parameters
     ----------
-    tables : WaveDriveTables
-        Drive and methods.
+    drive : mapping of str to float
+        ``gear_ratio``, ``output_torque_N_m``, ``life_hours``, ``generator_speed_rpm`` and
+        ``tooth_length_ratio``: all above 0.
+    methods : mapping of str to mapping
+        For each of the `METHODS` wanted, by its name, the numbers that it takes, such as
+        ``allowable_pressure_MPa``.
+    printed : collection of str, optional
+        Methods whose formula is to be taken as printed, ``torsion`` and ``rim_bending`` only.
+    published : mapping of str to float, optional
+        Diameters to hold the results against [mm].
+    required : collection of str, optional
+        Methods without which there is no answer; all that are wanted if left out.
 
     Returns
     -------
@@ -160,28 +179,45 @@ def wave_drive(tables: WaveDriveTables) -> MethodComparison:
     Raises
     ------
     GeometryError
-        A method of the file has no diameter.
+        A number is not above 0, or a method that is required has no diameter.
+
+    Examples
+    --------
+    Twice the torque asks for 2^(1/3) of the diameter where the pressure between the teeth limits it:
+
+    >>> def size(torque):
+    ...     drive = {
+    ...         "gear_ratio": 100.0,
+    ...         "output_torque_N_m": torque,
+    ...         "life_hours": 1e4,
+    ...         "generator_speed_rpm": 1500.0,
+    ...         "tooth_length_ratio": 0.2,
+    ...     }
+    ...     pressure = {"allowable_pressure_MPa": 60.0, "load_nonuniformity": 1.5, "engaged_share": 0.25}
+    ...     return flexspline_diameters(drive, {"pressure": pressure}).diameters[0].diameter
+    >>> round((size(400.0) / size(200.0)) ** 3, 9)
+    2.0
     """
-    used, left_out = _feasible(tables)
+    check_positive("wave drive", **drive)
+    used, left_out = _feasible(drive, methods, printed, methods if required is None else required)
     sizes = [method.diameter(v) for method, v in used]
     ranges = [_range(method, v) for method, v in used]
     results = []
     for i, ((method, v), size) in enumerate(zip(used, sizes, strict=True)):
         least, greatest = ranges[i]
         others = ranges[:i] + ranges[i + 1 :]
-        given = getattr(tables, method.name).published_diameter_mm
-        published = math.nan if given is None else given
+        target = published.get(method.name, math.nan)
         results.append(
             MethodDiameter(
                 method,
-                _as_printed(tables, method),
+                method.name in printed,
                 size,
                 least,
                 greatest,
                 _elasticity(method, v),
                 _outside(method, v),
-                published,
-                _needed(method, v, published),
+                target,
+                _needed(method, v, target),
                 rank=1 + sum(other > size for other in sizes),
                 least_rank=1 + sum(low > greatest for low, _ in others),
                 greatest_rank=1 + sum(high > least for _, high in others),
@@ -190,18 +226,27 @@ def wave_drive(tables: WaveDriveTables) -> MethodComparison:
     return MethodComparison(tuple(results), left_out)
 
 
-def _feasible(tables: WaveDriveTables) -> tuple[list[tuple[DiameterMethod, Values]], dict[str, str]]:
+def _feasible(
+    drive: Values, methods: Mapping[str, Values], printed: Collection[str], required: Collection[str]
+) -> tuple[list[tuple[DiameterMethod, Values]], dict[str, str]]:
     """Return the methods that have a diameter, with their numbers, and why others have none."""
     used: list[tuple[DiameterMethod, Values]] = []
     left_out = {}
+    unknown = sorted(methods.keys() - {method.name for method in METHODS})
+    if unknown:
+        names = ", ".join(method.name for method in METHODS)
+        raise GeometryError(f"wave drive: methods must be among {names}, but holds {unknown[0]}: correct it")
     for method in METHODS:
-        if getattr(tables, method.name) is None:
+        if method.name not in methods:
             continue
-        v = _values(tables, method)
+        v = {**drive, **methods[method.name]}
+        if method.name in _PRINTED:
+            name, corrected, as_printed = _PRINTED[method.name]
+            v[name] = as_printed if method.name in printed else corrected
         try:
             method.diameter(v)
         except GeometryError as error:
-            if method.name in tables.model_fields_set:
+            if method.name in required:
                 raise
             left_out[method.name] = str(error)
         else:
@@ -211,20 +256,6 @@ def _feasible(tables: WaveDriveTables) -> tuple[list[tuple[DiameterMethod, Value
 
 _PRINTED = {"torsion": ("root", 3.0, 2.0), "rim_bending": ("prefix", 10.0, 28.4)}
 """What differs in a formula as it is printed: the name of it, corrected, printed."""
-
-
-def _values(tables: WaveDriveTables, method: DiameterMethod) -> dict[str, float]:
-    """Return all numbers that a method takes; what it can find itself only where given."""
-    own = getattr(tables, method.name).model_dump(exclude={"published_diameter_mm", "formula"})
-    v = {key: value for key, value in own.items() if value is not None}
-    if method.name in _PRINTED:
-        name, corrected, as_printed = _PRINTED[method.name]
-        v[name] = as_printed if _as_printed(tables, method) else corrected
-    return {**tables.wave_drive.model_dump(), **v}
-
-
-def _as_printed(tables: WaveDriveTables, method: DiameterMethod) -> bool:
-    return getattr(getattr(tables, method.name), "formula", "") == "printed"
 
 
 def _range(method: DiameterMethod, v: Values) -> tuple[float, float]:
