@@ -12,7 +12,6 @@ import pytest
 
 from wearsim.files import check_folder
 from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
-from wearsim.handbook.convex_concave.model import convex_concave
 from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
 from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
@@ -40,7 +39,7 @@ def sheet(**changed):
         table, _, name = key.rpartition("__")
         (tables[table] if table else tables)[name] = value
     read = load_calculation(tables, ConvexConcaveTables)
-    return convex_concave_sheet(read.title, convex_concave(read))
+    return convex_concave_sheet(read.title, read.layout())
 
 
 def test_text(cli):

@@ -17,7 +17,6 @@ from pydantic import BaseModel
 import wearsim.handbook.synthesise.sheet
 from wearsim.errors import CaseError
 from wearsim.handbook.synthesise.keys import SynthesisTables
-from wearsim.handbook.synthesise.model import loaded_pair, phases
 from wearsim.handbook.synthesise.sheet import synthesis_sheet
 from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
@@ -314,8 +313,8 @@ def test_every_key_is_tried():
 
 def results(document):
     tables = load_calculation(document, SynthesisTables)
-    pair = loaded_pair(tables)
-    sheet = synthesis_sheet(tables, pair, phases(pair, tables))
+    pair = tables.pair()
+    sheet = synthesis_sheet(tables, pair, tables.phases(pair))
     return {"text": sheet.text, **{name: table.to_csv() for name, table in sheet.tables().items()}}
 
 
@@ -377,8 +376,8 @@ def test_strings_with_units():
 def test_pictures():
     settings = ["field.field_nodes=21", "field.x_from_mm=-6", "field.directions_deg=20"]
     tables = load_calculation(SEGMENTS, SynthesisTables, settings)
-    pair = loaded_pair(tables)
-    sheet = synthesis_sheet(tables, pair, phases(pair, tables))
+    pair = tables.pair()
+    sheet = synthesis_sheet(tables, pair, tables.phases(pair))
     plane, profiles = sheet.figures()["line_of_action"].axes
     assert [line.get_label() for line in plane.lines[::3]][:2] == ["phase 1, family +1", "phase 2, family -1"]
     assert len(profiles.lines) == 4

@@ -8,7 +8,6 @@ import pytest
 from wearsim.errors import CaseError
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 from wearsim.handbook.hertz_check.keys import HertzCheckTables
-from wearsim.handbook.hertz_check.model import hertz_check
 from wearsim.handbook.hertz_check.published import load_hertz_check
 from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 
@@ -65,7 +64,7 @@ def stub(elements):
 def content(tables):
     loaded, axis = load_hertz_check(tables)
     meshes = [stub(elements) for elements in loaded.finite_elements.elements_per_half_width]
-    return hertz_check_sheet(loaded.title, hertz_check(loaded), meshes, axis).content
+    return hertz_check_sheet(loaded.title, loaded.check(), meshes, axis).content
 
 
 def with_value(key, value):

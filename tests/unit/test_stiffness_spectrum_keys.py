@@ -7,7 +7,6 @@ import pytest
 from wearsim.command.registry import tables_of
 from wearsim.errors import CaseError
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
-from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
 from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
 from wearsim.input.calculation_file import load_calculation
 from wearsim.quantities import quantities
@@ -78,7 +77,7 @@ CHANGES = {
 @cache
 def shown(base, *overrides):
     tables = load_calculation(BASES[base], StiffnessSpectrumTables, overrides)
-    sheet = stiffness_spectrum_sheet(tables, stiffness_spectrum(tables))
+    sheet = stiffness_spectrum_sheet(tables, tables.answer())
     return sheet.text, sheet.content, sheet.warnings
 
 

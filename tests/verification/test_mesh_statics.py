@@ -9,7 +9,6 @@ from wearsim.errors import GeometryError
 from wearsim.handbook.stiffness_spectrum.contact_number import contact_ratio
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import deflection, hertz_constant, mesh_stiffness
-from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum
 from wearsim.input.calculation_file import load_calculation
 
 CASE = {
@@ -25,7 +24,7 @@ DOUBLE = "spectrum.model=double_sum"
 
 def solved(*overrides, **tables):
     case = {**CASE, **tables}
-    return stiffness_spectrum(load_calculation(case, StiffnessSpectrumTables, overrides))
+    return load_calculation(case, StiffnessSpectrumTables, overrides).answer()
 
 
 def test_reference_deflections_and_stiffnesses(validated):

@@ -20,7 +20,7 @@ from wearsim.geometry.gear.path_of_contact import involute
 from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
 from wearsim.handbook.synthesise.keys import SynthesisTables
-from wearsim.handbook.synthesise.model import direction_fields, loaded_pair, phases, stress_fields
+from wearsim.handbook.synthesise.model import direction_fields, stress_fields
 from wearsim.input.calculation_file import load_calculation
 
 CIRCLES = PitchCircles(135.0, 1.5)
@@ -48,7 +48,7 @@ def tables(stress=SIGMA, phase=(POLE,), load=TORQUE, **more):
 
 
 def pair(stress=SIGMA, load=TORQUE):
-    return loaded_pair(tables(stress, load=load))
+    return tables(stress, load=load).pair()
 
 
 def touching(x, y, stress, family):
@@ -113,7 +113,7 @@ def test_least_stress_in_the_pitch_point(validated):
     validated("least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
     assert pair(364.1191).pitch_point_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
     with pytest.raises(GeometryError, match=r"above 364\.119 in the pole.*45 deg.*but is 364"):
-        phases(pair(364), tables(364))
+        tables(364).phases(pair(364))
     steepest = np.radians(np.linspace(1, 89, 881))
     curvature = 1 / CIRCLES.pitch_point_radius(steepest)
     stresses = peak_pressure(pair().load.at(steepest), curvature, pair().modulus)
@@ -320,7 +320,7 @@ DIRECTIONS = [
 
 def test_field_of_a_direction():
     given = tables(field={**FIELD, "directions_deg": [*(row[0] for row in DIRECTIONS), -15]})
-    fields = direction_fields(pair(), given.field)
+    fields = direction_fields(pair(), given.field.plane)
     for mu, rho, sigma in DIRECTIONS:
         assert 1 / fields[mu].contacts.relative_curvature[20, 20] == exactly(rho)
         assert fields[mu].contact_stress[20, 20] == exactly(sigma)
@@ -333,7 +333,7 @@ def test_field_of_a_direction():
 
 def test_field_of_a_stress():
     given = tables(field={**FIELD, "x_from_mm": -20, "y_from_mm": -6})
-    fields = stress_fields(pair(), given.field)
+    fields = stress_fields(pair(), given.field.plane)
     for family, field in fields.items():
         at = touching(10, 3, SIGMA, family)
         assert (field.x[30, 30], field.y[30, 30]) == (10, 3)
@@ -352,7 +352,7 @@ def test_field_of_a_stress():
 def test_field_where_no_stress_is_given():
     law = {"contact_stress_MPa": [500, 450, 450], "pitch_point_distance_mm": [-10, 0, 10]}
     given = tables(law, field=FIELD)
-    field = stress_fields(pair(law), given.field)[1]
+    field = stress_fields(pair(law), given.field.plane)[1]
     beyond = np.hypot(field.x, field.y) > 10
     assert ((field.infeasibility == "no stress") == (beyond & (field.x > 0))).all()
 
@@ -697,7 +697,7 @@ def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
     law = {"contact_stress_MPa": [SIGMA, SIGMA], "pitch_point_distance_mm": [nearest, 20]}
     start = {"start_x_mm": 10, "start_y_mm": 3, "last_pitch_point_distance_mm": 10.5, "nodes": 11}
     given = tables(law, [{"family": family, **start}])
-    (phase,) = phases(loaded_pair(given), given)
+    (phase,) = given.phases(given.pair())
     found = phase.inner_end and phase.inner_end[0]
     assert found == (end and pytest.approx(end, abs=1e-6))
 
@@ -705,7 +705,7 @@ def test_inner_end_is_looked_for_where_a_stress_is_given(family, nearest, end):
 @pytest.mark.parametrize("law", [TABLE, CORNER])
 def test_stress_between_points(law):
     loaded = pair(law)
-    (phase,) = phases(loaded, tables(law))
+    (phase,) = tables(law).phases(loaded)
     l = phase.line.contacts.pitch_point_distance
     requested = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
     stress = loaded.contact_stress(phase.line.contacts)

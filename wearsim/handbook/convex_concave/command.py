@@ -18,9 +18,8 @@ def convex_concave(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     writes flanks and outlines (CSV, DXF, STL) too.
     """
     from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
-    from wearsim.handbook.convex_concave.model import convex_concave as layout
     from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
     from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, ConvexConcaveTables, settings)
-    return convex_concave_sheet(tables.title, layout(tables))
+    return convex_concave_sheet(tables.title, tables.layout())

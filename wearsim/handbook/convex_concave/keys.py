@@ -1,9 +1,11 @@
 """The input of ``wearsim convex-concave``: a pair of gears with convex-concave teeth."""
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.handbook.convex_concave.model import GearBlanks, PairLayout, pair_layout
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
 
@@ -37,3 +39,18 @@ class ConvexConcaveTables(CalculationTables):
 
     convex_concave: ConvexConcaveTable
     gears: GearsTable = GearsTable()
+
+    def layout(self) -> PairLayout:
+        """Return the pair as it is laid out."""
+        given = self.convex_concave
+        return pair_layout(
+            module=given.module_mm,
+            pinion_teeth=given.pinion_teeth,
+            wheel_teeth=given.wheel_teeth,
+            addendum_arc_radius=given.addendum_arc_radius_mm,
+            dedendum_arc_radius=given.dedendum_arc_radius_mm,
+            pitch_point_angle=math.radians(given.pitch_point_angle_deg),
+            addendum_ratio=given.addendum_ratio,
+            backlash=given.backlash_mm,
+            blanks=self.gears.plain(GearBlanks, roller_diameters=self.gears.roller_diameters_mm),
+        )

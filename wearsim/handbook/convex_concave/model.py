@@ -1,10 +1,13 @@
 """A pair of convex-concave gears from its input: contact, rack, rollers and outlines."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from wearsim.errors import check_positive
 from wearsim.geometry.gear.circle_fit import CircleFit, rack_arc
 from wearsim.geometry.gear.convex_concave import ConvexConcave, Zone
 from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
@@ -13,7 +16,6 @@ from wearsim.geometry.gear.convex_concave_outline import gear_outline, root_radi
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_over_pins
 from wearsim.geometry.outline import Outline
-from wearsim.handbook.convex_concave.keys import ConvexConcaveTables, GearsTable
 
 OUTLINE_TOLERANCE = 1e-4
 """Of the polygons that stand for the outlines [mm]."""
@@ -77,47 +79,89 @@ class PairLayout:
     face_width: float  # of the solids [mm]
 
 
-def convex_concave(tables: ConvexConcaveTables) -> PairLayout:
-    """Lay out a pair of gears.
+@dataclass(frozen=True)
+class GearBlanks:
+    """What outlines and measurement need besides the flanks."""
+
+    face_width: float | None = None  # [mm]; ten modules if left out
+    root_form: Literal["fillet", "radial"] = "fillet"
+    root_clearance_ratio: float | None = None  # over the module
+    roller_diameters: Sequence[float] | None = None  # [mm]
+
+
+def pair_layout(
+    *,
+    module: float,
+    pinion_teeth: int,
+    wheel_teeth: int,
+    addendum_arc_radius: float,
+    dedendum_arc_radius: float | None = None,
+    pitch_point_angle: float = math.radians(20.0),
+    addendum_ratio: float = 1.0,
+    backlash: float = 0.0,
+    blanks: GearBlanks = GearBlanks(),
+) -> PairLayout:
+    """Return contact, rack, rollers and outlines of a pair of gears with convex-concave teeth.
+
+    The path of contact is two circular arcs that meet in the pitch point; flanks, radii and contact
+    ratio follow by convex-concave.md. J. Bosansky et al. (2012), source document 004.
 
     Parameters
     ----------
-    tables : ConvexConcaveTables
-        The input.
+    module : float
+        m [mm], above 0.
+    pinion_teeth, wheel_teeth : int
+        z1 and z2.
+    addendum_arc_radius, dedendum_arc_radius : float
+        Radii of both arcs of the path of contact [mm]; the second as the first if left out.
+    pitch_point_angle : float, optional
+        Pressure angle in the pitch point [rad].
+    addendum_ratio, backlash : float, optional
+        Addendum over the module, and play along the pitch circle [mm].
+    blanks : GearBlanks, optional
+        Face width, roots and rollers.
 
     Returns
     -------
-    Layout
-        The pair with what follows from it.
+    PairLayout
+        Beside the involute pair of the same size.
 
     Raises
     ------
     GeometryError
-        The teeth cannot be, or a roller does not rest on them.
+        A number cannot be, or there are no such teeth.
+
+    Examples
+    --------
+    In the pitch point both zones have the reduced radius of the involute there,
+    r1 r2/(r1 + r2) sin(20 degrees) = 14.875*29.75/44.625*0.342 mm:
+
+    >>> found = pair_layout(module=1.75, pinion_teeth=17, wheel_teeth=34, addendum_arc_radius=11.0)
+    >>> round(found.contacts[0].involute_radius, 4)
+    3.3917
     """
-    given, body = tables.convex_concave, tables.gears
-    foot_arc = given.dedendum_arc_radius_mm
+    check_positive("convex-concave", module=module, addendum_arc_radius=addendum_arc_radius)
+    second = addendum_arc_radius if dedendum_arc_radius is None else dedendum_arc_radius
     pair = ConvexConcave(
-        given.module_mm,
-        given.pinion_teeth,
-        given.wheel_teeth,
-        math.radians(given.pitch_point_angle_deg),
-        given.addendum_arc_radius_mm,
-        given.addendum_arc_radius_mm if foot_arc is None else foot_arc,
-        given.addendum_ratio * given.module_mm,
-        given.backlash_mm,
+        module,
+        pinion_teeth,
+        wheel_teeth,
+        pitch_point_angle,
+        addendum_arc_radius,
+        second,
+        addendum_ratio * module,
+        backlash,
     )
     teeth = pair.teeth
     pinion_tip, wheel_tip = (0.5 * pair.module * count + pair.addendum for count in teeth)
     involute = InvolutePair(teeth, pair.module, pair.pitch_point_angle, (0.0, 0.0), (pinion_tip, wheel_tip))
-    width = body.face_width_mm
     return PairLayout(
         pair,
         involute,
         tuple(contact for zone in pair.zones for contact in _contacts(zone, involute)),
         tuple(_arc(flank, pair.pinion.foot_angle) for flank in (pair.pinion.head, pair.pinion.foot)),
-        _bodies(pair, body),
-        10.0 * pair.module if width is None else width,
+        _bodies(pair, blanks),
+        10.0 * pair.module if blanks.face_width is None else blanks.face_width,
     )
 
 
@@ -162,14 +206,14 @@ def _arc(flank: ConvexConcaveFlank, end: float) -> RackArc:
     return RackArc(flank, fit, float(np.abs(fit.distances(points)).max()))
 
 
-def _bodies(pair: ConvexConcave, body: GearsTable) -> tuple[MeasuredGear, MeasuredGear]:
+def _bodies(pair: ConvexConcave, body: GearBlanks) -> tuple[MeasuredGear, MeasuredGear]:
     gears = pair.pinion, pair.wheel
     ratio, form = body.root_clearance_ratio, body.root_form
     clearance = None if ratio is None else ratio * pair.module
     outlines = [gear_outline(gear, clearance, form) for gear in gears]
     polygons = [outline.polygon(OUTLINE_TOLERANCE) for outline in outlines]
     overlaps = tip_overlap(pair, *polygons)
-    diameters = body.roller_diameters_mm or [_USUAL_ROLLER * pair.module]
+    diameters = body.roller_diameters or [_USUAL_ROLLER * pair.module]
     pinion, wheel = (
         MeasuredGear(
             name,

@@ -25,12 +25,11 @@ def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "Calculatio
     Published stresses are held against them: which inputs give them, what one input alone would
     have to be, and what is lost in the published comparison.
     """
-    from wearsim.handbook.hertz_check.model import hertz_check as checked
     from wearsim.handbook.hertz_check.published import load_hertz_check
     from wearsim.handbook.hertz_check.sheet import hertz_check_sheet
 
     tables, axis = load_hertz_check(case, settings)
-    found = checked(tables)
+    found = tables.check()
     elements = tables.finite_elements.elements_per_half_width
     meshes = _solved(found.contact, elements) if fem else []
     return hertz_check_sheet(tables.title, found, meshes, axis)

@@ -1,10 +1,13 @@
 """The input of ``wearsim hertz-check``: a contact at the pitch point and what was published about it."""
 
+import math
 from itertools import pairwise
 from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
+from wearsim.handbook.hertz_check.model import HertzCheck, PublishedStresses, TeethOfPair, pitch_point_check
+from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact, combinations
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 from wearsim.mechanisms.gear_pair.keys import Teeth
@@ -85,6 +88,16 @@ class PublishedStressTable(Table):
     finite_elements: StressesTable = StressesTable()
     difference: DifferenceTable = DifferenceTable()
 
+    def stresses(self) -> PublishedStresses:
+        """Return the rows by their columns, without what is lost."""
+        rows = (self.hertz, self.finite_elements, self.difference)
+        return PublishedStresses(
+            *(
+                {key.partition("_")[0]: float(value) for key, value in row if value is not None}
+                for row in rows
+            )
+        )
+
 
 class FiniteElementsTable(Table):
     """The meshes of ``--fem``, and stresses that any program found."""
@@ -109,3 +122,33 @@ class HertzCheckTables(CalculationTables):
     combinations: CombinationsTable | None = None
     published: PublishedStressTable | None = None
     finite_elements: FiniteElementsTable = FiniteElementsTable()
+
+    def pitch_point(self) -> PitchPointContact:
+        """Return the contact of the pair."""
+        modulus = self.contact.youngs_modulus_MPa
+        return PitchPointContact(
+            torque=1e3 * self.contact.torque_N_m,
+            gear_ratio=self.contact.gear_ratio,
+            face_width=self.contact.face_width_mm,
+            pitch_diameter=self.contact.pinion_pitch_diameter_mm,
+            pressure_angle=math.radians(self.contact.working_pressure_angle_deg),
+            load_factor=self.contact.load_factor,
+            youngs_modulus=(modulus, self.contact.wheel_youngs_modulus_MPa or modulus),
+            poissons_ratio=self.contact.poissons_ratio,
+        )
+
+    def check(self) -> HertzCheck:
+        """Return everything that is asked for but finite elements."""
+        contact, requested = self.pitch_point(), self.combinations
+        literal = []
+        if requested is not None:
+            torques = [1e3 * torque for torque in requested.torque_N_m or ()]
+            literal = combinations(
+                contact, torques, requested.face_width_mm or (), requested.gear_ratio or ()
+            )
+        return pitch_point_check(
+            contact,
+            teeth=None if self.teeth is None else self.teeth.plain(TeethOfPair),
+            literal=literal,
+            published=None if self.published is None else self.published.stresses(),
+        )

@@ -5,18 +5,16 @@ does not say what its differences refer to.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from wearsim.errors import check_positive
 from wearsim.geometry.gear.involute import InvolutePair
-from wearsim.handbook.hertz_check.keys import HertzCheckTables, PublishedStressTable, TeethTable
 from wearsim.handbook.hertz_check.pitch_point_contact import (
     PRINTED_DEPTH,
     PRINTED_SURFACE,
     InputChange,
     PitchPointContact,
-    combinations,
-    pitch_point_contact,
     single_changes,
 )
 
@@ -122,6 +120,28 @@ def _agrees(found: float, printed: float) -> bool:
 
 
 @dataclass(frozen=True)
+class TeethOfPair:
+    """Numbers of teeth and module of a pair."""
+
+    pinion_teeth: int
+    wheel_teeth: int
+    module: float  # [mm]
+
+
+@dataclass(frozen=True)
+class PublishedStresses:
+    """A published comparison of Hertz' formula with finite elements; nan for what is lost.
+
+    Each for `contact`, `surface` and `depth`: contact stress and von Mises' stresses [MPa], and differences
+    in percent.
+    """
+
+    hertz: Mapping[str, float]
+    finite_elements: Mapping[str, float]
+    difference: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class ComparisonColumn:
     """A column of the comparison; nan for what is not known."""
 
@@ -151,20 +171,35 @@ class HertzCheck:
 
     contact: PitchPointContact  # the contact
     literal: list[PitchPointContact]  # the combinations of the input; empty where none are asked for
-    teeth: TeethTable | None  # as given
+    teeth: TeethOfPair | None  # as given
     contact_ratio: float  # of the teeth without profile shift; nan where they are not given
     target: float  # the published contact stress by Hertz [MPa]; nan where none is
     changes: list[InputChange]  # what each key alone must be for it
     comparison: Comparison | None  # the published comparison, where there is one
 
 
-def hertz_check(tables: HertzCheckTables) -> HertzCheck:
-    """Return everything that an input asks for but finite elements.
+def pitch_point_check(
+    contact: PitchPointContact,
+    *,
+    teeth: TeethOfPair | None = None,
+    literal: Sequence[PitchPointContact] = (),
+    published: PublishedStresses | None = None,
+) -> HertzCheck:
+    """Return the stresses of a contact at the pitch point, with what a publication says of them.
+
+    Contact stress by Hertz as source document 000 prints it, hertz-check.md (1), and exactly, (2).
+    Parallel axes, straight teeth, one pair in contact.
 
     Parameters
     ----------
-    tables : HertzCheckTables
-        The input.
+    contact : PitchPointContact
+        Torque, ratio, sizes and moduli.
+    teeth : TeethOfPair, optional
+        For the contact ratio.
+    literal : sequence of PitchPointContact, optional
+        Other readings of the same input.
+    published : PublishedStresses, optional
+        To be completed and held against the contact.
 
     Returns
     -------
@@ -174,50 +209,49 @@ def hertz_check(tables: HertzCheckTables) -> HertzCheck:
     Raises
     ------
     GeometryError
-        There are no such teeth.
+        A number cannot be, or there are no such teeth.
+
+    Examples
+    --------
+    The stress grows with the root of the torque:
+
+    >>> found = pitch_point_check(PitchPointContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0)))
+    >>> four = pitch_point_check(PitchPointContact(960e3, 1.5, 76.0, 108.0, math.radians(20.0)))
+    >>> round(four.contact.peak_pressure / found.contact.peak_pressure, 9)
+    2.0
     """
-    contact, requested, published = pitch_point_contact(tables), tables.combinations, tables.published
-    literal = []
-    if requested is not None:
-        torques = [1e3 * torque for torque in requested.torque_N_m or ()]
-        literal = combinations(contact, torques, requested.face_width_mm or (), requested.gear_ratio or ())
-    target = math.nan if published is None else published.hertz.contact_stress_MPa
+    check_positive(
+        "hertz check",
+        torque=contact.torque,
+        gear_ratio=contact.gear_ratio,
+        face_width=contact.face_width,
+        pitch_diameter=contact.pitch_diameter,
+        pressure_angle=contact.pressure_angle,
+    )
+    target = math.nan if published is None else published.hertz["contact"]
     return HertzCheck(
         contact=contact,
-        literal=literal,
-        teeth=tables.teeth,
-        contact_ratio=_contact_ratio(tables.teeth, contact.pressure_angle),
+        literal=list(literal),
+        teeth=teeth,
+        contact_ratio=_contact_ratio(teeth, contact.pressure_angle),
         target=target,
         changes=[] if published is None else single_changes(contact, target, ROUNDING),
         comparison=None if published is None else completed(published, contact),
     )
 
 
-def _contact_ratio(teeth: TeethTable | None, pressure_angle: float) -> float:
+def _contact_ratio(teeth: TeethOfPair | None, pressure_angle: float) -> float:
     if teeth is None:
         return math.nan
     z1, z2 = teeth.pinion_teeth, teeth.wheel_teeth
-    tips = (0.5 * teeth.module_mm * (z1 + 2), 0.5 * teeth.module_mm * (z2 + 2))
-    pair = InvolutePair((z1, z2), teeth.module_mm, pressure_angle, (0.0, 0.0), tips)
+    tips = (0.5 * teeth.module * (z1 + 2), 0.5 * teeth.module * (z2 + 2))
+    pair = InvolutePair((z1, z2), teeth.module, pressure_angle, (0.0, 0.0), tips)
     pair.check()
     return pair.contact_ratio
 
 
-def completed(published: PublishedStressTable, contact: PitchPointContact) -> Comparison:
-    """Complete a published comparison and hold the contact's own stresses against it.
-
-    Parameters
-    ----------
-    published : PublishedStressTable
-        What is legible of it.
-    contact : PitchPointContact
-        The contact it is about.
-
-    Returns
-    -------
-    Comparison
-        With what can be found of the lost cells.
-    """
+def completed(published: PublishedStresses, contact: PitchPointContact) -> Comparison:
+    """Complete a published comparison and hold the contact's own stresses against it."""
     rows = {name: _legible(published, name) for name in SHARES}
     references = tuple(
         reference for reference in REFERENCES if all(_fits(*row, reference) for row in rows.values())
@@ -231,17 +265,12 @@ def completed(published: PublishedStressTable, contact: PitchPointContact) -> Co
     )
 
 
-def _legible(published: PublishedStressTable, name: str) -> tuple[float, float, float]:
+def _legible(published: PublishedStresses, name: str) -> tuple[float, float, float]:
     """Return Hertz' stress, that of finite elements and their difference; nan for what is lost."""
-    key = "contact_stress_MPa" if name == "contact" else f"{name}_von_mises_MPa"
-    cells = (
-        getattr(published.hertz, key),
-        getattr(published.finite_elements, key),
-        getattr(published.difference, f"{name}_difference_percent"),
-    )
-    hertz, elements, percent = (math.nan if cell is None else float(cell) for cell in cells)
+    rows = (published.hertz, published.finite_elements, published.difference)
+    hertz, elements, percent = (row.get(name, math.nan) for row in rows)
     if math.isnan(hertz):
-        hertz = SHARES[name] * published.hertz.contact_stress_MPa
+        hertz = SHARES[name] * published.hertz["contact"]
     return hertz, elements, percent
 
 

@@ -13,7 +13,6 @@ from itertools import product
 from scipy.optimize import brentq
 
 from wearsim.contact.hertz import contact_modulus, half_width, peak_pressure
-from wearsim.handbook.hertz_check.keys import HertzCheckTables
 
 PRINTED_COEFFICIENT = 0.418
 """Of equation 1 of the source: the exact one for a Poisson's ratio of 0.3 in three digits."""
@@ -120,33 +119,6 @@ class PitchPointContact:
         Equation hertz-check.md (2).
         """
         return float(half_width(self.load_per_width, 1.0 / self.reduced_radius, self.contact_modulus))
-
-
-def pitch_point_contact(tables: HertzCheckTables) -> PitchPointContact:
-    """Return the contact that an input describes.
-
-    Parameters
-    ----------
-    tables : HertzCheckTables
-        The input.
-
-    Returns
-    -------
-    PoleContact
-        Of its table ``contact``.
-    """
-    given = tables.contact
-    modulus = given.youngs_modulus_MPa
-    return PitchPointContact(
-        torque=1e3 * given.torque_N_m,
-        gear_ratio=given.gear_ratio,
-        face_width=given.face_width_mm,
-        pitch_diameter=given.pinion_pitch_diameter_mm,
-        pressure_angle=math.radians(given.working_pressure_angle_deg),
-        load_factor=given.load_factor,
-        youngs_modulus=(modulus, given.wheel_youngs_modulus_MPa or modulus),
-        poissons_ratio=given.poissons_ratio,
-    )
 
 
 def combinations(

@@ -217,7 +217,7 @@ def _input_warnings(check: HertzCheck) -> list[str]:
                 f"contact.gear_ratio = {contact.gear_ratio:g} contradicts the teeth, "
                 f"{teeth.wheel_teeth}/{teeth.pinion_teeth} = {ratio:g}"
             )
-        diameter = teeth.module_mm * teeth.pinion_teeth
+        diameter = teeth.module * teeth.pinion_teeth
         if abs(contact.pitch_diameter / diameter - 1.0) > 1e-3:
             warnings.append(
                 f"contact.pinion_pitch_diameter_mm = {contact.pitch_diameter:g} is not module_mm times "

@@ -18,9 +18,8 @@ def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationShe
     stiffness.
     """
     from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
-    from wearsim.handbook.stiffness_spectrum.model import stiffness_spectrum as spectrum
     from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
     from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, StiffnessSpectrumTables, settings)
-    return stiffness_spectrum_sheet(tables, spectrum(tables))
+    return stiffness_spectrum_sheet(tables, tables.answer())

@@ -1,9 +1,17 @@
 """The input of ``wearsim stiffness-spectrum``: a gear pair with pitch errors."""
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.handbook.stiffness_spectrum.mesh_statics import LoadedTeeth
+from wearsim.handbook.stiffness_spectrum.model import (
+    SpectrumChoice,
+    StiffnessSpectrum,
+    ToothErrors,
+    mesh_spectrum,
+)
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Positive, PositiveNumber
 
@@ -94,3 +102,15 @@ class StiffnessSpectrumTables(CalculationTables):
     wheel: WheelTable
     spectrum: SpectrumTable = SpectrumTable()
     statics: StaticsTable | None = None
+
+    def answer(self) -> StiffnessSpectrum:
+        """Return the spectrum of the pair."""
+        return mesh_spectrum(
+            self.pinion.plain(ToothErrors),
+            self.wheel.plain(ToothErrors),
+            module=self.gear_pair.module_mm,
+            pressure_angle=math.radians(self.gear_pair.pressure_angle_deg),
+            pinion_speed=self.gear_pair.pinion_speed_rpm,
+            choice=self.spectrum.plain(SpectrumChoice),
+            load=None if self.statics is None else self.statics.plain(LoadedTeeth),
+        )

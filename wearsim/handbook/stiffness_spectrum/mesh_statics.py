@@ -11,7 +11,6 @@ import numpy as np
 
 from wearsim.errors import GeometryError
 from wearsim.handbook.stiffness_spectrum.contact_number import Floats, StepFunction
-from wearsim.handbook.stiffness_spectrum.keys import StaticsTable, StiffnessSpectrumTables
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,69 +110,48 @@ def mesh_stiffness(contacts: Floats, force: float, constant: float, exponent: fl
     return np.asarray((exponent - 1.0) * contacts * constant * delta ** (exponent - 2.0))
 
 
-def mesh_statics(tables: StiffnessSpectrumTables, contacts: StepFunction) -> MeshStatics | None:
-    """Return deflection and stiffness over the number of contacts.
+@dataclass(frozen=True)
+class LoadedTeeth:
+    """Load and bodies for the deflection of a pair; give one of force and torque."""
 
-    Parameters
-    ----------
-    tables : StiffnessSpectrumTables
-        The input.
-    contacts : StepFunction
-        N over the common period.
+    pinion_curvature_radius: float  # of the flanks where they touch [mm]
+    wheel_curvature_radius: float
+    force: float | None = None  # along the common normal [N]
+    pinion_torque: float | None = None  # [N mm]
+    youngs_modulus: float = 2.1e5  # [MPa]
+    poissons_ratio: float = 0.3
+    energy_exponent: float = 2.5
+    formula: str | None = None  # `printed`: the force along the pitch circle is taken for the normal one
 
-    Returns
-    -------
-    Statics or None
-        None where the input has no ``[statics]``.
 
-    Raises
-    ------
-    GeometryError
-        No tooth carries the load at some moment.
-    """
-    given = tables.statics
-    if given is None:
-        return None
+def mesh_statics(
+    given: LoadedTeeth, contacts: StepFunction, pitch_radius: float, pressure_angle: float
+) -> MeshStatics:
+    """Return deflection and stiffness over the number of contacts."""
     free = float(contacts.widths[contacts.values == 0.0].sum()) / math.tau
     if free > 0.0:
         raise GeometryError(
             f"statics: some teeth must touch at every moment to carry the load, but none do for "
             f"{100.0 * free:.3g} % of the time: lower pitch_error_mm or remove [statics]"
         )
-    pitch_radius = 0.5 * tables.gear_pair.module_mm * tables.pinion.teeth
-    angle = math.radians(tables.gear_pair.pressure_angle_deg)
     constant = hertz_constant(
-        given.pinion_curvature_radius_mm,
-        given.wheel_curvature_radius_mm,
-        given.youngs_modulus_MPa,
+        given.pinion_curvature_radius,
+        given.wheel_curvature_radius,
+        given.youngs_modulus,
         given.poissons_ratio,
     )
-    law = (normal_force(given, pitch_radius, angle), constant, given.energy_exponent)
+    law = (normal_force(given, pitch_radius, pressure_angle), constant, given.energy_exponent)
     numbers = np.union1d(contacts.values, (1.0, 2.0, 4.0))
     stiffness = StepFunction(contacts.edges, mesh_stiffness(contacts.values, *law))
     return MeshStatics(*law, numbers, deflection(numbers, *law), mesh_stiffness(numbers, *law), stiffness)
 
 
-def normal_force(given: StaticsTable, pitch_radius: float, pressure_angle: float) -> float:
-    """Force along the common normal of the teeth.
+def normal_force(given: LoadedTeeth, pitch_radius: float, pressure_angle: float) -> float:
+    """Force along the common normal of the teeth [N].
 
     F = M / (r1 cos a) of a torque M; the source prints M / r1, the force along the pitch circle.
-
-    Parameters
-    ----------
-    given : StaticsTable
-        Force, or torque of the pinion.
-    pitch_radius : float
-        r1 of the pinion [mm].
-    pressure_angle : float
-        a [rad].
-
-    Returns
-    -------
-    float
-        F [N].
     """
-    if given.pinion_torque_N_m is None:
-        return float(given.force_N or 0.0)
+    if given.pinion_torque is None:
+        return float(given.force or 0.0)
     arm = pitch_radius if given.formula == "printed" else pitch_radius * math.cos(pressure_angle)
-    return 1e3 * given.pinion_torque_N_m / arm
+    return given.pinion_torque / arm

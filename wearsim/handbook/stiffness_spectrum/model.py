@@ -6,11 +6,14 @@ b f2 of the turns f1 of the pinion and f2 of the wheel.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
+from typing import Literal
 
 import numpy as np
 
+from wearsim.errors import check_positive
 from wearsim.handbook.stiffness_spectrum.contact_number import (
     Floats,
     GearPair,
@@ -21,8 +24,7 @@ from wearsim.handbook.stiffness_spectrum.contact_number import (
     contact_ratio,
 )
 from wearsim.handbook.stiffness_spectrum.contact_number_series import Formula, one_sided, series_coefficients
-from wearsim.handbook.stiffness_spectrum.keys import SpectrumTable, StiffnessSpectrumTables, WheelTable
-from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics, mesh_statics
+from wearsim.handbook.stiffness_spectrum.mesh_statics import LoadedTeeth, MeshStatics, mesh_statics
 
 _SERIES_HARMONICS = 6000
 
@@ -85,31 +87,87 @@ class StiffnessSpectrum:
         return 2.0 * sum(line.two_sided**2 for line in self.lines) / self.contacts.variance
 
 
-def stiffness_spectrum(tables: StiffnessSpectrumTables) -> StiffnessSpectrum:
-    """Return the spectrum of the contacts and, with statics, of the stiffness.
+@dataclass(frozen=True)
+class ToothErrors:
+    """Teeth of a wheel and its pitch error, a sine over the tooth number."""
+
+    teeth: int
+    pitch_error: float  # amplitude along the pitch circle [mm]
+    error_order: int = 1  # waves in a turn
+    error_phase: float = 0.0  # [rad]
+
+
+@dataclass(frozen=True)
+class SpectrumChoice:
+    """What is counted as contact, and which lines are wanted."""
+
+    model: Literal["pairs", "double_sum"] = "pairs"
+    tooth_harmonics: int = 3
+    sideband_order: int = 2
+    formula: Formula | None = None  # of the closed form of `double_sum`
+    series_harmonics: int | None = None
+
+
+def mesh_spectrum(
+    pinion: ToothErrors,
+    wheel: ToothErrors,
+    *,
+    module: float,
+    pressure_angle: float = math.radians(20.0),
+    pinion_speed: float | None = None,
+    choice: SpectrumChoice = SpectrumChoice(),
+    load: LoadedTeeth | None = None,
+) -> StiffnessSpectrum:
+    """Return the spectrum of the contacts of a pair with pitch errors and, with a load, of its stiffness.
+
+    The number of contacts by stiffness-spectrum.md (1) to (3), its lines by (4) to (8) and the stiffness by
+    (9) to (11); Golubkov et al. (2016), source document 003. Standard spur teeth without profile shift.
 
     Parameters
     ----------
-    tables : StiffnessSpectrumTables
-        Gear pair, errors and what is wanted.
+    pinion, wheel : ToothErrors
+        Teeth and errors.
+    module : float
+        m [mm], above 0.
+    pressure_angle : float, optional
+        [rad], 20 degrees if left out.
+    pinion_speed : float, optional
+        [rpm], for frequencies in Hz.
+    choice : SpectrumChoice, optional
+        What is counted, and which lines are wanted.
+    load : LoadedTeeth, optional
+        For deflection and stiffness.
 
     Returns
     -------
     StiffnessSpectrum
-        The answer.
+        Lines by frequency.
 
     Raises
     ------
     GeometryError
         The teeth cannot run so, or with a load, no tooth carries it at some moment.
+
+    Examples
+    --------
+    The lines of 20 teeth with an error and 30 without, in turns of the common period of 60 meshes: one turn
+    of the pinion is 3 of them.
+
+    >>> found = mesh_spectrum(
+    ...     ToothErrors(20, 0.01), ToothErrors(30, 0.0), module=5.0, choice=SpectrumChoice(tooth_harmonics=1)
+    ... )
+    >>> [line.harmonic for line in found.lines]
+    [3, 6, 54, 57, 60, 63, 66]
     """
-    spectrum, speed = tables.spectrum, tables.gear_pair.pinion_speed_rpm
-    pair = gear_pair(tables)
-    contacts = contact_number(pair, spectrum.model)
-    statics = mesh_statics(tables, contacts)
-    lattice = combinations(pair, spectrum.tooth_harmonics, spectrum.sideband_order)
+    check_positive("stiffness spectrum", module=module, pressure_angle=pressure_angle)
+    pair = gear_pair(pinion, wheel, module, pressure_angle)
+    contacts = contact_number(pair, choice.model)
+    statics = None
+    if load is not None:
+        statics = mesh_statics(load, contacts, 0.5 * module * pinion.teeth, pressure_angle)
+    lattice = combinations(pair, choice.tooth_harmonics, choice.sideband_order)
     exact = np.abs(contacts.coefficients(list(lattice)))
-    series = _series(pair, spectrum, [0, *lattice])
+    series = _series(pair, choice, [0, *lattice])
     stiffness = np.full(len(lattice), math.nan)
     if statics is not None:
         stiffness = one_sided(statics.stiffness.coefficients(list(lattice)))
@@ -117,67 +175,47 @@ def stiffness_spectrum(tables: StiffnessSpectrumTables) -> StiffnessSpectrum:
         SpectrumLine(h, ways, *map(float, values))
         for (h, ways), *values in zip(lattice.items(), exact, series[1:], stiffness, strict=True)
     )
-    frequency = math.nan if speed is None else speed / 60.0 * tables.pinion.teeth
+    frequency = math.nan if pinion_speed is None else pinion_speed / 60.0 * pinion.teeth
     return StiffnessSpectrum(
         pair,
         contacts,
-        contact_number(pair.without_error, spectrum.model),
+        contact_number(pair.without_error, choice.model),
         lines,
         float(series[0]),
         frequency,
         statics,
-        _beyond_involute(tables),
+        _beyond_involute({"pinion": pinion.teeth, "wheel": wheel.teeth}, pressure_angle),
     )
 
 
-def _series(pair: GearPair, spectrum: SpectrumTable, harmonics: list[int]) -> Floats:
+def _series(pair: GearPair, choice: SpectrumChoice, harmonics: list[int]) -> Floats:
     """Return the mean and the one-sided amplitudes by the closed form; nan where there is none."""
-    if spectrum.model != "double_sum":
+    if choice.model != "double_sum":
         return np.full(len(harmonics), math.nan)
-    formula: Formula = spectrum.formula or "corrected"
-    limit = spectrum.series_harmonics or _SERIES_HARMONICS
+    formula: Formula = choice.formula or "corrected"
+    limit = choice.series_harmonics or _SERIES_HARMONICS
     found = series_coefficients(pair, harmonics, limit, formula)
     return np.append(found[0].real, one_sided(found[1:], formula))
 
 
-def gear_pair(tables: StiffnessSpectrumTables) -> GearPair:
-    """Return the wheels of an input.
-
-    Parameters
-    ----------
-    tables : StiffnessSpectrumTables
-        The input.
-
-    Returns
-    -------
-    GearPair
-        With the contact ratio.
-
-    Raises
-    ------
-    GeometryError
-        Teeth change places by their errors.
-    """
-    angle = math.radians(tables.gear_pair.pressure_angle_deg)
-    ratio = contact_ratio(tables.pinion.teeth, tables.wheel.teeth, angle)
+def gear_pair(pinion: ToothErrors, wheel: ToothErrors, module: float, pressure_angle: float) -> GearPair:
+    """Return the wheels of a pair with their contact ratio."""
+    ratio = contact_ratio(pinion.teeth, wheel.teeth, pressure_angle)
     wheels = [
-        _wheel(one, place, 0.5 * tables.gear_pair.module_mm * one.teeth)
-        for one, place in ((tables.pinion, "pinion"), (tables.wheel, "wheel"))
+        _wheel(one, place, 0.5 * module * one.teeth) for one, place in ((pinion, "pinion"), (wheel, "wheel"))
     ]
     return GearPair(wheels[0], wheels[1], ratio)
 
 
-def _wheel(table: WheelTable, place: str, pitch_radius: float) -> Wheel:
-    phase = math.radians(table.error_phase_deg)
-    wheel = Wheel(table.teeth, table.pitch_error_mm / pitch_radius, table.error_order, phase)
+def _wheel(errors: ToothErrors, place: str, pitch_radius: float) -> Wheel:
+    wheel = Wheel(errors.teeth, errors.pitch_error / pitch_radius, errors.error_order, errors.error_phase)
     check_order(wheel, place, pitch_radius)
     return wheel
 
 
-def _beyond_involute(tables: StiffnessSpectrumTables) -> str:
+def _beyond_involute(teeth: Mapping[str, int], pressure_angle: float) -> str:
     """Return whose tips reach past the tangent of the other's base circle, where no involute is."""
-    sine = math.sin(math.radians(tables.gear_pair.pressure_angle_deg))
-    teeth = {"pinion": tables.pinion.teeth, "wheel": tables.wheel.teeth}
+    sine = math.sin(pressure_angle)
     line = sum(teeth.values()) / 2.0 * sine
     beyond = [name for name, z in teeth.items() if math.sqrt((z * sine / 2.0) ** 2 + z + 1.0) > line]
     return " and ".join(beyond)

@@ -18,10 +18,9 @@ def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     the plane of mesh there are such profiles, and of which kind.
     """
     from wearsim.handbook.synthesise.keys import SynthesisTables
-    from wearsim.handbook.synthesise.model import loaded_pair, phases
     from wearsim.handbook.synthesise.sheet import synthesis_sheet
     from wearsim.input.calculation_file import load_calculation
 
     tables = load_calculation(case, SynthesisTables, settings)
-    pair = loaded_pair(tables)
-    return synthesis_sheet(tables, pair, phases(pair, tables))
+    pair = tables.pair()
+    return synthesis_sheet(tables, pair, tables.phases(pair))

@@ -5,6 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.catalogue.catalogues import materials
+from wearsim.contact.prescribed_stress import LoadedPair
+from wearsim.handbook.synthesise.model import MeshPhase, MeshPlane, PhaseStart, loaded_pair, profile_phases
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.schema.wear_tables import MaterialTable
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
@@ -127,6 +130,12 @@ class MeshFieldTable(Table):
     field_nodes: Annotated[int, Field(ge=11, le=401)] = 81
     directions_deg: Series = ()
 
+    @property
+    def plane(self) -> MeshPlane:
+        """The same in plain numbers."""
+        sides = (self.x_from_mm, self.x_to_mm), (self.y_from_mm, self.y_to_mm)
+        return MeshPlane(*sides, self.field_nodes, tuple(self.directions_deg))
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         found = [
@@ -151,6 +160,38 @@ class SynthesisTables(CalculationTables):
     involute: InvoluteTable = InvoluteTable()
     field: MeshFieldTable | None = None
 
+    def pair(self) -> LoadedPair:
+        """Return the pair with its stress."""
+        load, (pinion, wheel) = self.load, (_elastic(self.material.pinion), _elastic(self.material.wheel))
+        torque = load.pinion_torque_N_m
+        return loaded_pair(
+            centre_distance=self.gears.centre_distance_mm,
+            gear_ratio=self.gears.gear_ratio,
+            contact_stress=self.stress.contact_stress_MPa,
+            pitch_point_distance=self.stress.pitch_point_distance_mm,
+            load_per_width=load.load_per_width_N_per_mm,
+            pinion_torque=None if torque is None else 1e3 * torque,
+            face_width=load.face_width_mm,
+            pinion_speed=load.pinion_speed_rpm,
+            youngs_modulus=(pinion[0], wheel[0]),
+            poissons_ratio=(pinion[1], wheel[1]),
+        )
+
+    def phases(self, pair: LoadedPair) -> tuple[MeshPhase, ...]:
+        """Return the paths of contact that are asked for."""
+        angle = self.involute.pressure_angle_deg
+        starts = [
+            PhaseStart(
+                phase.last_pitch_point_distance_mm,
+                phase.first_pitch_point_distance_mm,
+                phase.start,
+                phase.family,
+                phase.nodes,
+            )
+            for phase in self.phase
+        ]
+        return profile_phases(pair, starts, None if angle is None else math.radians(angle))
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the tables."""
         given = self.stress.pitch_point_distance_mm
@@ -172,3 +213,13 @@ def _with_pitch_point(phase: PhaseTable) -> tuple[float, float]:
     """Return the reach of a phase with the pitch point, where that is what it starts from."""
     low, high = phase.reach
     return (low, high) if phase.start else (min(low, 0.0), max(high, 0.0))
+
+
+def _elastic(table: MaterialTable) -> tuple[float, float]:
+    """Return Young's modulus and Poisson's ratio, steel's where they are not given."""
+    known = materials()[table.name or "steel"]
+    modulus, ratio = table.youngs_modulus_MPa, table.poissons_ratio
+    return (
+        known.youngs_modulus if modulus is None else modulus,
+        known.poissons_ratio if ratio is None else ratio,
+    )

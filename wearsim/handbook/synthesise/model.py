@@ -1,21 +1,19 @@
 """Synthesis of the profiles of a gear pair with a prescribed contact stress, phase by phase."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.catalogue.catalogues import materials
 from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
-from wearsim.errors import GeometryError
+from wearsim.errors import GeometryError, check_positive
 from wearsim.geometry.gear.path_of_contact import PathOfContact, involute
 from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
 from wearsim.geometry.profile_points import Vector
-from wearsim.handbook.synthesise.keys import MeshFieldTable, MeshLoadTable, PhaseTable, SynthesisTables
-from wearsim.input.schema.wear_tables import MaterialTable
 
 _NEAREST = 1e-6
 """Distance from the pitch point down to which the inner end of a line is looked for, over its start's."""
@@ -49,93 +47,173 @@ class MeshField:
     infeasibility: NDArray[np.str_]
 
 
-def loaded_pair(tables: SynthesisTables) -> LoadedPair:
-    """Return the pair of an input.
+@dataclass(frozen=True)
+class PhaseStart:
+    """Where a path of contact runs: through the pitch point, or from a point beside it."""
+
+    last_distance: float  # signed distance of its last point from the pitch point [mm]
+    first_distance: float | None = None  # the same of the first, for a path through the pitch point
+    start: tuple[float, float] | None = None  # else distance [mm] and pressure angle [rad] of the start
+    family: Family = 1  # which of the two pairs of profiles
+    nodes: int = 201
+
+
+@dataclass(frozen=True)
+class MeshPlane:
+    """The part of the plane of mesh that fields cover [mm], with the pitch point at (0, 0)."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    nodes: int = 81  # along each side
+    directions: tuple[float, ...] = ()  # angles between path of contact and normal [deg]
+
+
+def loaded_pair(
+    *,
+    centre_distance: float,
+    gear_ratio: float,
+    contact_stress: Sequence[float],
+    pitch_point_distance: Sequence[float] | None = None,
+    load_per_width: float | None = None,
+    pinion_torque: float | None = None,
+    face_width: float | None = None,
+    pinion_speed: float = 0.0,
+    youngs_modulus: tuple[float, float] = (2.06e5, 2.06e5),
+    poissons_ratio: tuple[float, float] = (0.3, 0.3),
+) -> LoadedPair:
+    """Return a gear pair whose contact stress is prescribed along its path of contact.
+
+    The stress is Hertz's, so it and the load fix the reduced radius at every place,
+    Equation synthesise.md (2). Spur gears; one pair of teeth carries the load.
 
     Parameters
     ----------
-    tables : SynthesisTables
-        The input.
+    centre_distance, gear_ratio : float
+        a [mm] and u of the pair, above 0.
+    contact_stress : sequence of float
+        sigma_H [MPa]: one for all places, or one at each of the distances.
+    pitch_point_distance : sequence of float, optional
+        Signed distances from the pitch point [mm], ascending.
+    load_per_width : float, optional
+        Constant normal load [N/mm]; or a constant torque by the two next.
+    pinion_torque, face_width : float, optional
+        T1 [N mm] and b [mm].
+    pinion_speed : float, optional
+        [rpm], for sliding speeds.
+    youngs_modulus, poissons_ratio : tuple of float, optional
+        Of pinion and wheel [MPa]; steel if left out.
 
     Returns
     -------
     LoadedPair
         In mm, N, MPa, rad/s.
-    """
-    circles = PitchCircles(tables.gears.centre_distance_mm, tables.gears.gear_ratio)
-    pinion, wheel = _elastic(tables.material.pinion), _elastic(tables.material.wheel)
-    stress = np.array(tables.stress.contact_stress_MPa)
-    distance = tables.stress.pitch_point_distance_mm
-    return LoadedPair(
-        circles,
-        contact_modulus((pinion[0], wheel[0]), (pinion[1], wheel[1])),
-        _line_load(tables.load, circles.pinion_radius),
-        StressProfile(np.zeros_like(stress) if distance is None else np.array(distance), stress),
-        2.0 * math.pi * tables.load.pinion_speed_rpm / 60.0,
-    )
-
-
-def _line_load(table: MeshLoadTable, pinion_radius: float) -> LineLoad:
-    if table.pinion_torque_N_m is not None and table.face_width_mm is not None:
-        return LineLoad(1e3 * table.pinion_torque_N_m / (table.face_width_mm * pinion_radius), 1)
-    return LineLoad(float(table.load_per_width_N_per_mm or 0.0), 0)
-
-
-def _elastic(table: MaterialTable) -> tuple[float, float]:
-    """Return Young's modulus and Poisson's ratio, steel's where they are not given."""
-    known = materials()[table.name or "steel"]
-    modulus, ratio = table.youngs_modulus_MPa, table.poissons_ratio
-    return (
-        known.youngs_modulus if modulus is None else modulus,
-        known.poissons_ratio if ratio is None else ratio,
-    )
-
-
-def phases(pair: LoadedPair, tables: SynthesisTables) -> tuple[MeshPhase, ...]:
-    """Return the paths of contact that an input asks for.
-
-    Parameters
-    ----------
-    pair : LoadedPair
-        The pair.
-    tables : SynthesisTables
-        The input.
-
-    Returns
-    -------
-    tuple of Phase
-        In its order.
 
     Raises
     ------
     GeometryError
-        A phase has no line with that stress, or the line ends within it.
+        A number cannot be, or none or both of the loads are given.
+
+    Examples
+    --------
+    Hertz: sigma^2 = q E*/(pi rho), so 100 N/mm at 500 MPa ask for rho = 100*113187/(pi*500^2) mm:
+
+    >>> pair = loaded_pair(
+    ...     centre_distance=90.0, gear_ratio=1.25, contact_stress=[500.0], load_per_width=100.0
+    ... )
+    >>> round(float(pair.reduced_radius(0.0, 0.35)), 4)
+    14.4114
     """
-    given = tables.involute.pressure_angle_deg
-    compared = None if given is None else math.radians(given)
+    check_positive("synthesis", centre_distance=centre_distance, gear_ratio=gear_ratio)
+    stress = np.array(contact_stress, dtype=float)
+    for value in stress.tolist():
+        check_positive("synthesis", contact_stress=value)
+    circles = PitchCircles(centre_distance, gear_ratio)
+    if load_per_width is not None and pinion_torque is None:
+        line_load = LineLoad(float(load_per_width), 0)
+    elif load_per_width is None and pinion_torque is not None and face_width is not None:
+        line_load = LineLoad(pinion_torque / (face_width * circles.pinion_radius), 1)
+    else:
+        raise GeometryError(
+            "synthesis: give load_per_width, or pinion_torque and face_width, and not both loads"
+        )
+    places = np.zeros_like(stress) if pitch_point_distance is None else np.array(pitch_point_distance)
+    return LoadedPair(
+        circles,
+        contact_modulus(youngs_modulus, poissons_ratio),
+        line_load,
+        StressProfile(places, stress),
+        2.0 * math.pi * pinion_speed / 60.0,
+    )
+
+
+def profile_phases(
+    pair: LoadedPair, starts: Sequence[PhaseStart], compared_angle: float | None = None
+) -> tuple[MeshPhase, ...]:
+    """Return the paths of contact with the prescribed stress, each with an involute beside it.
+
+    A path solves the differential equation Equation synthesise.md (5) from the pitch point or from a
+    point beside it, where two pairs of profiles have the same stress (`family` 1 and -1).
+
+    Parameters
+    ----------
+    pair : LoadedPair
+        The pair with its stress.
+    starts : sequence of PhaseStart
+        Where the paths run.
+    compared_angle : float, optional
+        Pressure angle of the involute [rad]; that of the path in its start if left out.
+
+    Returns
+    -------
+    tuple of MeshPhase
+        In their order.
+
+    Raises
+    ------
+    GeometryError
+        A phase has no path with that stress, or the path ends within it.
+
+    Examples
+    --------
+    The path through the pitch point meets it with the pressure angle whose radius the stress asks for:
+
+    >>> pair = loaded_pair(
+    ...     centre_distance=90.0, gear_ratio=1.25, contact_stress=[700.0], load_per_width=100.0
+    ... )
+    >>> (phase,) = profile_phases(pair, [PhaseStart(first_distance=-5.0, last_distance=5.0)])
+    >>> middle = phase.line.contacts.pressure_angle[100]
+    >>> round(float(pair.circles.pitch_point_radius(middle) / pair.reduced_radius(0.0, middle)), 9)
+    1.0
+    """
     found = []
-    for number, table in enumerate(tables.phase, start=1):
+    for number, start in enumerate(starts, start=1):
         try:
-            found.append(_phase(pair, table, compared))
+            found.append(_phase(pair, start, compared_angle))
         except GeometryError as error:
             raise GeometryError(f"phase {number}: {error}") from None
     return tuple(found)
 
 
-def _phase(pair: LoadedPair, table: PhaseTable, compared: float | None) -> MeshPhase:
-    synthesis = PathSynthesis(pair.circles, pair.radius_rule, table.family)
-    if table.start is None:
+def _phase(pair: LoadedPair, given: PhaseStart, compared: float | None) -> MeshPhase:
+    synthesis = PathSynthesis(pair.circles, pair.radius_rule, given.family)
+    if given.start is None:
+        if given.first_distance is None or not given.first_distance < given.last_distance:
+            raise GeometryError(
+                "a path through the pitch point needs first_distance below last_distance: "
+                f"{given.first_distance} and {given.last_distance:g} mm"
+            )
         crossing = pair.pitch_point_crossing()
-        line = synthesis.through_pitch_point(crossing, np.linspace(*table.reach, table.nodes))
+        along = np.linspace(given.first_distance, given.last_distance, given.nodes)
+        line = synthesis.through_pitch_point(crossing, along)
         end, angle = None, crossing.pressure_angle
     else:
-        along = np.linspace(table.start[0], table.last_pitch_point_distance_mm, table.nodes)
-        line = synthesis.from_point(table.start, along)
-        end, angle = _inner_end(pair, synthesis, table.start), table.start[1]
+        along = np.linspace(given.start[0], given.last_distance, given.nodes)
+        line = synthesis.from_point(given.start, along)
+        end, angle = _inner_end(pair, synthesis, given.start), given.start[1]
     straight = involute(
         pair.circles, angle if compared is None else compared, line.contacts.pitch_point_distance
     )
-    return MeshPhase(table.family, line, straight, end, table.start is None)
+    return MeshPhase(given.family, line, straight, end, given.start is None)
 
 
 def _inner_end(
@@ -151,14 +229,14 @@ def _inner_end(
     return None if math.isclose(end[0], last, rel_tol=1e-12) else end
 
 
-def stress_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[Family, MeshField]:
+def stress_fields(pair: LoadedPair, part: MeshPlane) -> dict[Family, MeshField]:
     """Return the contacts with the prescribed stress over a part of the plane of mesh.
 
     Parameters
     ----------
     pair : LoadedPair
         The pair with its stress.
-    table : MeshFieldTable
+    part : MeshPlane
         The part of the plane.
 
     Returns
@@ -166,7 +244,7 @@ def stress_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[Family, MeshF
     dict
         By family.
     """
-    plane = _Plane(table)
+    plane = _Plane(part)
     families: tuple[Family, Family] = (1, -1)
     with np.errstate(invalid="ignore", divide="ignore"):
         known = pair.stress.covers(plane.distance)
@@ -184,14 +262,14 @@ def stress_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[Family, MeshF
     return found
 
 
-def direction_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[float, MeshField]:
+def direction_fields(pair: LoadedPair, part: MeshPlane) -> dict[float, MeshField]:
     """Return the contacts of paths of contact with given directions over a part of the plane.
 
     Parameters
     ----------
     pair : LoadedPair
         The pair; its prescribed stress does not matter.
-    table : MeshFieldTable
+    part : MeshPlane
         The part of the plane, with the angles between path of contact and normal.
 
     Returns
@@ -199,10 +277,10 @@ def direction_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[float, Mes
     dict
         By angle mu [deg].
     """
-    plane = _Plane(table)
+    plane = _Plane(part)
     found = {}
     with np.errstate(invalid="ignore", divide="ignore"):
-        for mu in table.directions_deg:
+        for mu in part.directions:
             contacts = Contacts.of_direction(pair.circles, plane.distance, plane.angle, math.radians(mu))
             meet = (contacts.relative_curvature > 0.0) & (plane.angle != 0.0)
             reasons = {"no torque": np.isnan(plane.distance), "interference": ~meet}
@@ -213,12 +291,9 @@ def direction_fields(pair: LoadedPair, table: MeshFieldTable) -> dict[float, Mes
 class _Plane:
     """Points over a part of the plane with their l and alpha; l is nan on the line of centres."""
 
-    def __init__(self, table: MeshFieldTable) -> None:
-        self.x, self.y = np.meshgrid(
-            np.linspace(table.x_from_mm, table.x_to_mm, table.field_nodes),
-            np.linspace(table.y_from_mm, table.y_to_mm, table.field_nodes),
-        )
-        central = np.abs(self.x) < 1e-9 * (table.x_to_mm - table.x_from_mm)
+    def __init__(self, part: MeshPlane) -> None:
+        self.x, self.y = np.meshgrid(np.linspace(*part.x, part.nodes), np.linspace(*part.y, part.nodes))
+        central = np.abs(self.x) < 1e-9 * (part.x[1] - part.x[0])
         self.distance = np.where(central, math.nan, np.copysign(np.hypot(self.x, self.y), self.x))
         self.angle = np.arctan2(np.copysign(1.0, self.x) * self.y, np.abs(self.x))
 

@@ -46,7 +46,10 @@ def synthesis_sheet(
         "indices": indices_figure(tables.title, indices),
     }
     if tables.field is not None:
-        stressed, directed = stress_fields(pair, tables.field), direction_fields(pair, tables.field)
+        stressed, directed = (
+            stress_fields(pair, tables.field.plane),
+            direction_fields(pair, tables.field.plane),
+        )
         made["stress_fields"] = _fields(pair, "family", stressed)
         for family, field in stressed.items():
             lines = [phase.line for phase in phases if phase.family == family]
