@@ -4,13 +4,16 @@ All other functions have one good line, which ruff asks for; kernels are documen
 """
 
 import ast
+import pkgutil
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 from numpydoc.hooks.validate_docstrings import parse_config, process_file
 
 import wearsim
+import wearsim.handbook
 
 ROOT = Path(__file__).parents[1]
 DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
@@ -26,10 +29,15 @@ def full(node: ast.AST, public: set[str], within: str, inherited: bool = False) 
             yield from full(child, public, name, wanted)
 
 
+PUBLIC = [*wearsim._PUBLIC.items()]
+"""Public names and where they stand: those of wearsim, and the functions of the calculations."""
+for package in pkgutil.iter_modules(wearsim.handbook.__path__, "wearsim.handbook."):
+    PUBLIC += [(name, package.name) for name in import_module(package.name).__all__ if name.islower()]
+
 config, faults, count = parse_config(ROOT), [], 0
 for path in sorted(set(ROOT.glob("wearsim/**/*.py")) - set(ROOT.glob("wearsim/kernels/*"))):
     module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
-    public = {name for name, place in wearsim._PUBLIC.items() if module.startswith(place)}
+    public = {name for name, place in PUBLIC if module.startswith(place)}
     names = set(full(ast.parse(path.read_text("utf-8")), public, path.stem))
     count += len(names)
     faults += [

@@ -1,8 +1,9 @@
 """Wear of sprockets: tooth profile, tooth load, wear, new profile, hours of life."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from wearsim._version import __version__
+from wearsim.lazy import lazy_names
 
 _PUBLIC = {
     "Case": "wearsim.case.model",
@@ -43,14 +44,4 @@ __all__ = [
     "simulate_many",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _PUBLIC:
-        raise AttributeError(f"module 'wearsim' has no attribute {name!r}")
-    from importlib import import_module
-
-    return getattr(import_module(_PUBLIC[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted([*globals(), *_PUBLIC])
+__getattr__, __dir__ = lazy_names(__name__, _PUBLIC)

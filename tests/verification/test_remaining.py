@@ -159,7 +159,7 @@ def test_a_reading_out_of_the_band_is_doubted():
 @pytest.mark.parametrize("command", ["maintain", "remaining"])
 def test_running_in_is_refused(command: str) -> None:
     """Lives scale with the coefficient only where it is constant."""
-    from wearsim.study.steady_coefficient import check_steady_coefficient
+    from wearsim.runner.scaled_percentiles import check_steady_coefficient
 
     tables = {
         "format_version": 1,

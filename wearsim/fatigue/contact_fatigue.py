@@ -61,22 +61,6 @@ def fatigue_life(
 ) -> EnduredHours:
     """Return the hours for which the contact stresses of a flank are allowed.
 
-    Parameters
-    ----------
-    material : FlankMaterial
-        Of the flank.
-    stresses : sequence of tuple of float
-        Pairs of a contact stress [MPa] and its share of all cycles.
-    cycles_per_hour : float
-        How often a flank is loaded in an hour.
-    hours : float
-        Running time to which a stress that is always allowed is looked at, at least [h].
-
-    Returns
-    -------
-    EnduredHours
-        By strength.md (21) to (26); 0 h where the highest stress is allowed at no time.
-
     Examples
     --------
     23 HRC / 1.2 of carburised teeth, N_HG = 1.2e8, K = 1.4 and so 1.2e8 K^-6 cycles:

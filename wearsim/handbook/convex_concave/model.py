@@ -70,23 +70,23 @@ class MeasuredGear:
 class PairLayout:
     """A pair with everything that the command shows."""
 
-    pair: ConvexConcave  # the pair
-    # standard gears of the same module, teeth, addendum, and of the pressure angle in the pitch point
+    pair: ConvexConcave  #: the pair
+    #: standard gears of the same module, teeth, addendum, and of the pressure angle in the pitch point
     involute: InvolutePair
-    contacts: tuple[ZoneContact, ...]  # pole, best place and end of both zones
-    rack_arcs: tuple[RackArc, ...]  # of the halves that cut the pinion's head and foot
-    bodies: tuple[MeasuredGear, MeasuredGear]  # pinion and wheel
-    face_width: float  # of the solids [mm]
+    contacts: tuple[ZoneContact, ...]  #: pole, best place and end of both zones
+    rack_arcs: tuple[RackArc, ...]  #: of the halves that cut the pinion's head and foot
+    bodies: tuple[MeasuredGear, MeasuredGear]  #: pinion and wheel
+    face_width: float  #: of the solids [mm]
 
 
 @dataclass(frozen=True)
 class GearBlanks:
     """What outlines and measurement need besides the flanks."""
 
-    face_width: float | None = None  # [mm]; ten modules if left out
+    face_width: float | None = None  #: [mm]; ten modules if left out
     root_form: Literal["fillet", "radial"] = "fillet"
-    root_clearance_ratio: float | None = None  # over the module
-    roller_diameters: Sequence[float] | None = None  # [mm]
+    root_clearance_ratio: float | None = None  #: over the module
+    roller_diameters: Sequence[float] | None = None  #: [mm]
 
 
 def pair_layout(
@@ -177,22 +177,7 @@ def _contacts(zone: Zone, involute: InvolutePair) -> list[ZoneContact]:
 
 
 def involute_radius(zone: Zone, alpha: float, involute: InvolutePair) -> float:
-    """Return the reduced radius of the involute pair as far from the pitch point as a contact.
-
-    Parameters
-    ----------
-    zone : Zone
-        Where on the path of contact.
-    alpha : float
-        Pressure angle [rad].
-    involute : InvolutePair
-        The pair.
-
-    Returns
-    -------
-    float
-        Radius [mm]; nan beyond its path of contact.
-    """
+    """Return the reduced radius of the involute pair as far from the pitch point as a contact."""
     path = float(zone.pinion.path_coordinate(alpha))
     if not -involute.approach <= path <= involute.recess:
         return math.nan

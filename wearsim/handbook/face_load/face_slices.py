@@ -26,24 +26,7 @@ class WideMesh:
 
     @classmethod
     def of(cls, face_width: float, slices: int, stiffness: float, force: float) -> Self:
-        """Cut a face width into equal slices.
-
-        Parameters
-        ----------
-        face_width : float
-            Face width [mm].
-        slices : int
-            Number of distances between their positions.
-        stiffness : float
-            Load per width over deflection [N/mm2].
-        force : float
-            On the whole face [N].
-
-        Returns
-        -------
-        WideMesh
-            With one position more than slices.
-        """
+        """Cut a face width into equal slices."""
         width = np.full(slices + 1, face_width / slices)
         width[[0, -1]] *= 0.5
         position = face_width * np.linspace(-0.5, 0.5, slices + 1)
@@ -98,20 +81,7 @@ def slice_loads(mesh: WideMesh, gap: Vector) -> Vector:
 
 
 def load_moments(mesh: WideMesh, loads: Vector) -> Vector:
-    """Moment of the load about mid-face.
-
-    Parameters
-    ----------
-    mesh : WideMesh
-        The mesh.
-    loads : numpy.ndarray
-        Load per width [N/mm], slices along the last axis.
-
-    Returns
-    -------
-    numpy.ndarray
-        Without that axis [N mm].
-    """
+    """Moment of the load about mid-face."""
     turning: Vector = loads @ (mesh.width * mesh.position)
     return turning
 
@@ -122,23 +92,6 @@ def self_aligned_gap(mesh: WideMesh, gap: Vector, share: Vector, lever: float | 
     The meshes that change rock the pinion into the position in which the mean moment vanishes. In
     a mesh whose moment there exceeds what friction in the pivot holds, F times the lever, the
     pinion tilts until it is just held.
-
-    Parameters
-    ----------
-    mesh : WideMesh
-        The mesh.
-    gap : numpy.ndarray
-        Of each kind of mesh [mm]; kinds by slices.
-    share : numpy.ndarray
-        Share of the meshes of each kind.
-    lever : float or None
-        Coefficient of friction times radius of the pivot [mm], 0 for one without friction; None
-        for a pinion that follows the mean only.
-
-    Returns
-    -------
-    numpy.ndarray
-        Of the shape of the gap [mm].
     """
     steepest = float(np.abs(np.diff(gap) / np.diff(mesh.position)).max())
     if steepest == 0.0:

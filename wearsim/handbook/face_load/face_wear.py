@@ -117,33 +117,11 @@ class WearingFace:
     aligned: Callable[[Vector], Vector] = _untilted
 
     def loads(self, opening: Vector) -> Vector:
-        """Load per width after some wear.
-
-        Parameters
-        ----------
-        opening : numpy.ndarray
-            By which the gap has opened [mm], kinds of mesh by slices.
-
-        Returns
-        -------
-        numpy.ndarray
-            Of the same shape [N/mm].
-        """
+        """Load per width after some wear."""
         return slice_loads(self.mesh, self.aligned(self.gap + opening))
 
     def run_in(self, hours: float) -> FaceRunningIn:
-        """Wear the mesh until its load changes no more.
-
-        Parameters
-        ----------
-        hours : float
-            Running time to report besides [h].
-
-        Returns
-        -------
-        RunningIn
-            Complete.
-        """
+        """Wear the mesh until its load changes no more."""
         unit = self.rates.hours(self.mesh.stiffness, self.rates.total)
         requested = hours / unit
         opening, end, settled = self._opening()

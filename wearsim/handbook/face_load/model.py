@@ -25,31 +25,31 @@ _PHASES = 8
 class WidePair:
     """A wide pair of spur gears."""
 
-    face_width: float  # b [mm]
-    pinion_pitch_diameter: float  # [mm]
-    gear_ratio: float  # u
-    mesh_stiffness: float = 2e4  # of the mesh over the face width [N/mm2]
-    slices: int = 200  # of the face
+    face_width: float  #: b [mm]
+    pinion_pitch_diameter: float  #: [mm]
+    gear_ratio: float  #: u
+    mesh_stiffness: float = 2e4  #: of the mesh over the face width [N/mm2]
+    slices: int = 200  #: of the face
 
 
 @dataclass(frozen=True)
 class FaceGaps:
     """Gap of the unloaded flanks over the face width [mm]."""
 
-    fixed: float = 0.0  # of one edge over the other, at every mesh
-    varying: float = 0.0  # the same of the part that changes, at most
+    fixed: float = 0.0  #: of one edge over the other, at every mesh
+    varying: float = 0.0  #: the same of the part that changes, at most
     varies_with: VariesWith = "load"
-    crown: float = 0.0  # of both edges over mid-face
+    crown: float = 0.0  #: of both edges over mid-face
 
 
 @dataclass(frozen=True)
 class FlankWear:
     """What the flanks lose."""
 
-    specific_wear_rate: float  # of the pinion, k [mm2/N]
-    slip_ratio: float  # sliding speed over the speed of the contact along the flank, mean of both flanks
-    hours: float  # time at which the worn state is shown [h]
-    wheel_wear_ratio: float = 1.0  # wear rate of the wheel over that of the pinion
+    specific_wear_rate: float  #: of the pinion, k [mm2/N]
+    slip_ratio: float  #: sliding speed over the speed of the contact along the flank, mean of both flanks
+    hours: float  #: time at which the worn state is shown [h]
+    wheel_wear_ratio: float = 1.0  #: wear rate of the wheel over that of the pinion
 
 
 def gap_kinds(
@@ -135,15 +135,15 @@ def wear_rates(
 class FaceLoad:
     """The load along the face of a wide pair."""
 
-    mesh: WideMesh  # slices, stiffness and force
-    share: Vector  # share of the meshes of each kind
-    # fixed_hours, varying_hours: time in which wear takes all but 1/e of a gap that is the same at every
-    # mesh, and of the part that changes [h], infinite where no flank follows it
+    mesh: WideMesh  #: slices, stiffness and force
+    share: Vector  #: share of the meshes of each kind
+    #: fixed_hours, varying_hours: time in which wear takes all but 1/e of a gap that is the same at every
+    #: mesh, and of the part that changes [h], infinite where no flank follows it
     fixed_hours: float
     varying_hours: float
-    # friction lever of the pivot of a self-aligning pinion [mm]; None where it follows the mean gap only
+    #: friction lever of the pivot of a self-aligning pinion [mm]; None where it follows the mean gap only
     lever: float | None
-    # fixed, self_aligning: with a pinion that cannot tilt and with one that can
+    #: fixed, self_aligning: with a pinion that cannot tilt and with one that can
     fixed: FaceRunningIn
     self_aligning: FaceRunningIn
 

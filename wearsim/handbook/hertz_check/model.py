@@ -31,18 +31,6 @@ REFERENCES = ("larger", "hertz", "finite_elements")
 def difference(hertz: float, finite_elements: float, reference: str) -> float:
     """Return the difference of two stresses in percent of one of them.
 
-    Parameters
-    ----------
-    hertz, finite_elements : float
-        The stresses [MPa].
-    reference : {"larger", "hertz", "finite_elements"}
-        Which of them is the whole.
-
-    Returns
-    -------
-    float
-        Percent, at least 0.
-
     Examples
     --------
     >>> round(difference(464.0, 418.0, "larger"), 4), round(difference(185.6, 216.0, "larger"), 4)
@@ -59,20 +47,6 @@ def difference(hertz: float, finite_elements: float, reference: str) -> float:
 def stresses_at(hertz: float, percent: float, reference: str) -> tuple[float, float]:
     """Return the stresses of finite elements that differ by a percentage from Hertz'.
 
-    Parameters
-    ----------
-    hertz : float
-        Hertz' stress [MPa].
-    percent : float
-        Difference, above 0 and below 100.
-    reference : {"larger", "hertz", "finite_elements"}
-        What it is relative to.
-
-    Returns
-    -------
-    tuple of float
-        The lower and the higher one [MPa].
-
     Examples
     --------
     >>> [round(stress, 3) for stress in stresses_at(259.84, 12.3, "larger")]
@@ -86,20 +60,6 @@ def stresses_at(hertz: float, percent: float, reference: str) -> tuple[float, fl
 
 def whole_stresses(hertz: float, percent: float, reference: str) -> list[int]:
     """Return the whole stresses whose difference from Hertz' rounds to a percentage.
-
-    Parameters
-    ----------
-    hertz : float
-        Hertz' stress [MPa].
-    percent : float
-        Difference as printed, to a tenth.
-    reference : {"larger", "hertz", "finite_elements"}
-        What it is relative to.
-
-    Returns
-    -------
-    list of int
-        In MPa, in rising order.
 
     Examples
     --------
@@ -125,7 +85,7 @@ class TeethOfPair:
 
     pinion_teeth: int
     wheel_teeth: int
-    module: float  # [mm]
+    module: float  #: [mm]
 
 
 @dataclass(frozen=True)
@@ -169,13 +129,13 @@ class Comparison:
 class HertzCheck:
     """What there is to say about a contact at the pitch point."""
 
-    contact: PitchPointContact  # the contact
-    literal: list[PitchPointContact]  # the combinations of the input; empty where none are asked for
-    teeth: TeethOfPair | None  # as given
-    contact_ratio: float  # of the teeth without profile shift; nan where they are not given
-    target: float  # the published contact stress by Hertz [MPa]; nan where none is
-    changes: list[InputChange]  # what each key alone must be for it
-    comparison: Comparison | None  # the published comparison, where there is one
+    contact: PitchPointContact  #: the contact
+    literal: list[PitchPointContact]  #: the combinations of the input; empty where none are asked for
+    teeth: TeethOfPair | None  #: as given
+    contact_ratio: float  #: of the teeth without profile shift; nan where they are not given
+    target: float  #: the published contact stress by Hertz [MPa]; nan where none is
+    changes: list[InputChange]  #: what each key alone must be for it
+    comparison: Comparison | None  #: the published comparison, where there is one
 
 
 def pitch_point_check(

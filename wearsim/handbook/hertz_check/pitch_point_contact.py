@@ -32,14 +32,14 @@ class PitchPointContact:
     (453.938082, 454.160863)
     """
 
-    torque: float  # t1 of the pinion [N mm]
-    gear_ratio: float  # u
-    face_width: float  # b [mm]
-    pitch_diameter: float  # d_w1, of the pinion's working pitch circle [mm]
-    pressure_angle: float  # alpha_w, working [rad]
-    load_factor: float = 1.0  # load over the nominal one
-    youngs_modulus: tuple[float, float] = (2.1e5, 2.1e5)  # of pinion and wheel [MPa]
-    poissons_ratio: float = 0.3  # of both
+    torque: float  #: t1 of the pinion [N mm]
+    gear_ratio: float  #: u
+    face_width: float  #: b [mm]
+    pitch_diameter: float  #: d_w1, of the pinion's working pitch circle [mm]
+    pressure_angle: float  #: alpha_w, working [rad]
+    load_factor: float = 1.0  #: load over the nominal one
+    youngs_modulus: tuple[float, float] = (2.1e5, 2.1e5)  #: of pinion and wheel [MPa]
+    poissons_ratio: float = 0.3  #: of both
 
     @property
     def normal_force(self) -> float:
@@ -124,20 +124,7 @@ class PitchPointContact:
 def combinations(
     contact: PitchPointContact, torques: Sequence[float], widths: Sequence[float], ratios: Sequence[float]
 ) -> list[PitchPointContact]:
-    """Return a contact with every torque, face width and gear ratio.
-
-    Parameters
-    ----------
-    contact : PitchPointContact
-        What all else is taken from.
-    torques, widths, ratios : sequence of float
-        T1 [N mm], b [mm] and u; empty takes the contact's own.
-
-    Returns
-    -------
-    list of PoleContact
-        The last varies fastest.
-    """
+    """Return a contact with every torque, face width and gear ratio."""
     return [
         replace(contact, torque=torque, face_width=width, gear_ratio=ratio)
         for torque, width, ratio in product(
@@ -187,20 +174,6 @@ _SPAN = 100.0
 def single_changes(contact: PitchPointContact, target: float, rounding: float) -> list[InputChange]:
     """Return what each key alone must be for the printed formula to give a contact stress.
 
-    Parameters
-    ----------
-    contact : PitchPointContact
-        What all other keys are taken from.
-    target : float
-        Contact stress [MPa].
-    rounding : float
-        By how much it may be rounded [MPa].
-
-    Returns
-    -------
-    list of Change
-        One for each key, within a factor of 100; a pressure angle up to 45 degrees.
-
     Examples
     --------
     >>> pair = PitchPointContact(240e3, 1.5, 76.0, 108.0, math.radians(20.0))
@@ -238,18 +211,5 @@ def _factor(contact: PitchPointContact, key: str, target: float) -> float:
 
 
 def share_for(contact: PitchPointContact, target: float) -> float:
-    """Return the share of the load with which the printed formula gives a contact stress.
-
-    Parameters
-    ----------
-    contact : PitchPointContact
-        The contact under the whole load.
-    target : float
-        Contact stress [MPa].
-
-    Returns
-    -------
-    float
-        (target/sigma_H)^2, for the stress grows with the root of the load.
-    """
+    """Return the share of the load with which the printed formula gives a contact stress."""
     return (target / contact.printed_stress) ** 2

@@ -25,27 +25,7 @@ class AxisFile:
 def load_hertz_check(
     source: CaseSource, overrides: Sequence[str] = ()
 ) -> tuple[HertzCheckTables, AxisFile | None]:
-    """Return the tables of a check, and the stresses of ``finite_elements.axis_file``.
-
-    Parameters
-    ----------
-    source : path or mapping
-        A TOML file, or its tables as dictionaries.
-    overrides : sequence of str
-        ``table.key=VALUE``, applied before validation; VALUE is TOML, else a string.
-
-    Returns
-    -------
-    HertzCheckTables
-        Its title is the name of the file where none is given.
-    AxisFile or None
-        None where no file is named.
-
-    Raises
-    ------
-    CaseError
-        Everything that is wrong with the input, with file and line.
-    """
+    """Return the tables of a check, and the stresses of ``finite_elements.axis_file``."""
     document = read_document(source, overrides)
     document.data.setdefault("title", document.name)
     tables = checked(document, HertzCheckTables)

@@ -136,18 +136,7 @@ class StepFunction:
         return float((self.values - self.mean) ** 2 @ self.widths) / _FULL
 
     def at(self, angles: ArrayLike) -> Floats:
-        """Return values at angles.
-
-        Parameters
-        ----------
-        angles : array_like
-            Any angles [rad].
-
-        Returns
-        -------
-        ndarray
-            One value each.
-        """
+        """Return values at angles."""
         place = np.searchsorted(self.edges, np.mod(angles, _FULL), side="right")
         return np.asarray(self.values[place - 1])
 
@@ -186,18 +175,7 @@ class StepFunction:
 
 
 def pulses(starts: Floats, ends: Floats) -> StepFunction:
-    """Count the pulses that are on.
-
-    Parameters
-    ----------
-    starts, ends : ndarray
-        Angles [rad], of each pulse; it is shorter than 2 pi.
-
-    Returns
-    -------
-    StepFunction
-        Number of pulses at an angle.
-    """
+    """Count the pulses that are on."""
     across = np.count_nonzero(np.mod(starts, _FULL) > np.mod(ends, _FULL))
     starts, ends = (np.sort(np.mod(angles, _FULL)) for angles in (starts, ends))
     edges, middles = _edges(np.concatenate((starts, ends)))
@@ -216,20 +194,6 @@ def wheel_contacts(wheel: Wheel, ratio: float, turns: int = 1) -> StepFunction:
     """Count the teeth of one wheel that are in their contact pulse.
 
     Tooth i is on while its angle is within pi eps/z of ``tooth_angles``.
-
-    Parameters
-    ----------
-    wheel : Wheel
-        The wheel.
-    ratio : float
-        eps.
-    turns : int
-        Turns that the wheel makes in a period of the function.
-
-    Returns
-    -------
-    StepFunction
-        Number of teeth.
     """
     turn = _FULL * np.arange(turns)[:, np.newaxis]
     centres = ((wheel.tooth_angles + turn) / turns).ravel()
@@ -238,23 +202,7 @@ def wheel_contacts(wheel: Wheel, ratio: float, turns: int = 1) -> StepFunction:
 
 
 def contact_number(pair: GearPair, model: Literal["pairs", "double_sum"]) -> StepFunction:
-    """Count contacts of a gear pair over the common period.
-
-    Parameters
-    ----------
-    pair : GearPair
-        The wheels.
-    model : {"pairs", "double_sum"}
-        Whether only teeth that mate touch, while both are in their pulses, or whether, as in the
-        source, every tooth in its pulse touches every such tooth of the other wheel: the sum of
-        eps_i eps_q over all i and q is the product of the two wheels' numbers, so that two teeth
-        in contact count as four.
-
-    Returns
-    -------
-    StepFunction
-        N over the angle of the common period.
-    """
+    """Count contacts of a gear pair over the common period."""
     pinion, wheel = pair.pinion, pair.wheel
     if model == "double_sum":
         first = wheel_contacts(pinion, pair.contact_ratio, pair.pinion_turns)
@@ -272,22 +220,7 @@ def contact_number(pair: GearPair, model: Literal["pairs", "double_sum"]) -> Ste
 
 
 def check_order(wheel: Wheel, place: str, pitch_radius: float) -> None:
-    """Raise where the pitch error puts a tooth before the one ahead of it.
-
-    Parameters
-    ----------
-    wheel : Wheel
-        The wheel.
-    place : str
-        Its table of the input.
-    pitch_radius : float
-        Radius of its pitch circle [mm].
-
-    Raises
-    ------
-    GeometryError
-        Two teeth change places.
-    """
+    """Raise where the pitch error puts a tooth before the one ahead of it."""
     limit = wheel.greatest_error_angle
     if wheel.error_angle >= limit:
         raise GeometryError(

@@ -109,22 +109,6 @@ def series_coefficients(
 
     S_h = sum of C1(n) C2(m) over n R1 + m R2 = h, |n| and |m| <= limit. The jumps of the pulses
     let it converge as 1/limit only. The source keeps n, m >= 0 only (``printed_sums``).
-
-    Parameters
-    ----------
-    pair : GearPair
-        The wheels.
-    harmonics : array_like of int
-        h, in common periods of the pair.
-    limit : int
-        Greatest |n| and |m|.
-    formula : str
-        Corrected or with slips of the source.
-
-    Returns
-    -------
-    ndarray of complex
-        S_h.
     """
     first, second = (
         bessel_coefficients(wheel, pair.contact_ratio, limit, formula) for wheel in (pair.pinion, pair.wheel)
@@ -141,18 +125,5 @@ def series_coefficients(
 
 
 def one_sided(coefficients: Complexes, formula: Formula = "corrected") -> Floats:
-    """Amplitudes of cosines from two-sided coefficients of lines above 0.
-
-    Parameters
-    ----------
-    coefficients : ndarray of complex
-        S_h, h > 0.
-    formula : str
-        ``printed`` and ``printed_amplitude`` leave out the factor 2, as the source does.
-
-    Returns
-    -------
-    ndarray
-        2 |S_h|.
-    """
+    """Amplitudes of cosines from two-sided coefficients of lines above 0."""
     return np.asarray((1.0 if formula in _PRINTED_AMPLITUDE else 2.0) * np.abs(coefficients))

@@ -114,14 +114,14 @@ def mesh_stiffness(contacts: Floats, force: float, constant: float, exponent: fl
 class LoadedTeeth:
     """Load and bodies for the deflection of a pair; give one of force and torque."""
 
-    pinion_curvature_radius: float  # of the flanks where they touch [mm]
+    pinion_curvature_radius: float  #: of the flanks where they touch [mm]
     wheel_curvature_radius: float
-    force: float | None = None  # along the common normal [N]
-    pinion_torque: float | None = None  # [N mm]
-    youngs_modulus: float = 2.1e5  # [MPa]
+    force: float | None = None  #: along the common normal [N]
+    pinion_torque: float | None = None  #: [N mm]
+    youngs_modulus: float = 2.1e5  #: [MPa]
     poissons_ratio: float = 0.3
     energy_exponent: float = 2.5
-    formula: str | None = None  # `printed`: the force along the pitch circle is taken for the normal one
+    formula: str | None = None  #: `printed`: the force along the pitch circle is taken for the normal one
 
 
 def mesh_statics(

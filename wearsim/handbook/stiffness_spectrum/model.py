@@ -70,15 +70,15 @@ class SpectrumLine:
 class StiffnessSpectrum:
     """The whole answer."""
 
-    pair: GearPair  # the wheels
-    # contacts, ideal: number of contacts over the common period, with the pitch errors and without
+    pair: GearPair  #: the wheels
+    #: contacts, ideal: number of contacts over the common period, with the pitch errors and without
     contacts: StepFunction
     ideal: StepFunction
-    lines: tuple[SpectrumLine, ...]  # by frequency, the mean apart
-    series_mean: float  # mean number of contacts by the closed form; nan where there is none
-    mesh_frequency: float  # fz [Hz]; nan without a speed
-    statics: MeshStatics | None  # where a load is given
-    # wheel whose tips reach beyond the tangent point of the other, empty where none does
+    lines: tuple[SpectrumLine, ...]  #: by frequency, the mean apart
+    series_mean: float  #: mean number of contacts by the closed form; nan where there is none
+    mesh_frequency: float  #: fz [Hz]; nan without a speed
+    statics: MeshStatics | None  #: where a load is given
+    #: wheel whose tips reach beyond the tangent point of the other, empty where none does
     beyond_involute: str
 
     @property
@@ -92,9 +92,9 @@ class ToothErrors:
     """Teeth of a wheel and its pitch error, a sine over the tooth number."""
 
     teeth: int
-    pitch_error: float  # amplitude along the pitch circle [mm]
-    error_order: int = 1  # waves in a turn
-    error_phase: float = 0.0  # [rad]
+    pitch_error: float  #: amplitude along the pitch circle [mm]
+    error_order: int = 1  #: waves in a turn
+    error_phase: float = 0.0  #: [rad]
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class SpectrumChoice:
     model: Literal["pairs", "double_sum"] = "pairs"
     tooth_harmonics: int = 3
     sideband_order: int = 2
-    formula: Formula | None = None  # of the closed form of `double_sum`
+    formula: Formula | None = None  #: of the closed form of `double_sum`
     series_harmonics: int | None = None
 
 

@@ -43,19 +43,19 @@ class GearMaterial:
     Stresses and moduli in MPa.
     """
 
-    treatment: str  # of `wearsim.fatigue.heat_treatment.treatments`
-    hardness_HB: float | None = None  # of the flanks: give one of both
+    treatment: str  #: of `wearsim.fatigue.heat_treatment.treatments`
+    hardness_HB: float | None = None  #: of the flanks: give one of both
     hardness_HRC: float | None = None
-    core_hardness_HRC: float | None = None  # of nitrided teeth
+    core_hardness_HRC: float | None = None  #: of nitrided teeth
     yield_strength: float | None = None
     youngs_modulus: float = 2.1e5
     poissons_ratio: float = 0.3
     meshings_per_revolution: int = 1
-    contact_limit: float | None = None  # sigma_Hlim; of nitrided teeth it must be given
+    contact_limit: float | None = None  #: sigma_Hlim; of nitrided teeth it must be given
     contact_base_cycles: float | None = None
     contact_safety: float | None = None
     greatest_contact_life_factor: float | None = None
-    greatest_contact: float | None = None  # allowed in an overload
+    greatest_contact: float | None = None  #: allowed in an overload
     roughness_factor: float = 1.0
     speed_factor: float = 1.0
     bending_limit: float | None = None
@@ -83,8 +83,8 @@ class StrengthRules:
     """How the curves of fatigue are read, and the safety in an overload."""
 
     base_cycles: Literal["gost", "source"] = "gost"
-    long_life: Literal["constant", "gost"] = "constant"  # by GOST the curve goes on falling
-    overload_ratio: float | None = None  # greatest torque over the largest long-acting one
+    long_life: Literal["constant", "gost"] = "constant"  #: by GOST the curve goes on falling
+    overload_ratio: float | None = None  #: greatest torque over the largest long-acting one
     overload_frequency_factor: float = 1.0
     static_safety: float = 1.75
 
@@ -93,17 +93,17 @@ class StrengthRules:
 class PairLoad:
     """What a pair carries, and the factors on it."""
 
-    pinion_torque: float  # largest long-acting one [N mm]
-    module: float  # [mm]
+    pinion_torque: float  #: largest long-acting one [N mm]
+    module: float  #: [mm]
     pinion_teeth: int
-    face_width: float  # [mm]
+    face_width: float  #: [mm]
     initial_face_load_factor: float
     running_in_share: float
     contact_dynamic_factor: float
     bending_dynamic_factor: float
-    pressure_angle: float = math.radians(20.0)  # [rad]
-    application_factor: float | None = None  # K_A
-    accuracy_grade: int | None = None  # give it or the next
+    pressure_angle: float = math.radians(20.0)  #: [rad]
+    application_factor: float | None = None  #: K_A
+    accuracy_grade: int | None = None  #: give it or the next
     initial_transverse_load_factor: float | None = None
     formula: Literal["corrected", "printed"] = "corrected"
 
@@ -171,11 +171,11 @@ class StressCheck:
 class PairStrength:
     """Strength of a gear pair."""
 
-    hours: float  # running time asked for [h]
-    spectrum: LoadSpectrum  # the loads
-    peak: float  # largest torque over the largest long-acting one
-    gears: tuple[GearEndurance, GearEndurance]  # pinion and wheel
-    load: ToothLoad | None  # none where the case gives no load
+    hours: float  #: running time asked for [h]
+    spectrum: LoadSpectrum  #: the loads
+    peak: float  #: largest torque over the largest long-acting one
+    gears: tuple[GearEndurance, GearEndurance]  #: pinion and wheel
+    load: ToothLoad | None  #: none where the case gives no load
 
     @property
     def contact_governs(self) -> GearEndurance:
@@ -203,18 +203,6 @@ class PairStrength:
 
 def first_life(lives: Sequence[EnduredHours]) -> tuple[int, EnduredHours]:
     """Return the life that ends first: a life that ends at all before one that is only bounded.
-
-    Parameters
-    ----------
-    lives : sequence of EnduredHours
-        Of the parts.
-
-    Returns
-    -------
-    int
-        Which one it is.
-    EnduredHours
-        It; the least bound where none ends.
 
     Examples
     --------
@@ -415,18 +403,7 @@ def _load_factors(load: PairLoad, constant: bool) -> tuple[LoadFactor, LoadFacto
 
 
 def shown_hours(pair: PairStrength) -> tuple[float, float]:
-    """Return the hours over which allowable stresses are shown.
-
-    Parameters
-    ----------
-    pair : PairStrength
-        The pair.
-
-    Returns
-    -------
-    tuple of float
-        First and last [h]: around the life asked for and the ends of all curves.
-    """
+    """Return the hours over which allowable stresses are shown."""
     marks = [pair.hours]
     for gear in pair.gears:
         marks += [one.curve.flat_from / one.equivalent_cycles_at(1.0) for one in (gear.contact, gear.bending)]

@@ -34,17 +34,6 @@ class LoadSpectrum:
 
         mu = sum (T_i/T)^k N_i/N, strength.md (22).
 
-        Parameters
-        ----------
-        exponent : float
-            Of the torque: 3 for contact, where stress goes with its root and cycles with the
-            sixth power of stress; m for bending.
-
-        Returns
-        -------
-        float
-            mu, up to 1.
-
         Examples
         --------
         >>> LoadSpectrum("two steps", ((1.0, 0.5), (0.5, 0.5))).equivalence(3)
@@ -61,16 +50,6 @@ def regime_spectrum(name: str) -> LoadSpectrum:
 
     Its factors for contact and for m = 6 and 9 are those printed in table 2.2; for another
     exponent they follow from the blocks of `wearsim.catalogue.catalogues`.
-
-    Parameters
-    ----------
-    name : str
-        ``0`` (constant), or ``I`` to ``V``.
-
-    Returns
-    -------
-    Spectrum
-        Without overloads.
 
     Examples
     --------
@@ -90,23 +69,6 @@ def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> LoadSpe
     """Return what a load spectrum comes to, its overloads set apart.
 
     Overloads are the largest torques as long as they act, together, for less than 5e4 cycles.
-
-    Parameters
-    ----------
-    steps : sequence of tuple of float
-        Torque, in any unit, and the cycles for which it acts over the life.
-    total : float
-        Load cycles over the life; those of overloads may come on top.
-
-    Returns
-    -------
-    Spectrum
-        Relative to the largest long-acting torque.
-
-    Raises
-    ------
-    GeometryError
-        Torques above 0 do not act for 5e4 cycles.
 
     Examples
     --------

@@ -23,13 +23,13 @@ _NEAREST = 1e-6
 class MeshPhase:
     """A synthesised path of contact."""
 
-    family: Family  # which of the two pairs of profiles
-    line: PathOfContact  # its points, from its first distance to its last
-    involute: PathOfContact  # the involute of the same pair at the same distances
-    # l [mm] and alpha [rad] where the line ends on the way from its start to the pitch point; none for a line
-    # through the pitch point, and for one with no end before it or before the last stress that is given
+    family: Family  #: which of the two pairs of profiles
+    line: PathOfContact  #: its points, from its first distance to its last
+    involute: PathOfContact  #: the involute of the same pair at the same distances
+    #: l [mm] and alpha [rad] where the line ends on the way from its start to the pitch point; none for a
+    #: line through the pitch point, and for one with no end before it or before the last stress that is given
     inner_end: tuple[float, float] | None
-    through_pitch_point: bool  # whether it started from the pitch point
+    through_pitch_point: bool  #: whether it started from the pitch point
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,10 +51,10 @@ class MeshField:
 class PhaseStart:
     """Where a path of contact runs: through the pitch point, or from a point beside it."""
 
-    last_distance: float  # signed distance of its last point from the pitch point [mm]
-    first_distance: float | None = None  # the same of the first, for a path through the pitch point
-    start: tuple[float, float] | None = None  # else distance [mm] and pressure angle [rad] of the start
-    family: Family = 1  # which of the two pairs of profiles
+    last_distance: float  #: signed distance of its last point from the pitch point [mm]
+    first_distance: float | None = None  #: the same of the first, for a path through the pitch point
+    start: tuple[float, float] | None = None  #: else distance [mm] and pressure angle [rad] of the start
+    family: Family = 1  #: which of the two pairs of profiles
     nodes: int = 201
 
 
@@ -64,8 +64,8 @@ class MeshPlane:
 
     x: tuple[float, float]
     y: tuple[float, float]
-    nodes: int = 81  # along each side
-    directions: tuple[float, ...] = ()  # angles between path of contact and normal [deg]
+    nodes: int = 81  #: along each side
+    directions: tuple[float, ...] = ()  #: angles between path of contact and normal [deg]
 
 
 def loaded_pair(

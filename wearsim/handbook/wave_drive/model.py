@@ -139,8 +139,8 @@ class MethodDiameter:
 class MethodComparison:
     """The methods side by side."""
 
-    diameters: tuple[MethodDiameter, ...]  # in the order of the source
-    # why a method that the file says nothing about has no diameter with its defaults
+    diameters: tuple[MethodDiameter, ...]  #: in the order of the source
+    #: why a method that the file says nothing about has no diameter with its defaults
     left_out: Mapping[str, str]
 
 
@@ -154,7 +154,7 @@ def flexspline_diameters(
 ) -> MethodComparison:
     """Return the diameter of a flexspline by several methods, with what each rests on.
 
-    Formulas of six textbooks as collected by Tkachenko (2010), wave-drive.md (1) to (10).
+    Formulas of six textbooks as collected by Tkachenko (2010), wave-drive.md (1) to (8).
 
     Parameters
     ----------
