@@ -45,29 +45,15 @@ class WearLaw:
     """Depth per unit of sliding = coefficient * sigma_H^m * v_s^n, with sigma in MPa, v in mm/s.
 
     Equations physics.md (L1) and (L3).
-
-    Attributes
-    ----------
-    coefficient : float
-        K [1/MPa^m (s/mm)^n], above 0.
-    pressure_exponent : float
-        m, above 0.
-    speed_exponent : float
-        n.
-    case_depth : float
-        Depth of the hardened layer [mm], infinite where there is none.
-    core_factor : float
-        What the coefficient is multiplied by below it.
-    running_in : RunningIn
-        How the coefficient falls at first. The engines count cycles of constant coefficient;
-        it tells how a part that is renewed meanwhile runs in.
     """
 
-    coefficient: float
-    pressure_exponent: float
-    speed_exponent: float
-    case_depth: float = math.inf
-    core_factor: float = 1.0
+    coefficient: float  # K [1/MPa^m (s/mm)^n], above 0
+    pressure_exponent: float  # m, above 0
+    speed_exponent: float  # n
+    case_depth: float = math.inf  # depth of the hardened layer [mm], infinite where there is none
+    core_factor: float = 1.0  # what the coefficient is multiplied by below it
+    # how the coefficient falls at first. The engines count cycles of constant coefficient; it tells how a
+    # part that is renewed meanwhile runs in.
     running_in: RunningIn = NO_RUNNING_IN
 
     def numbers(self, kind: ContactKind) -> Vector:

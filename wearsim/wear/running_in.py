@@ -25,13 +25,6 @@ class RunningIn:
 
     Equation physics.md (R1).
 
-    Attributes
-    ----------
-    factor : float
-        f, first coefficient over the lasting one, at least 1.
-    cycles : float
-        N_r, over which the excess falls to 1/e.
-
     Examples
     --------
     After many times N_r cycles the excess has cost (f - 1) N_r of them:
@@ -40,8 +33,8 @@ class RunningIn:
     1000200.0
     """
 
-    factor: float
-    cycles: float
+    factor: float  # f, first coefficient over the lasting one, at least 1
+    cycles: float  # N_r, over which the excess falls to 1/e
 
     @property
     def amplification(self) -> float:

@@ -34,33 +34,16 @@ class GearPairMechanism:
     mates, as with hunting teeth or teeth all alike.
 
     Equation gears.md (4).
-
-    Attributes
-    ----------
-    pair : ToothPair
-        The new gears.
-    torque : float
-        Of the pinion over the face width [N].
-    angular_speed : float
-        Of the pinion [rad/s].
-    modulus : float
-        Contact modulus E* [MPa].
-    mate_coefficient : float
-        k2/k1, wear coefficient of the wheel over that of the pinion.
-    stiffness : float
-        Of one pair of teeth per face width [N/mm2]; 0 for rigid teeth that share the load
-        half and half.
-    points : int
-        Of the flank, at least 5.
     """
 
-    pair: ToothPair
-    torque: float
-    angular_speed: float
-    modulus: float
-    mate_coefficient: float
+    pair: ToothPair  # the new gears
+    torque: float  # of the pinion over the face width [N]
+    angular_speed: float  # of the pinion [rad/s]
+    modulus: float  # contact modulus E* [MPa]
+    mate_coefficient: float  # k2/k1, wear coefficient of the wheel over that of the pinion
+    # of one pair of teeth per face width [N/mm2]; 0 for rigid teeth that share the load half and half
     stiffness: float
-    points: int
+    points: int  # of the flank, at least 5
 
     @cached_property
     def mesh(self) -> Mesh:

@@ -89,37 +89,18 @@ class WrapLoads:
     """Equilibrium of the rollers of a wrap in one phase, tooth 1 at the tight end.
 
     Equation physics.md (W2), of the pressure angle.
-
-    Attributes
-    ----------
-    tension : numpy.ndarray
-        Of the link on the tight side of each roller, without the centrifugal part [N].
-    force : numpy.ndarray
-        Normal force on each tooth [N].
-    pressure_angle : numpy.ndarray
-        90 degrees - theta - 180/z with the contact's angle theta from the inward radius [rad].
-    seat_radius : numpy.ndarray
-        Distance of the roller's centre from the sprocket's [mm].
-    radius_shift : numpy.ndarray
-        The same less the pitch radius [mm].
-    contact_arc_length : numpy.ndarray
-        Where the outline is touched, from its right tip [mm].
-    centre : numpy.ndarray
-        Roller centres in the frame of the first gap [mm], shape (rollers, 2).
-    normal : numpy.ndarray
-        Unit normals out of the teeth there, shape (rollers, 2).
-    tight_direction, slack_direction : numpy.ndarray
-        Unit vectors along the strands, away from the sprocket.
     """
 
-    tension: Vector
-    force: Vector
+    tension: Vector  # of the link on the tight side of each roller, without the centrifugal part [N]
+    force: Vector  # normal force on each tooth [N]
+    # 90 degrees - theta - 180/z with the contact's angle theta from the inward radius [rad]
     pressure_angle: Vector
-    seat_radius: Vector
-    radius_shift: Vector
-    contact_arc_length: Vector
-    centre: NDArray[np.float64]
-    normal: NDArray[np.float64]
+    seat_radius: Vector  # distance of the roller's centre from the sprocket's [mm]
+    radius_shift: Vector  # the same less the pitch radius [mm]
+    contact_arc_length: Vector  # where the outline is touched, from its right tip [mm]
+    centre: NDArray[np.float64]  # roller centres in the frame of the first gap [mm], shape (rollers, 2)
+    normal: NDArray[np.float64]  # unit normals out of the teeth there, shape (rollers, 2)
+    # tight_direction, slack_direction: unit vectors along the strands, away from the sprocket
     tight_direction: Vector
     slack_direction: Vector
 
