@@ -42,9 +42,6 @@ class Drive:
     has_tooth: ClassVar[bool] = False
     """Whether the tooth around the flank is known."""
 
-    from_root: ClassVar[bool] = True
-    """Whether arc lengths count from the root of the flank."""
-
     @property
     def duty(self) -> tuple[LoadBlock, ...]:
         """Blocks of load; none where the load is one and the same."""

@@ -79,7 +79,6 @@ class WrapDrive(Drive):
 
     rests = True
     has_tooth = True
-    from_root = False
 
     @property
     def duty(self) -> tuple[LoadBlock, ...]:

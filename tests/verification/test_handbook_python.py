@@ -1,0 +1,227 @@
+"""Handbook calculations called with plain numbers, as from a notebook.
+
+Each is held against a closed form or a publication, and against what its command prints for its shipped case.
+"""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from wearsim.cli.main import wearsim_command
+from wearsim.errors import GeometryError
+from wearsim.handbook import (
+    convex_concave,
+    face_load,
+    hertz_check,
+    stiffness_spectrum,
+    strength,
+    synthesise,
+    wave_drive,
+)
+
+SIZING = Path(__file__).parents[2] / "cases" / "sizing"
+
+
+def printed(command, case):
+    done = CliRunner().invoke(wearsim_command, [command, str(SIZING / f"{case}.toml"), "--json"])
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout)
+
+
+def carburised(**others):
+    gear = strength.GearMaterial("carburised", hardness_HRC=59.5)
+    steps = [(1.0, 0.40), (0.7, 0.35), (0.4, 0.25)]
+    spectrum = [strength.SpectrumStep(torque, share_of_time=share) for torque, share in steps]
+    given = {
+        "pinion_speed": 1450.0,
+        "gear_ratio": 3.15,
+        "hours": 3000.0,
+        "load_spectrum": [*spectrum, strength.SpectrumStep(1.6, overload_cycles=2e4)],
+        "rules": strength.StrengthRules(overload_frequency_factor=1.2),
+    }
+    return strength.pair_strength(gear, gear, **(given | others))
+
+
+def test_strength():
+    """Case-hardened flanks of the source: 23 HRC over a safety of 1.2, beyond the base cycles."""
+    load = strength.PairLoad(
+        pinion_torque=540e3,
+        module=4.0,
+        pinion_teeth=20,
+        face_width=60.0,
+        initial_face_load_factor=1.2,
+        running_in_share=0.7,
+        accuracy_grade=8,
+        contact_dynamic_factor=1.1,
+        bending_dynamic_factor=1.2,
+    )
+    found, told = carburised(load=load), printed("strength", "strength-b-carburised")
+    assert found.contact_governs.contact.allowable == pytest.approx(23.0 * 59.5 / 1.2, rel=1e-12)
+    assert found.contact_governs.contact.allowable == told["allowable_contact_MPa"]
+    assert found.load.contact_stress == told["contact_stress_MPa"]
+    assert found.load.mesh.tangential_force == pytest.approx(2.0 * 540e3 / 80.0, rel=1e-12)
+    # 2/sin^2(20 deg) = 17.1 teeth.
+    assert load.undercut_below == 17
+
+
+def test_face_load():
+    """7.09 MW at 170 rpm on a radius of 325 mm and a face of 1 m: P/(omega r b) = 1225 N/mm."""
+    found = face_load.face_load_factors(
+        face_load.WidePair(face_width=1000.0, pinion_pitch_diameter=650.0, gear_ratio=12.5),
+        face_load.FaceGaps(fixed=0.12, varying=0.06),
+        face_load.FlankWear(1e-11, slip_ratio=0.3, hours=8000.0, wheel_wear_ratio=2.0),
+        power=7090.0,
+        pinion_speed=170.0,
+        pivot_friction_lever=20.0,
+    )
+    told = printed("face-load", "face-load-mill-drive")
+    assert found.mesh.mean_load == pytest.approx(
+        7.09e9 / (math.tau * 170.0 / 60.0 * 325.0 * 1000.0), rel=1e-12
+    )
+    assert found.mesh.mean_load == told["mean_load_per_width_N_per_mm"]
+    assert [state.factor for state in found.fixed.states] == [
+        state["face_load_factor"] for state in told["states"] if state["pinion_mounting"] == "fixed"
+    ]
+
+
+def test_wave_drive():
+    """The diameter by crushing of the flanks that was published, 159 mm."""
+    drive = {
+        "gear_ratio": 100.0,
+        "output_torque_N_m": 800.0,
+        "life_hours": 10_000.0,
+        "generator_speed_rpm": 1500.0,
+        "tooth_length_ratio": 0.2,
+    }
+    crushing = {"crushing": {"allowable_crushing_MPa": 10.0}}
+    (found,) = wave_drive.flexspline_diameters(drive, crushing, published={"crushing": 159.0}).diameters
+    assert found.diameter == pytest.approx(159.0, abs=0.5)
+    assert found.reproduces
+    told = {row["sizing_method"]: row for row in printed("wave-drive", "wave-drive-100")["methods"]}
+    assert found.diameter == told["crushing"]["flexspline_diameter_mm"]
+
+
+def test_stiffness_spectrum():
+    """Without errors as many teeth touch on average as the contact ratio says; 1500 rpm give 500 Hz."""
+    none = [stiffness_spectrum.ToothErrors(teeth, 0.0) for teeth in (20, 30)]
+    ideal = stiffness_spectrum.mesh_spectrum(*none, module=3.0, pinion_speed=1500.0)
+    assert ideal.contacts.mean == pytest.approx(ideal.pair.contact_ratio, rel=1e-12)
+    assert ideal.mesh_frequency == 500.0
+    found = stiffness_spectrum.mesh_spectrum(
+        stiffness_spectrum.ToothErrors(20, 0.020),
+        stiffness_spectrum.ToothErrors(30, 0.025),
+        module=3.0,
+        load=stiffness_spectrum.LoadedTeeth(10.0, 10.0, force=2000.0),
+    )
+    told = printed("stiffness-spectrum", "stiffness-spectrum-20-30")
+    assert found.pair.contact_ratio == told["contact_ratio"]
+    assert found.contacts.mean == told["mean_contacts"]
+
+
+def test_synthesise():
+    """454.16 MPa is Hertz' stress of the involute of 20 degrees in its pitch point."""
+    pair = synthesise.loaded_pair(
+        centre_distance=135.0,
+        gear_ratio=1.5,
+        contact_stress=[454.1608627],
+        pinion_torque=240e3,
+        face_width=76.0,
+        pinion_speed=1000.0,
+        youngs_modulus=(2.1e5, 2.1e5),
+    )
+    assert math.degrees(pair.pitch_point_crossing().pressure_angle) == pytest.approx(20.0, abs=1e-8)
+    start = synthesise.PhaseStart(first_distance=-10.0, last_distance=10.0)
+    (phase,) = synthesise.profile_phases(pair, [start])
+    told = printed("synthesise", "synthesise-constant-stress")["indices"][0]
+    assert math.degrees(phase.line.contacts.pressure_angle[0]) == told["pressure_angle_deg"]
+
+
+def test_hertz_check():
+    """0.418 sqrt(q E/rho) with q = 2 T/(d b cos a) and rho = d sin(a) u/(2 (u + 1))."""
+    angle = math.radians(20.0)
+    contact = hertz_check.PitchPointContact(240e3, 1.5, 76.0, 108.0, angle)
+    found = hertz_check.pitch_point_check(contact, teeth=hertz_check.TeethOfPair(36, 54, 3.0))
+    q = 2.0 * 240e3 / (108.0 * 76.0 * math.cos(angle))
+    rho = 108.0 * math.sin(angle) * 1.5 / (2.0 * 2.5)
+    assert found.contact.printed_stress == pytest.approx(0.418 * math.sqrt(q * 2.1e5 / rho), rel=1e-12)
+    told = printed("hertz-check", "hertz-check-36-54")["contact"]
+    assert found.contact.printed_stress == told["contact_stress_MPa"]
+
+
+def test_convex_concave():
+    found = convex_concave.pair_layout(
+        module=4.5,
+        pinion_teeth=17,
+        wheel_teeth=34,
+        addendum_arc_radius=10.0,
+        blanks=convex_concave.GearBlanks(face_width=45.0, roller_diameters=[7.0]),
+    )
+    told = printed("convex-concave", "convex-concave-17-34")
+    assert found.pair.centre_distance == 4.5 * (17 + 34) / 2.0 == told["centre_distance_mm"]
+    assert found.pair.contact_ratio == told["contact_ratio"]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: carburised(hours=0.0), "strength: hours must be a number above 0, is 0"),
+        (lambda: carburised(gear_ratio=math.nan), "strength: gear_ratio must be .* is nan"),
+        (
+            lambda: strength.pair_strength(
+                *2 * [strength.GearMaterial("improved", hardness_HB=250.0)],
+                pinion_speed=1.0,
+                gear_ratio=1.0,
+                hours=1.0,
+            ),
+            "pinion.treatment must be one of normalised, .*, is 'improved'",
+        ),
+        (
+            lambda: strength.pair_strength(
+                *2 * [strength.GearMaterial("normalised")], pinion_speed=1.0, gear_ratio=1.0, hours=1.0
+            ),
+            "pinion must have one of hardness_HB and hardness_HRC",
+        ),
+        (
+            lambda: face_load.face_load_factors(
+                face_load.WidePair(-1.0, 100.0, 2.0),
+                face_load.FaceGaps(),
+                face_load.FlankWear(1e-10, 0.1, 1.0),
+                power=1.0,
+                pinion_speed=1.0,
+            ),
+            "face load: face_width must be a number above 0, is -1",
+        ),
+        (
+            lambda: wave_drive.flexspline_diameters({"gear_ratio": 100.0}, {"presure": {}}),
+            "methods must be among pressure, .*, but holds presure",
+        ),
+        (
+            lambda: stiffness_spectrum.mesh_spectrum(
+                *2 * [stiffness_spectrum.ToothErrors(20, 0.0)], module=0.0
+            ),
+            "stiffness spectrum: module must be a number above 0, is 0",
+        ),
+        (
+            lambda: synthesise.loaded_pair(centre_distance=90.0, gear_ratio=1.0, contact_stress=[500.0]),
+            "give load_per_width, or pinion_torque and face_width",
+        ),
+        (
+            lambda: hertz_check.pitch_point_check(
+                hertz_check.PitchPointContact(240e3, 1.5, 0.0, 108.0, 0.35)
+            ),
+            "hertz check: face_width must be a number above 0, is 0",
+        ),
+        (
+            lambda: convex_concave.pair_layout(
+                module=-1.0, pinion_teeth=17, wheel_teeth=34, addendum_arc_radius=10.0
+            ),
+            "convex-concave: module must be a number above 0, is -1",
+        ),
+    ],
+)
+def test_numbers_that_cannot_be(call, message):
+    with pytest.raises(GeometryError, match=message):
+        call()
