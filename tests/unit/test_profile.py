@@ -108,24 +108,6 @@ def test_rotated_by_a_right_angle() -> None:
     np.testing.assert_allclose(rotated.y, [1.0, 2.0, 4.0], rtol=1e-15)
 
 
-@pytest.mark.parametrize("nodes", [31, 60, 200])
-def test_regridded_conserves_removed_area(nodes: int) -> None:
-    before = wavy(60)
-    worn = before.recede(0.05 + 0.04 * np.sin(np.linspace(0.0, 3.0, 60)))
-    regridded = worn.regridded(nodes)
-    assert regridded.x.size == nodes
-    assert abs(regridded.area_from(worn)) < 1e-12 * 10.0**2
-    assert regridded.area_from(before) == pytest.approx(worn.area_from(before), rel=1e-7)
-
-
-def test_regridded_points_lie_at_equal_arc_length_on_the_flank() -> None:
-    radius, nodes = 20.0, 50
-    angle = np.linspace(0.0, 1.0, 80) ** 1.3
-    regridded = Profile(radius * np.cos(angle), radius * np.sin(angle)).regridded(nodes)
-    np.testing.assert_allclose(np.diff(regridded.arc_length), radius / (nodes - 1), rtol=1e-3)
-    np.testing.assert_allclose(np.hypot(regridded.x, regridded.y), radius, atol=1e-3)
-
-
 def test_self_crossing_is_found() -> None:
     assert not Profile([0.0, 2.0, 2.0, 1.0, 1.0], [0.0, 0.0, 1.0, 1.0, -1.0]).is_simple
     assert wavy(40).is_simple

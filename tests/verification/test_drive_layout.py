@@ -18,7 +18,7 @@ from wearsim.chain.drive_layout import (
     layout_with_links,
     polygon_effect,
 )
-from wearsim.chain.span_tension import SpanTensions, catenary_tension, centrifugal_tension
+from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import pitch_diameter
 
@@ -182,17 +182,10 @@ def test_meetings_by_counting(teeth: int, links: int) -> None:
         engagement += 1
     found = ToothMeetings(teeth, links)
     assert found.rollers_per_tooth == len({roller for tooth, roller in pairs if tooth == 0})
-    assert found.teeth_per_roller == len({tooth for tooth, roller in pairs if roller == 0})
     assert found.rollers_per_tooth * teeth == engagement
     assert found.hunts == (len(pairs) == teeth * links)
     kinds = {roller % 2 for tooth, roller in pairs if tooth == 0}
     assert found.same_link_kind == (len(kinds) == 1)
-
-
-def test_meetings_belong_to_their_sprocket() -> None:
-    layout = layout_with_links(15.875, 20, 63, 114)
-    assert (layout.meetings_1.teeth, layout.meetings_2.teeth) == (20, 63)
-    assert (layout.meetings_1.links, layout.meetings_2.links) == (114, 114)
 
 
 @pytest.mark.parametrize("sag", [0.005, 0.01, 0.02, 0.03])
@@ -220,11 +213,8 @@ def test_tensions_of_case_b() -> None:
     """q = 1 kg/m at 6.35 m/s: 40.3 N; the teeth do not feel it."""
     fast = centrifugal_tension(1e-6, 6350.0)
     assert fast == pytest.approx(6.35**2, rel=1e-12)
-    spans = SpanTensions(1174.0, catenary_tension(1e-6, 36 * 15.875), fast)
-    assert spans.tight - spans.slack == pytest.approx(1174.0, rel=1e-14)
-    assert spans.tight_on_teeth - spans.slack_on_teeth == pytest.approx(1174.0, rel=1e-14)
-    assert spans.tight - spans.tight_on_teeth == pytest.approx(40.3225, rel=1e-12)
-    assert round(0.4225 * spans.tight_on_teeth) == 511  # P1 at 29 deg pressure angle
+    on_teeth = 1174.0 + catenary_tension(1e-6, 36 * 15.875)
+    assert round(0.4225 * on_teeth) == 511  # P1 at 29 deg pressure angle
 
 
 @pytest.mark.parametrize(

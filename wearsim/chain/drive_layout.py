@@ -42,8 +42,8 @@ class ToothMeetings:
     Examples
     --------
     >>> meetings = ToothMeetings(teeth=20, links=114)
-    >>> meetings.classes, meetings.rollers_per_tooth, meetings.teeth_per_roller
-    (2, 57, 10)
+    >>> meetings.classes, meetings.rollers_per_tooth
+    (2, 57)
     """
 
     # teeth, links: z and X
@@ -59,11 +59,6 @@ class ToothMeetings:
     def rollers_per_tooth(self) -> int:
         """Different rollers that a tooth meets, X/g; also the revolutions until all repeats."""
         return self.links // self.classes
-
-    @property
-    def teeth_per_roller(self) -> int:
-        """Different teeth that a roller meets, z/g."""
-        return self.teeth // self.classes
 
     @property
     def hunts(self) -> bool:
@@ -160,16 +155,6 @@ class DriveLayout:
     def span(self) -> float:
         """Length of a straight span between the pitch circles, a cos(inclination) [mm]."""
         return self.centre_distance * math.cos(self.inclination)
-
-    @property
-    def meetings_1(self) -> ToothMeetings:
-        """Which tooth of sprocket 1 meets which roller."""
-        return ToothMeetings(self.teeth_1, self.links)
-
-    @property
-    def meetings_2(self) -> ToothMeetings:
-        """Which tooth of sprocket 2 meets which roller."""
-        return ToothMeetings(self.teeth_2, self.links)
 
     def chain_speed(self, angular_speed: float) -> float:
         """Return the mean speed of the chain, v = z1 p omega/(2 pi)."""

@@ -1,7 +1,6 @@
 """Tensions of the spans of a chain: pull, own weight and centrifugal force."""
 
 import math
-from dataclasses import dataclass
 
 from wearsim.errors import GeometryError
 
@@ -75,39 +74,3 @@ def catenary_tension(mass_per_length: float, span: float, sag: float = 0.02, slo
             f"slack span: the sag must be above 0, is {sag:g}: about 0.02 of the span is usual"
         )
     return mass_per_length * STANDARD_GRAVITY * span * math.cos(slope) / (8.0 * sag)
-
-
-@dataclass(frozen=True)
-class SpanTensions:
-    """Tensions of the two spans of a running drive.
-
-    Examples
-    --------
-    >>> spans = SpanTensions(pull=1000.0, catenary=30.0, centrifugal=20.0)
-    >>> spans.tight, spans.slack, spans.tight_on_teeth
-    (1050.0, 50.0, 1030.0)
-    """
-
-    pull: float  # F_t, power over chain speed [N]
-    catenary: float = 0.0  # tension of the slack span under its weight [N]
-    centrifugal: float = 0.0  # q v^2 [N]
-
-    @property
-    def tight(self) -> float:
-        """Tension of the links of the tight span, F_t + F_f + q v^2 [N]."""
-        return self.pull + self.catenary + self.centrifugal
-
-    @property
-    def slack(self) -> float:
-        """Tension of the links of the slack span, F_f + q v^2 [N]."""
-        return self.catenary + self.centrifugal
-
-    @property
-    def tight_on_teeth(self) -> float:
-        """Tension of the tight span that the teeth feel, F_t + F_f [N]."""
-        return self.pull + self.catenary
-
-    @property
-    def slack_on_teeth(self) -> float:
-        """Tension of the slack span that the teeth feel, F_f [N]."""
-        return self.catenary

@@ -150,21 +150,6 @@ class Profile:
         """Return the area between this flank and another, by the shoelace formula."""
         return area_between(other.x, other.y, self.x, self.y)
 
-    def regridded(self, nodes: int) -> "Profile":
-        """Return the same flank on points at equal arc length, conserving removed area.
-
-        A cubic spline carries the points over; a uniform shift along the normals then
-        closes the area between old and new flank.
-        """
-        from scipy.interpolate import CubicSpline
-
-        arc = self.arc_length
-        spline = CubicSpline(arc, np.column_stack([self.x, self.y]))
-        new = Profile(*spline(np.linspace(0.0, arc[-1], nodes)).T)
-        for _ in range(4):
-            new = new.recede(-new.area_from(self) / arc[-1])
-        return new
-
     def with_fine_ends(self, intervals: int) -> "Profile":
         """Return the same flank on even intervals, of which those near both ends are divided.
 
