@@ -1,7 +1,9 @@
 """What can go wrong, by kind; every class is also the matching builtin."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 
 class WearsimError(Exception):
@@ -50,11 +52,36 @@ class Fault:
         return ": ".join(part for part in (place, self.key, self.message) if part)
 
 
-def check_positive(calculation: str, **values: float) -> None:
-    """Raise for the first of some numbers, named as the arguments of a calculation, that is not above 0."""
-    for name, value in values.items():
-        if not 0.0 < value < math.inf:
-            raise GeometryError(f"{calculation}: {name} must be a number above 0, is {value:g}: correct it")
+Range = tuple[float, float] | tuple[str, ...]
+"""Least and greatest value of a number, both allowed; or the words that are."""
+
+ABOVE_0: tuple[float, float] = (math.ulp(0.0), 1e300)
+AT_LEAST_0: tuple[float, float] = (0.0, 1e300)
+
+
+def check_ranges(place: str, values: Mapping[str, Any], ranges: Mapping[str, Range]) -> None:
+    """Raise for the first value that is outside its range; what is None or not there is not looked at.
+
+    Examples
+    --------
+    >>> check_ranges("pair", {"ratio": 0.5}, {"ratio": (1.0, 100.0)})
+    Traceback (most recent call last):
+    wearsim.errors.GeometryError: pair: ratio must be at least 1 and at most 100, is 0.5: correct it
+    """
+    for name, allowed in ranges.items():
+        value = values.get(name)
+        if value is None:
+            continue
+        low, high = allowed[0], allowed[-1]
+        if isinstance(low, str) or isinstance(high, str):
+            inside, must = value in allowed, f"one of {', '.join(map(str, allowed))}"
+        else:
+            inside = low <= value <= high
+            least = "above 0" if 0.0 < low < 1e-300 else f"at least {low:g}"
+            must = least if high == 1e300 else f"{least} and at most {high:g}"
+        if not inside:
+            shown = repr(value) if isinstance(value, str) else f"{value:g}"
+            raise GeometryError(f"{place}: {name} must be {must}, is {shown}: correct it")
 
 
 class CaseError(WearsimError, ValueError):

@@ -167,8 +167,8 @@ def test_convex_concave():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: carburised(hours=0.0), "strength: hours must be a number above 0, is 0"),
-        (lambda: carburised(gear_ratio=math.nan), "strength: gear_ratio must be .* is nan"),
+        (lambda: carburised(hours=0.0), "strength: hours must be above 0, is 0"),
+        (lambda: carburised(gear_ratio=math.nan), "strength: gear_ratio must be .*, is nan"),
         (
             lambda: strength.pair_strength(
                 *2 * [strength.GearMaterial("improved", hardness_HB=250.0)],
@@ -176,7 +176,7 @@ def test_convex_concave():
                 gear_ratio=1.0,
                 hours=1.0,
             ),
-            "pinion.treatment must be one of normalised, .*, is 'improved'",
+            "pinion: treatment must be one of normalised, .*, is 'improved'",
         ),
         (
             lambda: strength.pair_strength(
@@ -192,7 +192,7 @@ def test_convex_concave():
                 power=1.0,
                 pinion_speed=1.0,
             ),
-            "face load: face_width must be a number above 0, is -1",
+            "face load: face_width must be above 0, is -1",
         ),
         (
             lambda: wave_drive.flexspline_diameters({"gear_ratio": 100.0}, {"presure": {}}),
@@ -202,7 +202,7 @@ def test_convex_concave():
             lambda: stiffness_spectrum.mesh_spectrum(
                 *2 * [stiffness_spectrum.ToothErrors(20, 0.0)], module=0.0
             ),
-            "stiffness spectrum: module must be a number above 0, is 0",
+            "stiffness spectrum: module must be above 0, is 0",
         ),
         (
             lambda: synthesise.loaded_pair(centre_distance=90.0, gear_ratio=1.0, contact_stress=[500.0]),
@@ -212,13 +212,45 @@ def test_convex_concave():
             lambda: hertz_check.pitch_point_check(
                 hertz_check.PitchPointContact(240e3, 1.5, 0.0, 108.0, 0.35)
             ),
-            "hertz check: face_width must be a number above 0, is 0",
+            "hertz check: face_width must be above 0, is 0",
         ),
         (
             lambda: convex_concave.pair_layout(
                 module=-1.0, pinion_teeth=17, wheel_teeth=34, addendum_arc_radius=10.0
             ),
-            "convex-concave: module must be a number above 0, is -1",
+            "convex-concave: module must be above 0, is -1",
+        ),
+        (lambda: carburised(regime="X", load_spectrum=()), "regime must be one of 0, I, .*, is 'X'"),
+        (lambda: carburised(gear_ratio=0.5), "gear_ratio must be at least 1, is 0.5"),
+        (
+            lambda: carburised(rules=strength.StrengthRules(static_safety=0.0)),
+            "static_safety must be at least 1, is 0",
+        ),
+        (
+            lambda: carburised(load_spectrum=[strength.SpectrumStep(1.0, share_of_time=0.5)]),
+            "shares of time of load_spectrum must come to 1, come to 0.5",
+        ),
+        (
+            lambda: face_load.face_load_factors(
+                face_load.WidePair(1.0, 100.0, 2.0, slices=0),
+                face_load.FaceGaps(),
+                face_load.FlankWear(1e-10, 0.1, 1.0),
+                power=1.0,
+                pinion_speed=1.0,
+            ),
+            "face load: slices must be at least 10 and at most 2000, is 0",
+        ),
+        (
+            lambda: stiffness_spectrum.mesh_spectrum(
+                *2 * [stiffness_spectrum.ToothErrors(0, 0.0)], module=1.0
+            ),
+            "stiffness spectrum: pinion: teeth must be at least 5 and at most 300, is 0",
+        ),
+        (
+            lambda: hertz_check.pitch_point_check(
+                hertz_check.PitchPointContact(240e3, 1.5, 76.0, 108.0, 0.35, poissons_ratio=2.0)
+            ),
+            "hertz check: poissons_ratio must be at least 0 and at most 0.5, is 2",
         ),
     ],
 )

@@ -1,13 +1,13 @@
 """A pair of convex-concave gears from its input: contact, rack, rollers and outlines."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from wearsim.errors import check_positive
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
 from wearsim.geometry.gear.circle_fit import CircleFit, rack_arc
 from wearsim.geometry.gear.convex_concave import ConvexConcave, Zone
 from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
@@ -89,6 +89,16 @@ class GearBlanks:
     roller_diameters: Sequence[float] | None = None  #: [mm]
 
 
+_RANGES: Mapping[str, Range] = {
+    **dict.fromkeys(("module", "addendum_arc_radius", "dedendum_arc_radius", "addendum_ratio"), ABOVE_0),
+    **dict.fromkeys(("pinion_teeth", "wheel_teeth"), (5.0, 400.0)),
+    **dict.fromkeys(("backlash", "root_clearance_ratio"), AT_LEAST_0),
+    "pitch_point_angle": (math.ulp(0.0), math.radians(45.0)),
+    "face_width": ABOVE_0,
+    "root_form": ("fillet", "radial"),
+}
+
+
 def pair_layout(
     *,
     module: float,
@@ -140,7 +150,17 @@ def pair_layout(
     >>> round(found.contacts[0].involute_radius, 4)
     3.3917
     """
-    check_positive("convex-concave", module=module, addendum_arc_radius=addendum_arc_radius)
+    numbers = {
+        "module": module,
+        "pinion_teeth": pinion_teeth,
+        "wheel_teeth": wheel_teeth,
+        "addendum_arc_radius": addendum_arc_radius,
+        "dedendum_arc_radius": dedendum_arc_radius,
+        "pitch_point_angle": pitch_point_angle,
+        "addendum_ratio": addendum_ratio,
+        "backlash": backlash,
+    }
+    check_ranges("convex-concave", {**numbers, **vars(blanks)}, _RANGES)
     second = addendum_arc_radius if dedendum_arc_radius is None else dedendum_arc_radius
     pair = ConvexConcave(
         module,

@@ -5,12 +5,13 @@ but no formula of theirs is at hand: all of this is reconstruction.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from wearsim.errors import check_positive
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
 from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.face_load.face_slices import WideMesh, self_aligned_gap
 from wearsim.handbook.face_load.face_wear import FaceRunningIn, WearingFace, WearRates
@@ -148,6 +149,16 @@ class FaceLoad:
     self_aligning: FaceRunningIn
 
 
+_RANGES: Mapping[str, Range] = {
+    **dict.fromkeys(("face_width", "pinion_pitch_diameter", "mesh_stiffness"), ABOVE_0),
+    **dict.fromkeys(("specific_wear_rate", "slip_ratio", "hours", "power", "pinion_speed"), ABOVE_0),
+    **dict.fromkeys(("fixed", "varying", "crown", "wheel_wear_ratio", "pivot_friction_lever"), AT_LEAST_0),
+    **dict.fromkeys(("gear_ratio", "application_factor"), (1.0, 1e300)),
+    "slices": (10.0, 2000.0),
+    "varies_with": ("load", "wheel", "pinion"),
+}
+
+
 def face_load_factors(
     pair: WidePair,
     gaps: FaceGaps,
@@ -205,17 +216,13 @@ def face_load_factors(
     >>> round(found.fixed.states[0].factor, 2)
     1.5
     """
-    check_positive(
-        "face load",
-        face_width=pair.face_width,
-        pinion_pitch_diameter=pair.pinion_pitch_diameter,
-        gear_ratio=pair.gear_ratio,
-        mesh_stiffness=pair.mesh_stiffness,
-        power=power,
-        pinion_speed=pinion_speed,
-        specific_wear_rate=wear.specific_wear_rate,
-        hours=wear.hours,
-    )
+    drive = {
+        "power": power,
+        "pinion_speed": pinion_speed,
+        "application_factor": application_factor,
+        "pivot_friction_lever": pivot_friction_lever,
+    }
+    check_ranges("face load", {**vars(pair), **vars(gaps), **vars(wear), **drive}, _RANGES)
     speed = 2.0 * math.pi * pinion_speed / 60.0
     torque = 1e6 * power / speed
     force = application_factor * 2.0 * torque / pair.pinion_pitch_diameter

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from wearsim.errors import check_positive
+from wearsim.errors import ABOVE_0, Range, check_ranges
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.handbook.hertz_check.pitch_point_contact import (
     PRINTED_DEPTH,
@@ -138,6 +138,14 @@ class HertzCheck:
     comparison: Comparison | None  #: the published comparison, where there is one
 
 
+_RANGES: Mapping[str, Range] = {
+    **dict.fromkeys(("torque", "gear_ratio", "face_width", "pitch_diameter", "load_factor"), ABOVE_0),
+    "youngs_modulus": ABOVE_0,
+    "pressure_angle": (math.radians(10.0), math.radians(45.0)),
+    "poissons_ratio": (0.0, 0.5 - 1e-12),
+}
+
+
 def pitch_point_check(
     contact: PitchPointContact,
     *,
@@ -180,14 +188,10 @@ def pitch_point_check(
     >>> round(four.contact.peak_pressure / found.contact.peak_pressure, 9)
     2.0
     """
-    check_positive(
-        "hertz check",
-        torque=contact.torque,
-        gear_ratio=contact.gear_ratio,
-        face_width=contact.face_width,
-        pitch_diameter=contact.pitch_diameter,
-        pressure_angle=contact.pressure_angle,
-    )
+    numbers = {**vars(contact), "youngs_modulus": min(contact.youngs_modulus)}
+    check_ranges("hertz check", numbers, _RANGES)
+    if published is not None:
+        check_ranges("hertz check", {"contact": 0.0, **published.hertz}, {"contact": ABOVE_0})
     target = math.nan if published is None else published.hertz["contact"]
     return HertzCheck(
         contact=contact,

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from wearsim.errors import check_positive
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
 from wearsim.handbook.stiffness_spectrum.contact_number import (
     Floats,
     GearPair,
@@ -108,6 +108,26 @@ class SpectrumChoice:
     series_harmonics: int | None = None
 
 
+_RANGES: Mapping[str, Range] = {
+    "module": ABOVE_0,
+    "pressure_angle": (math.radians(10.0), math.radians(35.0)),
+    "pinion_speed": ABOVE_0,
+    "teeth": (5.0, 300.0),
+    "pitch_error": AT_LEAST_0,
+    "error_order": (1.0, 150.0),
+    "model": ("pairs", "double_sum"),
+    "tooth_harmonics": (1.0, 20.0),
+    "sideband_order": (0.0, 5.0),
+}
+_LOADED: Mapping[str, Range] = {
+    **dict.fromkeys(("pinion_curvature_radius", "wheel_curvature_radius", "force", "pinion_torque"), ABOVE_0),
+    "youngs_modulus": ABOVE_0,
+    "poissons_ratio": (0.0, 0.5 - 1e-12),
+    "energy_exponent": (1.5, 4.0),
+    "formula": ("corrected", "printed"),
+}
+
+
 def mesh_spectrum(
     pinion: ToothErrors,
     wheel: ToothErrors,
@@ -159,7 +179,11 @@ def mesh_spectrum(
     >>> [line.harmonic for line in found.lines]
     [3, 6, 54, 57, 60, 63, 66]
     """
-    check_positive("stiffness spectrum", module=module, pressure_angle=pressure_angle)
+    pair_numbers = {"module": module, "pressure_angle": pressure_angle, "pinion_speed": pinion_speed}
+    check_ranges("stiffness spectrum", {**pair_numbers, **vars(choice)}, _RANGES)
+    for name, errors in (("pinion", pinion), ("wheel", wheel)):
+        check_ranges(f"stiffness spectrum: {name}", vars(errors), _RANGES)
+    check_ranges("stiffness spectrum", {} if load is None else vars(load), _LOADED)
     pair = gear_pair(pinion, wheel, module, pressure_angle)
     contacts = contact_number(pair, choice.model)
     statics = None

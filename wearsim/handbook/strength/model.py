@@ -1,12 +1,12 @@
 """Strength of a gear pair: from the tables of its case to stresses, margins and lives."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from wearsim.contact.hertz import contact_modulus
-from wearsim.errors import GeometryError, check_positive
+from wearsim.errors import ABOVE_0, GeometryError, Range, check_ranges
 from wearsim.fatigue.endurance import (
     CONTACT_EXPONENT,
     Endurance,
@@ -213,6 +213,41 @@ def first_life(lives: Sequence[EnduredHours]) -> tuple[int, EnduredHours]:
     return place, lives[place]
 
 
+_FACTOR = (1.0, 1e300)
+_DRIVE: Mapping[str, Range] = {
+    "pinion_speed": ABOVE_0,
+    "gear_ratio": _FACTOR,
+    "hours": ABOVE_0,
+    "regime": ("0", "I", "II", "III", "IV", "V"),
+}
+_MATERIAL: Mapping[str, Range] = {
+    "poissons_ratio": (-1.0 + 1e-12, 0.5 - 1e-12),
+    "meshings_per_revolution": (1.0, 100.0),
+    **dict.fromkeys(("contact_safety", "bending_safety", "bending_exponent"), _FACTOR),
+    **dict.fromkeys(("greatest_contact_life_factor", "greatest_bending_life_factor"), _FACTOR),
+    **dict.fromkeys(("hardness_HB", "hardness_HRC", "core_hardness_HRC", "yield_strength"), ABOVE_0),
+    **dict.fromkeys(("youngs_modulus", "contact_limit", "bending_limit"), ABOVE_0),
+    **dict.fromkeys(("contact_base_cycles", "bending_base_cycles", "form_factor"), ABOVE_0),
+    **dict.fromkeys(("greatest_contact", "greatest_bending", "roughness_factor"), ABOVE_0),
+    **dict.fromkeys(("speed_factor", "fillet_factor", "reversal_factor"), ABOVE_0),
+}
+_RULES: Mapping[str, Range] = {
+    "base_cycles": ("gost", "source"),
+    "long_life": ("constant", "gost"),
+    **dict.fromkeys(("overload_ratio", "overload_frequency_factor", "static_safety"), _FACTOR),
+}
+_LOAD: Mapping[str, Range] = {
+    "pinion_teeth": (5.0, 1000.0),
+    "pressure_angle": (math.radians(10.0), math.radians(35.0)),
+    "accuracy_grade": (5.0, 9.0),
+    "running_in_share": (math.ulp(0.0), 1.0),
+    "formula": ("corrected", "printed"),
+    **dict.fromkeys(("pinion_torque", "module", "face_width", "application_factor"), ABOVE_0),
+    **dict.fromkeys(("initial_face_load_factor", "initial_transverse_load_factor"), _FACTOR),
+    **dict.fromkeys(("contact_dynamic_factor", "bending_dynamic_factor"), _FACTOR),
+}
+
+
 def pair_strength(
     pinion: GearMaterial,
     wheel: GearMaterial,
@@ -269,7 +304,10 @@ def pair_strength(
     >>> found.gears[0].cycles, round(found.contact_governs.contact.allowable, 2)
     (600000000.0, 427.27)
     """
-    check_positive("strength", pinion_speed=pinion_speed, gear_ratio=gear_ratio, hours=hours)
+    given_numbers = {"pinion_speed": pinion_speed, "gear_ratio": gear_ratio, "hours": hours, "regime": regime}
+    check_ranges("strength", given_numbers, _DRIVE)
+    check_ranges("strength", vars(rules), _RULES)
+    check_ranges("strength", {} if load is None else vars(load), _LOAD)
     given = (("pinion", pinion, 1.0), ("wheel", wheel, gear_ratio))
     rates = [cycles_per_hour(pinion_speed / ratio, gear.meshings_per_revolution) for _, gear, ratio in given]
     spectrum = _spectrum(load_spectrum, regime, hours * max(rates))
@@ -286,6 +324,11 @@ def _spectrum(steps: Sequence[SpectrumStep], regime: str, cycles: float) -> Load
     """Return the loads; a torque is no overload once the gear with more cycles has enough."""
     if not steps:
         return regime_spectrum(regime)
+    shares = math.fsum(step.share_of_time or 0.0 for step in steps)
+    if abs(shares - 1.0) > 1e-6:
+        raise GeometryError(
+            f"strength: the shares of time of load_spectrum must come to 1, come to {shares:g}"
+        )
     acting = [
         (step.relative_torque, step.overload_cycles or (step.share_of_time or 0.0) * cycles) for step in steps
     ]
@@ -295,12 +338,16 @@ def _spectrum(steps: Sequence[SpectrumStep], regime: str, cycles: float) -> Load
 def _gear(
     name: str, gear: GearMaterial, rules: StrengthRules, spectrum: LoadSpectrum, rate: float, hours: float
 ) -> GearEndurance:
-    if gear.treatment not in treatments():
-        raise GeometryError(
-            f"strength: {name}.treatment must be one of {', '.join(treatments())}, is {gear.treatment!r}"
-        )
+    check_ranges(f"strength: {name}", vars(gear), {**_MATERIAL, "treatment": tuple(treatments())})
     if (gear.hardness_HB is None) == (gear.hardness_HRC is None):
         raise GeometryError(f"strength: {name} must have one of hardness_HB and hardness_HRC: give one")
+    if gear.treatment == "nitrided" and (
+        gear.contact_limit is None or (gear.bending_limit is None) == (gear.core_hardness_HRC is None)
+    ):
+        raise GeometryError(
+            f"strength: {name} is nitrided and must have contact_limit, and one of bending_limit and "
+            "core_hardness_HRC: give them"
+        )
     treatment = treatments()[gear.treatment]
     brinell = gear.hardness_HB or in_brinell(gear.hardness_HRC or 0.0, "HRC")
     hardness = treatment.own_hardness(brinell)
@@ -355,7 +402,6 @@ def _bending(table: GearMaterial, treatment: Treatment, hardness: float, overloa
 def _tooth_load(
     load: PairLoad, gears: tuple[GearMaterial, GearMaterial], ratio: float, spectrum: LoadSpectrum
 ) -> ToothLoad:
-    check_positive("strength", module=load.module, face_width=load.face_width, pinion_teeth=load.pinion_teeth)
     elastic = [(gear.youngs_modulus, gear.poissons_ratio) for gear in gears]
     mesh = SpurMesh(
         torque=load.pinion_torque * spectrum.torque,
@@ -390,6 +436,10 @@ def _load_factors(load: PairLoad, constant: bool) -> tuple[LoadFactor, LoadFacto
     """Return K_H and K_F; a spectrum holds the shocks of the machine already, then K_A is 1."""
     application = load.application_factor or (_UNIFORM if constant else 1.0)
     initial = load.initial_transverse_load_factor
+    if (initial is None) == (load.accuracy_grade is None):
+        raise GeometryError(
+            "strength: the load must have one of accuracy_grade and initial_transverse_load_factor: give one"
+        )
     if initial is None:
         assert load.accuracy_grade is not None
         initial = initial_transverse_factor(load.accuracy_grade)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
-from wearsim.errors import GeometryError, check_positive
+from wearsim.errors import ABOVE_0, GeometryError, check_ranges
 from wearsim.geometry.gear.path_of_contact import PathOfContact, involute
 from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
@@ -123,10 +123,19 @@ def loaded_pair(
     >>> round(float(pair.reduced_radius(0.0, 0.35)), 4)
     14.4114
     """
-    check_positive("synthesis", centre_distance=centre_distance, gear_ratio=gear_ratio)
     stress = np.array(contact_stress, dtype=float)
-    for value in stress.tolist():
-        check_positive("synthesis", contact_stress=value)
+    numbers = {
+        "centre_distance": centre_distance,
+        "gear_ratio": gear_ratio,
+        "contact_stress": float(stress.min()),
+        "load_per_width": load_per_width,
+        "pinion_torque": pinion_torque,
+        "face_width": face_width,
+        "youngs_modulus": min(youngs_modulus),
+    }
+    check_ranges("synthesis", numbers, dict.fromkeys(numbers, ABOVE_0))
+    for ratio in poissons_ratio:
+        check_ranges("synthesis", {"poissons_ratio": ratio}, {"poissons_ratio": (-1.0 + 1e-12, 0.5 - 1e-12)})
     circles = PitchCircles(centre_distance, gear_ratio)
     if load_per_width is not None and pinion_torque is None:
         line_load = LineLoad(float(load_per_width), 0)

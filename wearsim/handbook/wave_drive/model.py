@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from scipy.optimize import brentq
 
-from wearsim.errors import GeometryError, check_positive
+from wearsim.errors import ABOVE_0, GeometryError, check_ranges
 from wearsim.handbook.wave_drive.formulas import (
     Values,
     crushing_diameter,
@@ -144,6 +144,9 @@ class MethodComparison:
     left_out: Mapping[str, str]
 
 
+_DRIVE = {"gear_ratio", "output_torque_N_m", "life_hours", "generator_speed_rpm", "tooth_length_ratio"}
+
+
 def flexspline_diameters(
     drive: Values,
     methods: Mapping[str, Values],
@@ -198,7 +201,15 @@ def flexspline_diameters(
     >>> round((size(400.0) / size(200.0)) ** 3, 9)
     2.0
     """
-    check_positive("wave drive", **drive)
+    unknown = sorted(methods.keys() - {method.name for method in METHODS})
+    if unknown:
+        names = ", ".join(method.name for method in METHODS)
+        raise GeometryError(f"wave drive: methods must be among {names}, but holds {unknown[0]}: correct it")
+    for numbers in (drive, *methods.values()):
+        check_ranges("wave drive", numbers, dict.fromkeys(numbers, ABOVE_0))
+    missing = sorted(_DRIVE - drive.keys())
+    if missing:
+        raise GeometryError(f"wave drive: drive must have {missing[0]}: give it")
     used, left_out = _feasible(drive, methods, printed, methods if required is None else required)
     sizes = [method.diameter(v) for method, v in used]
     ranges = [_range(method, v) for method, v in used]
@@ -232,10 +243,6 @@ def _feasible(
     """Return the methods that have a diameter, with their numbers, and why others have none."""
     used: list[tuple[DiameterMethod, Values]] = []
     left_out = {}
-    unknown = sorted(methods.keys() - {method.name for method in METHODS})
-    if unknown:
-        names = ", ".join(method.name for method in METHODS)
-        raise GeometryError(f"wave drive: methods must be among {names}, but holds {unknown[0]}: correct it")
     for method in METHODS:
         if method.name not in methods:
             continue
