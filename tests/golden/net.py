@@ -62,6 +62,11 @@ LEFT_OUT = ("environment", "seconds")
 LAST_DIGITS, ROUNDING = 1e-6, 1e-12
 """Of sums on another processor: part of the size, and what is a rounded zero."""
 
+LIVES = ("life_hours", "sprocket_life_hours", "chain_life_hours")
+WRAP_DIGITS = 0.02
+"""What runs of wraps are held by on another processor, and how well: a last bit there decides where a roller
+seats, and with it the next steps. Two processors gave lives up to 0.4 % apart, of stated errors of 5 %."""
+
 FEW_DIGITS = {"numerical_error": 0.05}
 """The same of columns that are differences of lives nearly alike."""
 
