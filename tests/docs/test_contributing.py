@@ -65,3 +65,20 @@ def test_hooks_are_gates_of_ci():
     assert [entry for entry in entries if entry not in gates] == []
     assert {entry.split()[0] for entry in entries} == {"ruff", "mypy", "lint-imports", "python"}
     assert {(hook["language"], hook["pass_filenames"]) for hook in repository["hooks"]} == {("system", False)}
+
+
+DECISIONS = sorted((ROOT / "docs" / "decisions").glob("*.md"))
+
+
+@pytest.mark.parametrize("page", DECISIONS, ids=[page.stem for page in DECISIONS])
+def test_decision_names_what_there_is(page):
+    text = page.read_text("utf-8")
+    named = re.findall(r"`((?:tests|wearsim)/[\w./-]*\w)`", text)
+    assert named
+    assert [name for name in named if not place_of(name).exists()] == []
+    pairs = re.findall(r"`(\w+)`\s+(?:in|\()\s*`(wearsim/[\w/]+\.py)`", text)
+    assert [
+        (name, file)
+        for name, file in pairs
+        if not re.search(rf"(?<!\w){name}(?!\w)", place_of(file).read_text("utf-8"))
+    ] == []
