@@ -33,8 +33,91 @@ class ChainWear(NamedTuple):
 NEW_CHAIN = ChainWear()
 
 
+class PressedPlaces(ABC):
+    """Mates in all phases of a cycle, placed and pressed on worn bodies by implicit stages of wear."""
+
+    @property
+    @abstractmethod
+    def places(self) -> Rows:
+        """Centres of all mates in the frames of their bodies [mm], shape (2, mates); may be moved."""
+
+    @property
+    @abstractmethod
+    def slides(self) -> bool:
+        """Whether any loaded mate slides."""
+
+    @property
+    @abstractmethod
+    def speed(self) -> float:
+        """Highest sliding speed [mm/s]."""
+
+    @property
+    @abstractmethod
+    def rate(self) -> float:
+        """Highest growth of the area per unworn length at the present pressures [mm per cycle]."""
+
+    @abstractmethod
+    def kept(self) -> tuple[Rows, Rows]:
+        """Return a copy of what a stage starts from."""
+
+    @abstractmethod
+    def restore(self, kept: tuple[Rows, Rows]) -> None:
+        """Go back to a copy."""
+
+    @abstractmethod
+    def seat(self, works: Rows, x: Rows, y: Rows, wear: ChainWear) -> None:
+        """Place the mates on worn bodies without any knowledge of where they were.
+
+        Parameters
+        ----------
+        works : numpy.ndarray
+            Work done on the bodies, per unworn length, as if all were as hard as the surface
+            [mm], shape (bodies, points).
+        x, y : numpy.ndarray
+            The worn outlines [mm], of the same shape.
+        wear : ChainWear
+            What the chain has lost.
+
+        Raises
+        ------
+        JumpError
+            The chain jumps.
+        ConvergenceError
+            No equilibrium is found.
+        """
+
+    @abstractmethod
+    def stage(self, base: Rows, cycles: float, works: Rows, wear: ChainWear) -> bool:
+        """Replace a guess by the base and the work of so many cycles at the pressures in the end.
+
+        Parameters
+        ----------
+        base : numpy.ndarray
+            Work done before.
+        cycles : float
+            How many.
+        works : numpy.ndarray
+            A guess of the result, and the result.
+        wear : ChainWear
+            What the chain has lost in the end.
+
+        Returns
+        -------
+        bool
+            Whether it was found.
+        """
+
+    @abstractmethod
+    def jumps(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+        """Tell whether the chain jumps on worn bodies."""
+
+    @abstractmethod
+    def hardest_pressed(self) -> Rows:
+        """Return the event with the highest pressure, as a table of one column."""
+
+
 class RestingContact(ABC):
-    """Contacts that dwell on one or several worn bodies that were alike when new."""
+    """Contacts that rest on one or several worn bodies that were alike when new."""
 
     kind = ContactKind.RESTING
 
@@ -134,13 +217,22 @@ class RestingContact(ABC):
     def memory(self) -> Rows:
         """Return what ``events`` is to remember from call to call, as it is before the first."""
 
-    def at(self, step: int) -> float:
-        """Return which phases of the cycle a step of the wear takes."""
-        return 0.5
-
     @abstractmethod
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
         """Return what the worn bodies meet in one cycle, a column an event."""
+
+    def seating(self, law: Vector, unworn: Rows) -> PressedPlaces:
+        """Return the same contacts for implicit stages.
+
+        Parameters
+        ----------
+        law : numpy.ndarray
+            Coefficient, exponents of pressure and speed, depth of the hard layer [mm], and what
+            the coefficient is multiplied by below it.
+        unworn : numpy.ndarray
+            Rows of the unworn outline as `wearsim.kernels.wrap_wear` has them.
+        """
+        raise NotImplementedError(f"{type(self).__name__} can only be worn event by event")
 
     def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
         """Return the engagement of a worn outline, all bodies worn alike."""

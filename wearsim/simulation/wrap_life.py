@@ -23,7 +23,7 @@ from wearsim.wear.law import WearLaw
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.running_in import RunningIn
-from wearsim.wear.step_halving import advance_resting
+from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
@@ -107,7 +107,7 @@ def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run the sprocket of a wrapped case on three grids."""
     contact = wrap_of(case).contact(case)
     run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
-    return grid_study(contact.with_fewer_phases(), run_on)
+    return grid_study(contact, run_on)
 
 
 def _on_grid(
@@ -133,7 +133,7 @@ def _run(
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
     run, error = advance_resting(
-        contact.with_fewer_phases(), law, stop_limits, horizon, tolerance / amplification, progress=progress
+        contact, law, stop_limits, horizon, tolerance / amplification, progress=progress
     )
     if case.run.method == "per_cycle":
         check, end, cycles = run, float(run.cycles[-1]), case.run.cycles_per_update

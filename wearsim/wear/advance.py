@@ -233,7 +233,7 @@ def run_advance(
     """
     if not isinstance(contact, FlankContact):
         # Its kernels compile where it is imported for the first time.
-        from wearsim.wear.step_halving import advance_resting
+        from wearsim.wear.settled_run import advance_resting
 
         return advance_resting(contact, law, stop_limits, horizon, life_tolerance)
     problem = _Problem(contact, law, stop_limits, horizon * law.coefficient)

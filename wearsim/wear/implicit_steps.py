@@ -21,22 +21,28 @@ from wearsim.contact.resting_engagement import ChainWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.profile_points import Vector
-from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
 from wearsim.wear.law import WearLaw
 from wearsim.wear.resting_bodies import StartState, WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 
 Rows = NDArray[np.float64]
 
-_FIRST_STEP = 3e-5
-"""Depth of the first step after a start or a new chain, as a part of the limit."""
+@dataclass(frozen=True)
+class Pace:
+    """How steps grow: depths as parts of the limit, at level 0."""
 
-_GROWTH = 1.25
-_LONGEST_STEP = 0.01
-"""Growth of the depth of a step over the one before, and its most as a part of the limit."""
+    first: float  # depth of the first step
+    again: float  # depth of the first step after a new chain
+    growth: float  # of the depth of a step over the one before
+    longest: float  # the most depth of a step
+    steps_per_chain: int  # least number of steps in the life of a chain
 
-_ELONGATION_STEPS = 160
-"""Least number of steps in the life of a chain."""
+
+BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
+"""Steps of which each presses every event once."""
+
+BY_STAGES = Pace(1e-4, 1e-3, 1.5, 0.04, 16)
+"""Steps of implicit stages."""
 
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
@@ -106,22 +112,22 @@ class _Snapshots:
 class _StepSize:
     """How many cycles the next step takes: as given, or as many as wear off so much."""
 
-    def __init__(self, depth_limit: float, level: int, cycles_per_step: float) -> None:
-        self.limit, self.given = depth_limit, cycles_per_step
+    def __init__(self, pace: Pace, depth_limit: float, level: int, cycles_per_step: float) -> None:
+        self.pace, self.limit, self.given = pace, depth_limit, cycles_per_step
         self.refined: float = 2.0**level
         self.rate = 0.0
-        self.restart()
+        self.depth = pace.first * self.limit / self.refined
 
     def restart(self) -> None:
-        """Begin with the smallest step again."""
-        self.depth = _FIRST_STEP * self.limit / self.refined
+        """Begin with a small step again."""
+        self.depth = self.pace.again * self.limit / self.refined
 
-    def cycles(self, bodies: WornBodies, law: WearLaw) -> float:
+    def cycles(self, bodies: WornBodies) -> float:
         """Return the cycles of the next step, not beyond the life of the chain in use."""
-        cycles = self.given or self._by_depth(bodies, law)
+        cycles = self.given or self._by_depth(bodies)
         limit = bodies.contact.elongation_limit
         if bodies.contact.elongation_per_cycle > 0.0:
-            longest = limit / (_ELONGATION_STEPS * self.refined)
+            longest = limit / (self.pace.steps_per_chain * self.refined)
             rest = limit - bodies.wear.elongation
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
         return cycles
@@ -130,24 +136,11 @@ class _StepSize:
         """Whether the run has taken all of its steps."""
         return not self.given and bodies.updates >= _MAX_STEPS * self.refined
 
-    def _by_depth(self, bodies: WornBodies, law: WearLaw) -> float:
-        cycles = self.depth / (self.rate or _first_rate(bodies, law))
-        longest = _LONGEST_STEP * self.limit / self.refined
-        self.depth = min(self.depth * _GROWTH ** (1.0 / self.refined), longest)
+    def _by_depth(self, bodies: WornBodies) -> float:
+        cycles = self.depth / (self.rate or bodies.first_rate())
+        longest = self.pace.longest * self.limit / self.refined
+        self.depth = min(self.depth * self.pace.growth ** (1.0 / self.refined), longest)
         return max(cycles, 1.0 / self.refined)
-
-
-def _first_rate(bodies: WornBodies, law: WearLaw) -> float:
-    """Depth per cycle of the worst event under the Hertz pressure on a flat, about."""
-    contact = bodies.contact
-    table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
-    table = table[:, table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT] > 0.0]
-    if table.shape[1] == 0:
-        return math.inf
-    hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.roller_radius))
-    worn = hertz**law.pressure_exponent * table[EVENT_SPEED] ** law.speed_exponent
-    worn *= law.coefficient * table[EVENT_SLIP] * table[EVENT_COUNT]
-    return float(worn.max())
 
 
 def _margins(stop_limits: tuple[StopLimit, ...], bodies: WornBodies) -> float:
@@ -190,13 +183,40 @@ def run_resting(
     watch: Watch = lambda part: True,
     start: StartState | None = None,
 ) -> RestingTrajectory:
-    """Wear outlines and chain until a stop limit is met or the horizon is reached.
+    """Wear outlines and chain event by event until a stop limit is met or the horizon is reached.
 
     At its elongation limit the chain is replaced by a new one. A run by depth that takes too
     many steps, those of about 60 chains, ends before its horizon.
     """
-    bodies, record = WornBodies(contact, law, start), _Snapshots()
-    pace = _StepSize(stop_limits[0].limit, level, cycles_per_step)
+    pace = _StepSize(BY_EVENTS, stop_limits[0].limit, level, cycles_per_step)
+    return _run(WornBodies(contact, law, start), pace, stop_limits, horizon, watch)
+
+
+def run_seated(
+    contact: RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
+    horizon: float,
+    level: int,
+    watch: Watch = lambda part: True,
+    start: StartState | None = None,
+) -> RestingTrajectory:
+    """Wear outlines and chain by implicit stages until a stop limit is met or the horizon is reached.
+
+    At its elongation limit the chain is replaced by a new one. A run that takes too many steps
+    ends before its horizon.
+    """
+    # Its kernels compile where it is imported for the first time.
+    from wearsim.wear.seated_bodies import SeatedBodies
+
+    pace = _StepSize(BY_STAGES, stop_limits[0].limit, level, 0.0)
+    return _run(SeatedBodies(contact, law, start), pace, stop_limits, horizon, watch)
+
+
+def _run(
+    bodies: WornBodies, pace: _StepSize, stop_limits: tuple[StopLimit, ...], horizon: float, watch: Watch
+) -> RestingTrajectory:
+    contact, record = bodies.contact, _Snapshots()
     record.add(bodies)
     met, end = None, horizon * (1.0 - 1e-12)
     while (
@@ -206,9 +226,10 @@ def run_resting(
         and watch(_done(stop_limits, bodies, horizon))
     ):
         before = bodies.state()
-        cycles = min(pace.cycles(bodies, law), horizon - bodies.cycles)
+        cycles = min(pace.cycles(bodies), horizon - bodies.cycles)
         try:
-            pace.rate = bodies.step(cycles) / cycles
+            worn = bodies.step(cycles)
+            pace.rate = worn / (bodies.cycles - before.cycles)
         except JumpError:
             if bodies.cycles == 0.0:
                 raise

@@ -130,13 +130,9 @@ class WornBodies:
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles at once."""
-        at = self.contact.at(self.updates)
-        table = self.contact.events(self.x, self.y, self.wear, self.memory, at)
+        table = self.contact.events(self.x, self.y, self.wear, self.memory)
         if not (table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT]).max() > 0.0:
-            raise ContactError(
-                f"contact at cycle {self.cycles:.6g}: loaded rollers must slide, but none does: without "
-                "load and sliding there is no wear and no life"
-            )
+            raise ContactError(self.no_wear())
         before = self.depth.copy()
         self.press(table, cycles)
         self.speed = highest_speed(table)
@@ -147,6 +143,25 @@ class WornBodies:
         self.cycles += cycles
         self.updates += 1
         return float((self.depth - before).max())
+
+    def no_wear(self) -> str:
+        """Say that nothing wears."""
+        return (
+            f"contact at cycle {self.cycles:.6g}: loaded rollers must slide, but none does: without load and "
+            "sliding there is no wear and no life"
+        )
+
+    def first_rate(self) -> float:
+        """Return the depth per cycle of the worst event under the Hertz pressure on a flat, about."""
+        contact, numbers = self.contact, self.numbers
+        table = contact.events(self.x, self.y, self.wear, self.memory)
+        table = table[:, table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT] > 0.0]
+        if table.shape[1] == 0:
+            return math.inf
+        hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.roller_radius))
+        worn = hertz ** numbers[PRESSURE_EXPONENT] * table[EVENT_SPEED] ** numbers[SPEED_EXPONENT]
+        worn *= numbers[COEFFICIENT] * table[EVENT_SLIP] * table[EVENT_COUNT]
+        return float(worn.max())
 
     def joint_cycles(self, until: float) -> float:
         """Return for how many cycles of constant coefficient the chain in use has worn."""

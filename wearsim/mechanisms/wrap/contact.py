@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, PressedPlaces, RestingContact
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
@@ -29,7 +29,21 @@ from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
 
 Rows = NDArray[np.float64]
 
-_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+
+def jumped(elongation: float) -> str:
+    """Say that a chain jumps."""
+    return (
+        f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but it jumps on "
+        "the worn teeth: raise the slack tension or replace the chain earlier"
+    )
+
+
+def stuck(elongation: float) -> str:
+    """Say that no equilibrium is found."""
+    return (
+        f"wrap at an elongation of {100 * elongation:.3g} %: the solver must find where the rollers rest in "
+        "the worn gaps, but does not: use other nodes or phases"
+    )
 
 
 @dataclass(frozen=True)
@@ -67,7 +81,6 @@ class WrapContact(RestingContact):
     roller_area_ratio: float = 0.0
     # least slack tension at which the life ends once it is needed [N]; 0 for no such limit
     slack_limit: float = 0.0
-    thin: bool = False  # whether each step of the wear takes other phases
 
     @property
     def mechanism(self) -> WrapMechanism:
@@ -118,12 +131,12 @@ class WrapContact(RestingContact):
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
-        """Return the contact on every second point and three quarters of the phases."""
+        """Return the contact on every second point and half of the phases."""
         outline = self.profile
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
         coarse = Profile(outline.x[keep], outline.y[keep])
-        return replace(self.on_outline(coarse), phases=max(1, 3 * self.phases // 4))
+        return replace(self.on_outline(coarse), phases=max(1, self.phases // 2))
 
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline."""
@@ -134,20 +147,19 @@ class WrapContact(RestingContact):
         )
         return replace(self, blocks=blocks)
 
-    def with_fewer_phases(self) -> "WrapContact":
-        """Return the same contact with a quarter of the phases, others for each step of the wear."""
-        return replace(self, phases=max(min(self.phases, 2), self.phases // 4), thin=True)
+    def seating(self, law: Rows, unworn: Rows) -> PressedPlaces:
+        """Return the rollers on gaps that yield like an elastic foundation, for implicit stages."""
+        # Its kernels compile where it is imported for the first time.
+        from wearsim.mechanisms.wrap.seating import WrapSeating
 
-    def at(self, step: int) -> float:
-        """Return which phases a step of the wear takes."""
-        return (0.5 + step * _GOLDEN) % 1.0 if self.thin else 0.5
+        return WrapSeating(self, law, unworn)
 
     def memory(self) -> Rows:
         """Return the places where no roller has been found yet."""
         configurations = 2 if self.mechanism.chain.alternating else 1
         return np.full((len(self.blocks), configurations, self.phases, self.most_rollers), -1.0)
 
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows, at: float = 0.5) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
         """Return what worn gaps meet in one revolution.
 
         Equation physics.md (W9), of the slip where the chain articulates.
@@ -160,8 +172,6 @@ class WrapContact(RestingContact):
             What the chain has lost.
         memory : numpy.ndarray
             Where the rollers were last; replaced by where they are.
-        at : float, optional
-            From 0 to 1: place of every phase in its part of the pitch; the middle otherwise.
 
         Returns
         -------
@@ -179,7 +189,7 @@ class WrapContact(RestingContact):
         """
         worn = self.worn_paths(x, y, wear)
         tables = [
-            self._block_events(block, worn, wear, places, at)
+            self._block_events(block, worn, wear, places)
             for block, places in zip(self.blocks, memory, strict=True)
         ]
         return np.concatenate(tables, axis=1)
@@ -197,7 +207,7 @@ class WrapContact(RestingContact):
         return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
 
     def _block_events(
-        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows, at: float
+        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows
     ) -> Rows:
         """Return what worn gaps meet in one revolution of a block, times its share."""
         mechanism = block.mechanism
@@ -214,7 +224,7 @@ class WrapContact(RestingContact):
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
         numbers[PHASE_TIME] = block.pitch_time / self.phases
-        numbers[SHIFT] = at
+        numbers[SHIFT] = 0.5
         numbers[START] = mechanism.start(wear.elongation, loci[0])
         numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(
@@ -234,16 +244,9 @@ class WrapContact(RestingContact):
             table,
         )
         if status == JUMPED:
-            raise JumpError(
-                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the rollers must "
-                "hold the chain, but it jumps on the worn teeth: raise the slack tension or replace the "
-                "chain earlier"
-            )
+            raise JumpError(jumped(wear.elongation))
         if status != SEATED:
-            raise ConvergenceError(
-                f"wrap at an elongation of {100 * wear.elongation:.3g} %: the solver must find where the "
-                "rollers rest in the worn gaps, but does not: use other nodes or phases"
-            )
+            raise ConvergenceError(stuck(wear.elongation))
         memory[:] = self._by_body(positions, [path.node_place for path in worn])
         return table
 

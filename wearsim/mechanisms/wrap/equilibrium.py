@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.errors import ContactError
+from wearsim.errors import ContactError, JumpError
 from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, WornPath
 from wearsim.kernels.wrap_cycle import LOOSEST
@@ -210,6 +210,24 @@ class WrapMechanism:
             tight_direction=np.array([-math.cos(tight), -math.sin(tight)]),
             slack_direction=np.array([math.cos(last), -math.sin(last)]),
         )
+
+    def seats(
+        self, phase: float, elongation: float, first: int, worn: tuple[WornPath, ...]
+    ) -> NDArray[np.float64]:
+        """Return where rollers rest on rigid worn gaps, each in the frame of its own gap [mm].
+
+        Raises
+        ------
+        JumpError
+            The chain jumps.
+        """
+        status, _, work, _, force = self._solve(phase, elongation, first, worn[0].locus, worn[-1].locus)
+        loose = status == STALLED and residual(force.size, work) <= LOOSEST * self.pull.tight
+        if status != SEATED and not loose:
+            raise JumpError(self._jump(phase, elongation, status))
+        turn = self.pitch_angle * np.arange(force.size)
+        x, y = work[CENTRE_X], work[CENTRE_Y]
+        return np.column_stack([np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y])
 
     def _solve(
         self, phase: float, elongation: float, first: int, even: NDArray[np.float64], odd: NDArray[np.float64]

@@ -12,7 +12,7 @@ from wearsim.result import Life, LowerBound, WearResult, life_of
 from wearsim.simulation.wear_task import wear_law
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.wear.resting_bodies import StartState
-from wearsim.wear.step_halving import advance_resting
+from wearsim.wear.settled_run import advance_resting
 
 
 def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, float]:
@@ -25,7 +25,7 @@ def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, flo
     chain = int(history["chain"][-1])
     if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
         wear, chain = NEW_CHAIN, chain + 1
-    reversed_ = contact.on_outline(contact.profile.mirrored()).with_fewer_phases()
+    reversed_ = contact.on_outline(contact.profile.mirrored())
     start = StartState(depth[:, ::-1].copy(), wear, chain)
     stop_limits = _stop_limits(case, reversed_, _working_half(contact, depth))
     profile = reversed_.profile

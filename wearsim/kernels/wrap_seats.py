@@ -1,0 +1,410 @@
+"""Where the rollers of a wrap rest when gaps yield like an elastic foundation and wear meanwhile."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.wrap_equilibrium import (
+    PITCH_ANGLE,
+    PITCH_EVEN,
+    PITCH_ODD,
+    SEATED,
+    SLACK_TENSION,
+    STALLED,
+    STIFFNESS,
+    TIGHT_TENSION,
+)
+
+if TYPE_CHECKING:
+    from wearsim.geometry.profile_points import Vector
+
+# rows of the table of seats, a column for every roller in every phase: centre in its gap, nearest cell,
+# half of the width that presses, cells that may press, friction, force on the tooth, where it presses,
+# slip, over how many cells it sweeps on either side until it is half way to the next phase, and how fast
+# it alone wears a cell by its pressure
+SEAT_X, SEAT_Y, NEAREST, HALF_WIDTH, FIRST, LAST, DRAG_X, DRAG_Y = range(8)
+LOAD_X, LOAD_Y, PLACE, SLIP, SPEED, BEFORE, AFTER, OWN_YIELD = range(8, 16)
+SEAT_ROWS = 16
+
+# rows of the table of work, a column for every roller
+_RIGHT_X, _RIGHT_Y, _XX, _XY, _YY, _LXX, _LXY, _LYX, _LYY = range(9)
+_IXX, _IXY, _IYY, _DOWN_X, _DOWN_Y, _STEP_X, _STEP_Y = range(9, 16)
+_TRIAL_X, _TRIAL_Y, _FROM_X, _FROM_Y, _SEEN_X, _SEEN_Y, _LOW, _HIGH, _PRESSED = range(16, 25)
+SEAT_WORK_ROWS = 25
+
+# rows of the table of cells: force of each, and its direction
+_FORCE, _ACROSS, _UP = 0, 1, 2
+CELL_ROWS = 3
+
+_MARGIN = 0.002
+"""Distance within which cells are looked at, in radii of the roller; the first longest step too."""
+
+_MAX_ITERATIONS = 400
+_MAX_DRAGS = 60
+_STIFFEST = 1e14
+_ROUNDING = 1e-11
+
+
+@kernel(int64(float64, float64, float64))
+def seats_in_wrap(wrap_angle: float, pitch_angle: float, phase: float) -> int:
+    """Return the number of rollers between the straight strands."""
+    return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
+
+
+@kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR))
+def near_cells(
+    x: Vector, y: Vector, recess: Vector, reach: int, radius: float, cx: float, cy: float, nearest: float,
+    found: Vector,
+) -> None:
+    """Write the first cell and the one after the last that a roller may press, and the nearest one."""
+    k = int(nearest)
+    low, high = max(0, k - reach), min(x.size, k + reach + 1)
+    first, last, best = high, low, math.inf
+    for j in range(low, high):
+        dx, dy = cx - x[j], cy - y[j]
+        distance = dx * dx + dy * dy
+        within = radius + recess[j] + _MARGIN * radius
+        if distance < within * within:
+            first, last = min(first, j), j + 1
+        if distance < best:
+            best, k = distance, j
+    found[0], found[1], found[2] = first, last, k
+
+
+@kernel(
+    void(
+        VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64, float64, float64, float64, VECTOR, int64, TABLE,
+        VECTOR,
+    )
+)
+def foundation_force(
+    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, first: int, last: int,
+    radius: float, cx: float, cy: float, held: Vector, holds: int, cells: Vector, out: Vector,
+) -> None:
+    """Write force per width on a roller, its stiffness, energy and the width that presses.
+
+    A cell presses along the line to the roller's centre with (overlap + recess)/compliance.
+    ``holds`` 1: the cells that have a pressure in ``held`` press or pull, no others.
+
+    Equation physics.md (W10).
+    """
+    if holds == 1:
+        for j in range(first, last):
+            dx, dy = cx - x[j], cy - y[j]
+            distance = math.sqrt(dx * dx + dy * dy)
+            over = radius - distance + recess[j]
+            cells[_FORCE, j] = over / compliance[j] * width[j] if held[j] > 0.0 else 0.0
+            cells[_ACROSS, j], cells[_UP, j] = dx / distance, dy / distance
+    else:
+        for j in range(first, last):
+            dx, dy = cx - x[j], cy - y[j]
+            distance = math.sqrt(dx * dx + dy * dy)
+            cells[_FORCE, j] = max(radius - distance + recess[j], 0.0) / compliance[j] * width[j]
+            cells[_ACROSS, j], cells[_UP, j] = dx / distance, dy / distance
+    fx, fy, xx, xy, yy, stored, pressed = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(first, last):
+        force = cells[_FORCE, j]
+        if force != 0.0:
+            stiffness, turning = width[j] / compliance[j], force / radius
+            nx, ny = cells[_ACROSS, j], cells[_UP, j]
+            fx += force * nx
+            fy += force * ny
+            xx += stiffness * nx * nx - turning * ny * ny
+            xy += (stiffness + turning) * nx * ny
+            yy += stiffness * ny * ny - turning * nx * nx
+            stored += 0.5 * force * force / stiffness
+            pressed += width[j]
+    out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, xx, xy, yy, stored, pressed
+
+
+@kernel(
+    float64(
+        int64, int64, int64, VECTOR, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64, float64,
+        float64, TABLE, int64, TABLE, TABLE,
+    )
+)
+def wrap_balance(
+    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
+    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, pressures: Vector, holds: int,
+    radius: float, face_width: float, seats: Vector, row: int, work: Vector, cells: Vector,
+) -> float:
+    """Write what pulls on every roller and the stiffness against it; return the potential energy.
+
+    The centres are rows ``row`` and ``row`` + 1 of ``work``, each in the frame of its own gap, which is
+    that of the one before turned clockwise by a pitch angle. The energy counts from the places
+    that ``work`` holds in its rows of where the solve began.
+
+    Equation physics.md (W3).
+    """
+    bodies, spring = x.shape[0], constants[STIFFNESS]
+    out = cells[CELL_ROWS]
+    energy: float = 0.0
+    for i in range(rollers):
+        body = (i + kind) % bodies
+        foundation_force(
+            x[body], y[body], width[body], compliance[i], recess[i], int(work[_LOW, i]), int(work[_HIGH, i]),
+            radius, work[row, i], work[row + 1, i], pressures[event + i], holds, cells, out,
+        )
+        drag_x, drag_y = seats[DRAG_X, event + i], seats[DRAG_Y, event + i]
+        work[_RIGHT_X, i] = face_width * out[0] + drag_x
+        work[_RIGHT_Y, i] = face_width * out[1] + drag_y
+        work[_XX, i], work[_XY, i], work[_YY, i] = face_width * out[2], face_width * out[3], face_width * out[4]
+        work[_PRESSED, i] = out[6]
+        energy += face_width * out[5]
+        energy -= drag_x * (work[row, i] - work[_FROM_X, i]) + drag_y * (work[row + 1, i] - work[_FROM_Y, i])
+    last, turn = rollers - 1, constants[PITCH_ANGLE]
+    pull_x, pull_y = -math.cos(tight_angle), -math.sin(tight_angle)
+    pull_x, pull_y = constants[TIGHT_TENSION] * pull_x, constants[TIGHT_TENSION] * pull_y
+    work[_RIGHT_X, 0] += pull_x
+    work[_RIGHT_Y, 0] += pull_y
+    energy -= pull_x * (work[row, 0] - work[_FROM_X, 0]) + pull_y * (work[row + 1, 0] - work[_FROM_Y, 0])
+    # The slack strand goes off at slack_angle below the tangent of the last gap's own frame.
+    pull_x = constants[SLACK_TENSION] * math.cos(slack_angle)
+    pull_y = -constants[SLACK_TENSION] * math.sin(slack_angle)
+    work[_RIGHT_X, last] += pull_x
+    work[_RIGHT_Y, last] += pull_y
+    energy -= pull_x * (work[row, last] - work[_FROM_X, last])
+    energy -= pull_y * (work[row + 1, last] - work[_FROM_Y, last])
+    c, s = math.cos(turn), math.sin(turn)
+    for i in range(rollers - 1):
+        natural = constants[PITCH_EVEN] if (i + kind) % 2 == 0 else constants[PITCH_ODD]
+        ex = c * work[row, i + 1] + s * work[row + 1, i + 1] - work[row, i]
+        ey = c * work[row + 1, i + 1] - s * work[row, i + 1] - work[row + 1, i]
+        length = math.sqrt(ex * ex + ey * ey)
+        pull = spring * (length - natural)
+        if not pull > 0.0:
+            work[_LXX, i], work[_LXY, i], work[_LYX, i], work[_LYY, i] = 0.0, 0.0, 0.0, 0.0
+            continue
+        energy += 0.5 * pull * (length - natural)
+        ex, ey = ex / length, ey / length
+        across = pull / length
+        work[_RIGHT_X, i] += pull * ex
+        work[_RIGHT_Y, i] += pull * ey
+        work[_RIGHT_X, i + 1] -= pull * (c * ex - s * ey)
+        work[_RIGHT_Y, i + 1] -= pull * (s * ex + c * ey)
+        xx, xy = spring * ex * ex + across * ey * ey, (spring - across) * ex * ey
+        yy = spring * ey * ey + across * ex * ex
+        work[_XX, i] += xx
+        work[_XY, i] += xy
+        work[_YY, i] += yy
+        ax, ay, bx, by = c * xx - s * xy, c * xy - s * yy, s * xx + c * xy, s * xy + c * yy
+        work[_XX, i + 1] += ax * c - ay * s
+        work[_XY, i + 1] += ax * s + ay * c
+        work[_YY, i + 1] += bx * s + by * c
+        work[_LXX, i], work[_LXY, i] = xy * s - xx * c, -(xx * s + xy * c)
+        work[_LYX, i], work[_LYY, i] = yy * s - xy * c, -(xy * s + yy * c)
+    return energy
+
+
+@kernel(int64(int64, float64, TABLE))
+def wrap_step(rollers: int, shift: float, work: Vector) -> int:
+    """Write the step that the forces ask for, each roller held by a spring ``shift``; 1 if not stable."""
+    for i in range(rollers):
+        xx, xy, yy = work[_XX, i] + shift, work[_XY, i], work[_YY, i] + shift
+        right_x, right_y = work[_RIGHT_X, i], work[_RIGHT_Y, i]
+        if i > 0:
+            lxx, lxy, lyx, lyy = work[_LXX, i - 1], work[_LXY, i - 1], work[_LYX, i - 1], work[_LYY, i - 1]
+            ixx, ixy, iyy = work[_IXX, i - 1], work[_IXY, i - 1], work[_IYY, i - 1]
+            ax, bx = ixx * lxx + ixy * lyx, ixx * lxy + ixy * lyy
+            ay, by = ixy * lxx + iyy * lyx, ixy * lxy + iyy * lyy
+            xx -= lxx * ax + lyx * ay
+            xy -= lxx * bx + lyx * by
+            yy -= lxy * bx + lyy * by
+            right_x -= ax * work[_DOWN_X, i - 1] + ay * work[_DOWN_Y, i - 1]
+            right_y -= bx * work[_DOWN_X, i - 1] + by * work[_DOWN_Y, i - 1]
+        pivot = xx * yy - xy * xy
+        if not (xx > 0.0 and yy > 0.0 and pivot > 1e-14 * xx * yy):
+            return 1
+        work[_IXX, i], work[_IXY, i], work[_IYY, i] = yy / pivot, -xy / pivot, xx / pivot
+        work[_DOWN_X, i], work[_DOWN_Y, i] = right_x, right_y
+    for i in range(rollers - 1, -1, -1):
+        right_x, right_y = work[_DOWN_X, i], work[_DOWN_Y, i]
+        if i < rollers - 1:
+            right_x -= work[_LXX, i] * work[_STEP_X, i + 1] + work[_LXY, i] * work[_STEP_Y, i + 1]
+            right_y -= work[_LYX, i] * work[_STEP_X, i + 1] + work[_LYY, i] * work[_STEP_Y, i + 1]
+        work[_STEP_X, i] = work[_IXX, i] * right_x + work[_IXY, i] * right_y
+        work[_STEP_Y, i] = work[_IXY, i] * right_x + work[_IYY, i] * right_y
+    return 0
+
+
+@kernel(float64(int64, int64, TABLE))
+def largest_of(rollers: int, row: int, work: Vector) -> float:
+    """Return the largest entry by amount of two rows of the table of work."""
+    found = 0.0
+    for i in range(rollers):
+        found = max(found, abs(work[row, i]), abs(work[row + 1, i]))
+    return found
+
+
+@kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, VECTOR))
+def look_around(
+    event: int, i: int, body: int, x: Vector, y: Vector, recess: Vector, reach: int, radius: float,
+    seats: Vector, work: Vector, found: Vector,
+) -> None:
+    """Find the cells that a roller may press from its trial place."""
+    near_cells(
+        x[body], y[body], recess[i], reach, radius, work[_TRIAL_X, i], work[_TRIAL_Y, i],
+        seats[NEAREST, event + i], found,
+    )
+    seats[NEAREST, event + i] = found[2]
+    work[_SEEN_X, i], work[_SEEN_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+
+
+@kernel(
+    int64(
+        int64, int64, int64, VECTOR, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64, int64,
+        float64, float64, float64, TABLE, TABLE, TABLE,
+    )
+)
+def balance_rollers(
+    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
+    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, pressures: Vector, holds: int,
+    reach: int, radius: float, face_width: float, tolerance: float, seats: Vector, work: Vector,
+    cells: Vector,
+) -> int:
+    """Bring the rollers of one phase into balance, by Newton steps of limited length; the energy falls.
+
+    The seats from column ``event`` on hold where to start and take the answer. ``holds`` 1: the cells
+    that pressed last are held in the first step, so that a roller which the tooth has receded
+    from comes back to it at once.
+    """
+    found = cells[CELL_ROWS + 1]
+    bodies, longest, shift = x.shape[0], _MARGIN * radius, 0.0
+    for i in range(rollers):
+        work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
+        work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+        look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, found)
+        work[_LOW, i], work[_HIGH, i] = found[0], found[1]
+        if holds == 1 and seats[LAST, event + i] > seats[FIRST, event + i]:
+            work[_LOW, i] = min(found[0], seats[FIRST, event + i])
+            work[_HIGH, i] = max(found[1], seats[LAST, event + i])
+    if holds == 1:
+        wrap_balance(
+            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
+            1, radius, face_width, seats, _TRIAL_X, work, cells,
+        )
+        if wrap_step(rollers, 0.0, work) == 0 and largest_of(rollers, _STEP_X, work) < 10.0 * longest:
+            for i in range(rollers):
+                work[_TRIAL_X, i] += work[_STEP_X, i]
+                work[_TRIAL_Y, i] += work[_STEP_Y, i]
+                look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, found)
+                work[_LOW, i], work[_HIGH, i] = found[0], found[1]
+    for i in range(rollers):
+        seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+    energy = wrap_balance(
+        event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures, 0,
+        radius, face_width, seats, _TRIAL_X, work, cells,
+    )
+    error = largest_of(rollers, _RIGHT_X, work)
+    for _ in range(_MAX_ITERATIONS):
+        if error <= tolerance:
+            return SEATED
+        step = 0.0
+        shift = 0.0
+        while True:
+            if wrap_step(rollers, shift, work) == 0:
+                step = largest_of(rollers, _STEP_X, work)
+                if step <= longest:
+                    break
+                shift *= 4.0 if step < 8.0 * longest else 16.0
+            else:
+                shift *= 16.0
+            shift = max(shift, 1e-4 * constants[STIFFNESS])
+            if shift > _STIFFEST:
+                return STALLED
+        slope = 0.0
+        for i in range(rollers):
+            body = (i + kind) % bodies
+            slope -= work[_STEP_X, i] * work[_RIGHT_X, i] + work[_STEP_Y, i] * work[_RIGHT_Y, i]
+            work[_TRIAL_X, i] = seats[SEAT_X, event + i] + work[_STEP_X, i]
+            work[_TRIAL_Y, i] = seats[SEAT_Y, event + i] + work[_STEP_Y, i]
+            away_x, away_y = work[_TRIAL_X, i] - work[_SEEN_X, i], work[_TRIAL_Y, i] - work[_SEEN_Y, i]
+            if away_x * away_x + away_y * away_y > _MARGIN * _MARGIN * radius * radius:
+                low, high = work[_LOW, i], work[_HIGH, i]
+                look_around(event, i, body, x, y, recess, reach, radius, seats, work, found)
+                if found[1] > found[0]:
+                    work[_LOW, i] = min(low, found[0]) if high > low else found[0]
+                    work[_HIGH, i] = max(high, found[1]) if high > low else found[1]
+        after = wrap_balance(
+            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
+            0, radius, face_width, seats, _TRIAL_X, work, cells,
+        )
+        left = largest_of(rollers, _RIGHT_X, work)
+        level = abs(after - energy) <= _ROUNDING * abs(energy)
+        if after <= energy + 1e-4 * slope or (level and left < error):
+            gain = 1.0 if level else (after - energy) / slope
+            longest *= 3.0 if gain > 0.75 else (0.5 if gain < 0.25 else 1.0)
+            for i in range(rollers):
+                seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+            energy, error = after, left
+        else:
+            longest = 0.25 * step
+            if longest < 1e-13 * radius:
+                return STALLED
+            for i in range(rollers):
+                work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
+            energy = wrap_balance(
+                event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess,
+                pressures, 0, radius, face_width, seats, _TRIAL_X, work, cells,
+            )
+    return STALLED
+
+
+@kernel(
+    int64(
+        int64, int64, int64, VECTOR, float64, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64,
+        int64, float64, float64, float64, TABLE, TABLE, TABLE,
+    )
+)
+def seat_rollers(
+    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
+    friction: float, x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector,
+    pressures: Vector, holds: int, reach: int, radius: float, face_width: float, tolerance: float,
+    seats: Vector, work: Vector, cells: Vector,
+) -> int:
+    """Find where the rollers of one phase rest, friction included, and write how they press.
+
+    Friction is a fraction of the force across it and acts towards the last cell where it is positive;
+    it is renewed until it agrees with the force. ``pressures`` has a row for every column of ``seats``.
+    """
+    status, bodies = STALLED, x.shape[0]
+    for _ in range(_MAX_DRAGS):
+        status = balance_rollers(
+            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
+            holds, reach, radius, face_width, tolerance, seats, work, cells,
+        )
+        change, holds = 0.0, 0
+        for i in range(rollers):
+            body = (i + kind) % bodies
+            first, last = int(work[_LOW, i]), int(work[_HIGH, i])
+            out = cells[CELL_ROWS]
+            foundation_force(
+                x[body], y[body], width[body], compliance[i], recess[i], first, last, radius,
+                seats[SEAT_X, event + i], seats[SEAT_Y, event + i], pressures[event + i], 0, cells, out,
+            )
+            load_x, load_y = out[0], out[1]
+            seats[LOAD_X, event + i], seats[LOAD_Y, event + i] = load_x, load_y
+            drag_x, drag_y = -friction * face_width * load_y, friction * face_width * load_x
+            change = max(change, abs(drag_x - seats[DRAG_X, event + i]), abs(drag_y - seats[DRAG_Y, event + i]))
+            seats[DRAG_X, event + i], seats[DRAG_Y, event + i] = drag_x, drag_y
+        if status != SEATED or friction == 0.0 or change <= 10.0 * tolerance:
+            break
+    for i in range(rollers):
+        body = (i + kind) % bodies
+        for j in range(int(seats[FIRST, event + i]), int(seats[LAST, event + i])):
+            pressures[event + i, j] = 0.0
+        first, last = int(work[_LOW, i]), int(work[_HIGH, i])
+        moment, whole = 0.0, 0.0
+        for j in range(first, last):
+            dx, dy = seats[SEAT_X, event + i] - x[body, j], seats[SEAT_Y, event + i] - y[body, j]
+            over = max(radius - math.sqrt(dx * dx + dy * dy) + recess[i, j], 0.0)
+            pressures[event + i, j] = over / compliance[i, j]
+            whole += pressures[event + i, j]
+            moment += pressures[event + i, j] * j
+        seats[FIRST, event + i], seats[LAST, event + i] = first, max(first, last)
+        seats[HALF_WIDTH, event + i] = 0.5 * work[_PRESSED, i]
+        seats[PLACE, event + i] = moment / whole if whole > 0.0 else -1.0
+    return status

@@ -1,0 +1,317 @@
+"""One implicit stage of the wear of all gaps: rollers in every phase rest in what they leave worn."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from wearsim.kernels.compiled import kernel
+from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.kernels.wrap_equilibrium import CONSTANTS, FRICTION, PITCH_ANGLE, SEATED, TIGHT_TENSION
+from wearsim.kernels.wrap_seats import (
+    AFTER,
+    BEFORE,
+    FIRST,
+    HALF_WIDTH,
+    LAST,
+    NEAREST,
+    OWN_YIELD,
+    PLACE,
+    SEAT_X,
+    SEAT_Y,
+    SLIP,
+    SPEED,
+    seat_rollers,
+    seats_in_wrap,
+)
+from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
+
+if TYPE_CHECKING:
+    from wearsim.geometry.profile_points import Vector
+
+# rows of the table of blocks, after the constants of `wrap_equilibrium`
+COUNT, PITCH_TIME = CONSTANTS, CONSTANTS + 1
+BLOCK_ROWS = CONSTANTS + 2
+
+# numbers of a stage
+(
+    WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, ROLLER_RADIUS, MODULUS, REACH, TOLERANCE,
+    RATE_FACTOR, EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS,
+) = range(13)
+STAGE_NUMBERS = 13
+
+# rows of the table of outlines, each for every body: points, cell width, depth, area, how fast the area
+# grows by pressure, area not yet worn by the pressures known
+OUTLINE_X, OUTLINE_Y, OUTLINE_WIDTH, OUTLINE_DEPTH, OUTLINE_AREA, YIELD, REST = range(7)
+OUTLINES = 7
+
+_WINKLER = 8.0 / (3.0 * math.pi)
+"""Compliance of a cell times modulus over half-width with which a Hertz contact keeps load and width."""
+
+_LEAST_SWEEP = 0.05
+"""Cells that a roller sweeps at least to have its wear spread."""
+
+
+@kernel(float64(float64, float64, float64, float64))
+def area_of_work(work: float, curvature: float, hard_depth: float, softness: float) -> float:
+    """Return the area worn per unworn length of what would be worn if all were as hard as the surface."""
+    hard = hard_depth * (1.0 - 0.5 * curvature * hard_depth) if hard_depth < math.inf else math.inf
+    return work if work <= hard else hard + softness * (work - hard)
+
+
+@kernel(float64(VECTOR, VECTOR, VECTOR, int64, int64, float64))
+def swept(masses: Vector, first_sum: Vector, second_sum: Vector, low: int, high: int, place: float) -> float:
+    """Return the integral from the left of the masses' cumulative sum, cell j from j to j + 1."""
+    if place <= low:
+        return 0.0
+    if place >= high:
+        return second_sum[high] + first_sum[high] * (place - high)
+    k = int(place)
+    part = place - k
+    return second_sum[k] + first_sum[k] * part + 0.5 * masses[k] * part * part
+
+
+@kernel(void(VECTOR, int64, int64, float64, float64, TABLE, VECTOR, TABLE))
+def spread(
+    masses: Vector, low: int, high: int, before: float, after: float, unworn: Vector, density: Vector, sums: Vector
+) -> None:
+    """Add areas of cells to the area per unworn length, spread evenly over the cells swept."""
+    n, whole = unworn.shape[1], before + after
+    if high <= low:
+        return
+    if whole < _LEAST_SWEEP:
+        for j in range(low, high):
+            density[j] += masses[j] / unworn[SPACING, j]
+        return
+    first, second = sums[0], sums[1]
+    first[low], second[low] = 0.0, 0.0
+    for j in range(low, high):
+        first[j + 1] = first[j] + masses[j]
+        second[j + 1] = second[j] + first[j] + 0.5 * masses[j]
+    begin, end = max(0, int(low - before) - 1), min(n, int(high + after) + 2)
+    left = swept(masses, first, second, low, high, begin + before)
+    left -= swept(masses, first, second, low, high, begin - after)
+    for j in range(begin, end):
+        right = swept(masses, first, second, low, high, j + 1.0 + before)
+        right -= swept(masses, first, second, low, high, j + 1.0 - after)
+        density[j] += (right - left) / (whole * unworn[SPACING, j])
+        left = right
+
+
+@kernel(void(TABLE, VECTOR, TABLE, TABLE))
+def shape_outlines(works: Vector, numbers: Vector, unworn: Vector, outlines: Vector) -> None:
+    """Write points and widths of all outlines from the work done on them."""
+    bodies, n = works.shape
+    for body in range(bodies):
+        area, depth = outlines[OUTLINE_AREA * bodies + body], outlines[OUTLINE_DEPTH * bodies + body]
+        for j in range(n):
+            curvature = unworn[UNWORN_CURVATURE, j]
+            area[j] = area_of_work(works[body, j], curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
+        x, y = outlines[OUTLINE_X * bodies + body], outlines[OUTLINE_Y * bodies + body]
+        recede(area, depth, x, y, unworn, 0, n)
+        worn_width(depth, unworn, 0, n, outlines[OUTLINE_WIDTH * bodies + body])
+
+
+@kernel(void(int64, int64, int64, float64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, VECTOR))
+def yields(
+    event: int, body: int, bodies: int, count: float, seats: Vector, pressures: Vector, works: Vector,
+    numbers: Vector, unworn: Vector, outlines: Vector, sums: Vector, masses: Vector,
+) -> None:
+    """Add what a roller wears off, and how fast that grows by its pressure, to its outline's tables."""
+    first, last = int(seats[FIRST, event]), int(seats[LAST, event])
+    seats[OWN_YIELD, event] = 0.0
+    slip, exponent = seats[SLIP, event], numbers[EXPONENT]
+    worn = numbers[RATE_FACTOR] * count * slip
+    if numbers[SPEED_POWER] != 0.0:
+        speed = seats[SPEED, event]
+        worn *= speed ** numbers[SPEED_POWER] if speed > 0.0 else 0.0
+    if not worn > 0.0 or last <= first:
+        return
+    width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
+    before, after = seats[BEFORE, event], seats[AFTER, event]
+    for j in range(first, last):
+        p = pressure[j]
+        masses[j] = worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
+    spread(masses, first, last, before, after, unworn, works[body], sums)
+    least = 0.0
+    if exponent != 1.0:
+        for j in range(first, last):
+            least = max(least, 0.05 * pressure[j])
+    for j in range(first, last):
+        p = pressure[j]
+        grows = 1.0 if exponent == 1.0 else exponent * max(p, least) ** (exponent - 1.0)
+        masses[j] = worn * grows * unworn[SPACING, j] if p > 0.0 else 0.0
+        own = masses[j] / (unworn[SPACING, j] * (1.0 + before + after))
+        seats[OWN_YIELD, event] = max(seats[OWN_YIELD, event], own)
+    spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
+
+
+@kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE))
+def slips(
+    start: int, kinds: int, numbers: Vector, phases: Vector, constants: Vector, pitch_time: float, most: int,
+    spacing: float, seats: Vector,
+) -> None:
+    """Write slip, speed and the cells swept of every roller of a block.
+
+    Slip of an articulation is shared out over the phases of the first and the last position, the way
+    along the path is half of that from the phase before and to the phase after.
+    """
+    count, angle = phases.shape[1], constants[0, PITCH_ANGLE]
+    for kind in range(kinds):
+        for step in range(count):
+            rollers = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, step])
+            for i in range(most):
+                here = start + (kind * count + step) * most + i
+                seats[SLIP, here], seats[BEFORE, here], seats[AFTER, here] = 0.0, 0.0, 0.0
+                if i >= rollers or seats[PLACE, here] < 0.0:
+                    continue
+                ends = (1.0 if i == 0 else 0.0) + (1.0 if i == rollers - 1 else 0.0)
+                way = 0.0
+                for side in range(2):
+                    # In the next pitch a roller counts one more from the tight end.
+                    other, row, rotated = step + 2 * side - 1, i, kind
+                    if other < 0 or other >= count:
+                        row = i + (1 if side == 1 else -1)
+                        rotated = (kind + 1) % kinds
+                        other = 0 if side == 1 else count - 1
+                    if row < 0 or row >= most:
+                        continue
+                    there = start + (rotated * count + other) * most + row
+                    engaged = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, other])
+                    if row < engaged and seats[PLACE, there] >= 0.0:
+                        dx = seats[SEAT_X, there] - seats[SEAT_X, here]
+                        dy = seats[SEAT_Y, there] - seats[SEAT_Y, here]
+                        moved = math.sqrt(dx * dx + dy * dy)
+                        way += 0.5 * moved
+                        # In its own pocket a roller turns the force without sweeping anything.
+                        cells = seats[PLACE, there] - seats[PLACE, here]
+                        half = 0.5 * min(abs(cells), moved / spacing)
+                        side_swept = AFTER if cells > 0.0 else BEFORE
+                        seats[side_swept, here] += half
+                slip = ends * numbers[ARTICULATION_SLIP] * phases[1, step] + numbers[PATH_SLIP] * way
+                seats[SLIP, here] = slip
+                seats[SPEED, here] = slip / (pitch_time * phases[1, step])
+
+
+@kernel(
+    int64(
+        int64, int64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64,
+    )
+)
+def sweep_phases(
+    start: int, kinds: int, constants: Vector, phases: Vector, seats: Vector, numbers: Vector,
+    pressures: Vector, outlines: Vector, compliance: Vector, recess: Vector, work: Vector, cells: Vector,
+    elastic: int,
+) -> int:
+    """Seat the rollers of all phases of a block on the present outlines.
+
+    ``elastic`` 1: nothing wears meanwhile. Else a cell recedes by what its pressure wears off, as fast as
+    the pressures of all rollers together do: the tangent of the whole stage.
+    """
+    most, count, angle = compliance.shape[0], phases.shape[1], constants[0, PITCH_ANGLE]
+    bodies = outlines.shape[0] // OUTLINES
+    n = outlines.shape[1]
+    x = outlines[OUTLINE_X * bodies : (OUTLINE_X + 1) * bodies]
+    y = outlines[OUTLINE_Y * bodies : (OUTLINE_Y + 1) * bodies]
+    width = outlines[OUTLINE_WIDTH * bodies : (OUTLINE_WIDTH + 1) * bodies]
+    radius, reach = numbers[ROLLER_RADIUS], int(numbers[REACH])
+    tight = constants[0, TIGHT_TENSION]
+    for kind in range(kinds):
+        for step in range(count):
+            rollers = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, step])
+            event = start + (kind * count + step) * most
+            tight_angle = angle * (phases[0, step] - 0.5)
+            slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle
+            for i in range(rollers):
+                body, near = (i + kind) % bodies, int(seats[NEAREST, event + i])
+                spring = _WINKLER * max(seats[HALF_WIDTH, event + i], 2.0 * width[body, near]) / numbers[MODULUS]
+                # A little beyond what the roller can reach, as the nearest cell may move.
+                low, high = max(0, near - 2 * reach), min(n, near + 2 * reach + 1)
+                if elastic == 1:
+                    for j in range(low, high):
+                        compliance[i, j], recess[i, j] = spring, 0.0
+                    continue
+                fast, rest = outlines[YIELD * bodies + body], outlines[REST * bodies + body]
+                pressure = pressures[event + i]
+                own = seats[OWN_YIELD, event + i]
+                for j in range(low, high):
+                    grows = max(fast[j], own)
+                    compliance[i, j] = spring + grows
+                    recess[i, j] = grows * pressure[j] + rest[j]
+            status = seat_rollers(
+                event, rollers, kind, constants[0], tight_angle, slack_angle, constants[0, FRICTION], x, y, width, compliance,
+                recess, pressures, 1 - elastic, reach, radius, numbers[FACE_WIDTH], numbers[TOLERANCE] * tight, seats,
+                work, cells,
+            )
+            if status != SEATED:
+                return status
+    return SEATED
+
+
+@kernel(
+    int64(
+        TABLE, TABLE, int64, int64, TABLE, TABLE, int64, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE,
+        TABLE, TABLE,
+    )
+)
+def implicit_stage(
+    base: Vector, works: Vector, passes: int, kinds: int, blocks: Vector, phases: Vector, elastic: int,
+    seats: Vector, numbers: Vector, unworn: Vector, pressures: Vector, outlines: Vector, compliance: Vector,
+    recess: Vector, work: Vector, cells: Vector, sums: Vector,
+) -> int:
+    """Replace a guess of the work done on all outlines by ``base`` plus that of the pressures in the end.
+
+    Each pass seats all rollers on the outlines as they were after the pass before, with the tangent of
+    the wear in every cell, and adds up the wear of their pressures. ``elastic`` 1: the rollers are
+    seated on the outlines of ``works``, twice since slips and widths follow from seats, and nothing wears.
+
+    Equations physics.md (W10) and (W12).
+    """
+    bodies, n = works.shape
+    count, most, spacing = phases.shape[1], compliance.shape[0], unworn[SPACING, n // 2]
+    for _ in range(passes):
+        shape_outlines(works, numbers, unworn, outlines)
+        if elastic == 0:
+            for row in range(YIELD * bodies, OUTLINES * bodies):
+                for j in range(n):
+                    outlines[row, j] = 0.0
+            for body in range(bodies):
+                for j in range(n):
+                    sums[3 + body, j] = base[body, j]
+            for event in range(seats.shape[1]):
+                block, kind = event // (kinds * count * most), event // (count * most) % kinds
+                yields(
+                    event, (event % most + kind) % bodies, bodies, blocks[block, COUNT], seats, pressures, sums[3:],
+                    numbers, unworn, outlines, sums, sums[2],
+                )
+            for body in range(bodies):
+                rest, fast = outlines[REST * bodies + body], outlines[YIELD * bodies + body]
+                for j in range(n):
+                    curvature, known = unworn[UNWORN_CURVATURE, j], sums[3 + body, j]
+                    area = area_of_work(known, curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
+                    rest[j] = outlines[OUTLINE_AREA * bodies + body, j] - area
+                    soft = outlines[OUTLINE_DEPTH * bodies + body, j] > numbers[HARD_DEPTH]
+                    fast[j] *= numbers[SOFTNESS] if soft else 1.0
+        for block in range(blocks.shape[0]):
+            start, constants = block * kinds * count * most, blocks[block : block + 1]
+            if not blocks[block, TIGHT_TENSION] > 0.0:
+                continue
+            status = sweep_phases(
+                start, kinds, constants, phases, seats, numbers, pressures, outlines, compliance, recess, work,
+                cells, elastic,
+            )
+            if status != SEATED:
+                return status
+            slips(start, kinds, numbers, phases, constants, blocks[block, PITCH_TIME], most, spacing, seats)
+        if elastic == 1:
+            continue
+        for body in range(bodies):
+            for j in range(n):
+                works[body, j] = base[body, j]
+        for event in range(seats.shape[1]):
+            block, kind = event // (kinds * count * most), event // (count * most) % kinds
+            yields(
+                event, (event % most + kind) % bodies, bodies, blocks[block, COUNT], seats, pressures, works, numbers,
+                unworn, outlines, sums, sums[2],
+            )
+    return SEATED

@@ -1,0 +1,149 @@
+"""Worn outlines and a chain in implicit steps of second order: wear and places found together.
+
+Two stages of Alexander's method (SDIRK2, gamma = 1 - 1/sqrt(2); R. Alexander 1977, SIAM J. Numer.
+Anal. 14, 1006): L-stable, its second stage is the result. The mates are not part of the state, they
+are where the worn outlines let them rest at the end of a stage; both are extrapolated for a start.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wearsim.contact.resting_engagement import ChainWear, RestingContact
+from wearsim.errors import ContactError, ConvergenceError, JumpError
+from wearsim.kernels.wrap_wear import AREA, HARD_AREA, SPACING, UNWORN_CURVATURE, recede
+from wearsim.wear.law import WearLaw
+from wearsim.wear.resting_bodies import StartState, WornBodies
+
+Rows = NDArray[np.float64]
+
+_GAMMA = 1.0 - math.sqrt(0.5)
+
+_HALVINGS = 10
+"""Times that a step is halved whose stages are not found."""
+
+_FARTHEST = 0.005
+"""Way that a mate is moved ahead at most for a start, in its radii."""
+
+
+class SeatedBodies(WornBodies):
+    """Worn outlines, the chain, and a step of their wear by implicit stages.
+
+    Parameters
+    ----------
+    contact : RestingContact
+        The outlines and their contacts.
+    law : WearLaw
+        The wear law.
+    start : StartState or None
+        What has worn off already.
+    """
+
+    def __init__(self, contact: RestingContact, law: WearLaw, start: StartState | None) -> None:
+        super().__init__(contact, law, start)
+        self.law = law
+        numbers = law.pressure_exponent, law.speed_exponent, law.case_depth, law.core_factor
+        self.seating = contact.seating(np.array([law.coefficient, *numbers]), self.unworn)
+        hard = self._hard_area()
+        soft = np.maximum(self.area - hard, 0.0)
+        self.works = np.where(soft > 0.0, hard + soft / law.core_factor, self.area)
+        self.hard_rate = 0.0
+        self.growth: Rows | None = None
+        self.drift = np.zeros_like(self.seating.places)
+        self.seated = False
+
+    def _hard_area(self) -> Rows:
+        """Area per unworn length down to the end of the hard layer [mm]."""
+        depth, curvature = self.law.case_depth, self.unworn[UNWORN_CURVATURE]
+        if depth == math.inf:
+            return np.full(curvature.size, math.inf)
+        return depth * (1.0 - 0.5 * curvature * depth)
+
+    def first_rate(self) -> float:
+        """Return how fast the outlines wear at first [mm per cycle]."""
+        self._seat()
+        return self.seating.rate
+
+    def _seat(self) -> None:
+        if self.seated:
+            return
+        self.seating.seat(self.works, self.x, self.y, self.wear)
+        if not (self.seating.slides and self.seating.rate > 0.0):
+            raise ContactError(self.no_wear())
+        self.growth, self.seated = None, True
+
+    def replace_chain(self) -> None:
+        """Put on a new chain, whose rollers rest elsewhere."""
+        super().replace_chain()
+        self.seated = False
+
+    def step(self, cycles: float) -> float:
+        """Wear for so many cycles, or for a part of them where the mates are not found after all."""
+        self._seat()
+        kept, before = self.seating.kept(), self.depth.copy()
+        for _ in range(_HALVINGS):
+            works = self._stages(cycles)
+            if works is not None:
+                self._accept(works, cycles)
+                return float((self.depth - before).max())
+            self.seating.restore(kept)
+            self.growth = None
+            cycles *= 0.5
+        if self.seating.jumps(self.x, self.y, self._chain(cycles)):
+            raise JumpError(f"contact at cycle {self.cycles:.6g}: the chain jumps on the worn teeth")
+        raise ConvergenceError(
+            f"wear at cycle {self.cycles:.6g}: the places and pressures of all rollers must be found, but "
+            "are not: use other nodes or phases"
+        )
+
+    def _chain(self, cycles: float) -> ChainWear:
+        """Return what the chain will have lost, with what the rollers gave off in the last step."""
+        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
+        return self.contact.chain_after(self.wear, joints, self.hard_rate * cycles)
+
+    def _stages(self, cycles: float) -> Rows | None:
+        """Return the work done after a step, None where a stage is not found."""
+        begin, places = self.works, self.seating.places
+        inner, outer = _GAMMA * cycles, (1.0 - _GAMMA) * cycles
+        works = begin.copy()
+        if self.growth is not None:
+            works += inner * self.growth
+            self._move(self.drift * inner)
+        before = places.copy()
+        if not self.seating.stage(begin, inner, works, self._chain(inner)):
+            return None
+        growth, middle = (works - begin) / inner, places.copy()
+        if self.growth is not None:
+            self._move((middle - before + self.drift * inner) * (outer / inner))
+        base = begin + outer * growth
+        works = begin + cycles * growth
+        if not self.seating.stage(base, inner, works, self._chain(cycles)):
+            return None
+        self.growth, self.drift = (works - base) / inner, (places - middle) / outer
+        return np.maximum(works, begin)
+
+    def _move(self, way: Rows) -> None:
+        """Move the mates ahead of a stage."""
+        farthest = _FARTHEST * self.contact.roller_radius
+        self.seating.places[:] += np.clip(way, -farthest, farthest)
+
+    def _accept(self, works: Rows, cycles: float) -> None:
+        hard, spacing = self._hard_area(), self.unworn[SPACING]
+        area = np.minimum(works, hard) + self.law.core_factor * np.maximum(works - hard, 0.0)
+        worn = float(((area - self.area) * spacing).sum())
+        hard_area = float(((works - self.works) * spacing).sum()) / self.contact.bodies
+        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
+        self.wear = self.contact.chain_after(self.wear, joints, hard_area)
+        self.hard_rate = hard_area / cycles
+        self.works, self.area = works, area
+        for body in range(self.contact.bodies):
+            recede(
+                area[body], self.depth[body], self.x[body], self.y[body], self.unworn, 0, area.shape[1]
+            )
+        self.removed += worn
+        self.cycles += cycles
+        self.updates += 1
+        self.press(self.seating.hardest_pressed(), 0.0)
+        self.speed = self.seating.speed
+        self.findings[AREA], self.findings[HARD_AREA] = worn, hard_area

@@ -1,0 +1,92 @@
+"""A run of resting contacts with an error that coarser runs bound, made finer until it is small enough."""
+
+import math
+import os
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.stop_limits import StopLimit
+from wearsim.wear.implicit_steps import RestingTrajectory, run_seated
+from wearsim.wear.law import WearLaw
+from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.trajectory import difference
+
+_MAX_LEVEL = 3
+"""Times that the steps are halved at most."""
+
+_SAFETY = 1.5
+"""On the error of a run: with it the stated error holds for 98 of 100 random drives."""
+
+
+def run_together(
+    contacts: Sequence[tuple[RestingContact, int]],
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
+    horizon: float,
+    start: StartState | None = None,
+    progress: Callable[[float], None] = lambda part: None,
+) -> list[RestingTrajectory]:
+    """Run several contacts side by side, each with its own size of steps."""
+    stop = threading.Event()
+
+    def _first(part: float) -> bool:
+        progress(part)
+        return not stop.is_set()
+
+    def _others(part: float) -> bool:
+        return not stop.is_set()
+
+    watches = [_first, *[_others] * (len(contacts) - 1)]
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        runs = [
+            pool.submit(run_seated, contact, law, stop_limits, horizon, level, watch, start)
+            for (contact, level), watch in zip(contacts, watches, strict=True)
+        ]
+        try:
+            return [run.result() for run in runs]
+        except BaseException:
+            stop.set()
+            raise
+
+
+def advance_resting(
+    contact: RestingContact,
+    law: WearLaw,
+    stop_limits: tuple[StopLimit, ...],
+    horizon: float,
+    life_tolerance: float,
+    start: StartState | None = None,
+    progress: Callable[[float], None] = lambda part: None,
+) -> tuple[RestingTrajectory, float]:
+    """Wear outlines and chain until the life is within its tolerance as far as coarser runs tell.
+
+    The first of them has steps twice as long on half of the points and phases and tells how wrong
+    both make the life; where that is too much, steps are halved.
+
+    Returns
+    -------
+    tuple
+        The finest run, and how wrong its life may be, relative: what it moves by from a run with
+        twice the step, and by half of the points and phases. A method of second order leaves a
+        third of that; not all of it is of second order (physics.md, W14).
+    """
+    pair = [(contact, 0), (contact.coarsened() if start is None else contact, -1)]
+    run, coarse = run_together(pair, law, stop_limits, horizon, start, progress)
+    error = _SAFETY * difference(run, coarse)
+    if error <= life_tolerance:
+        return run, error
+    by_points = 0.0
+    if start is None:
+        (sparse,) = run_together([(contact.coarsened(), 0)], law, stop_limits, horizon, start, progress)
+        by_points = difference(run, sparse)
+    for level in range(1, _MAX_LEVEL + 1):
+        before = run
+        (run,) = run_together([(contact, level)], law, stop_limits, horizon, start, progress)
+        by_steps = difference(run, before)
+        error = _SAFETY * math.fsum((by_steps, by_points))
+        # Where the points alone are too few, smaller steps would not help.
+        if error <= life_tolerance or _SAFETY * by_steps <= 0.5 * life_tolerance:
+            break
+    return run, error
