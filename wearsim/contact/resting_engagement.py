@@ -56,6 +56,15 @@ class PressedPlaces(ABC):
     def rate(self) -> float:
         """Highest growth of the area per unworn length at the present pressures [mm per cycle]."""
 
+    @property
+    @abstractmethod
+    def drift(self) -> Rows:
+        """Way of all centres in the step under way [mm], shape (2, mates); to be set."""
+
+    @abstractmethod
+    def begin_step(self, number: int) -> None:
+        """Take the phases of a step."""
+
     @abstractmethod
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
@@ -87,7 +96,9 @@ class PressedPlaces(ABC):
         """
 
     @abstractmethod
-    def stage(self, base: Rows, cycles: float, works: Rows, wear: ChainWear) -> bool:
+    def stage(
+        self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]
+    ) -> bool:
         """Replace a guess by the base and the work of so many cycles at the pressures in the end.
 
         Parameters
@@ -100,6 +111,8 @@ class PressedPlaces(ABC):
             A guess of the result, and the result.
         wear : ChainWear
             What the chain has lost in the end.
+        swept : tuple of float
+            Parts of the drift over which the wear of this stage spreads, behind and ahead of its end.
 
         Returns
         -------

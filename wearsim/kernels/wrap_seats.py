@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 # slip, over how many cells it sweeps on either side until it is half way to the next phase, and how fast
 # it alone wears a cell by its pressure
 SEAT_X, SEAT_Y, NEAREST, HALF_WIDTH, FIRST, LAST, DRAG_X, DRAG_Y = range(8)
-LOAD_X, LOAD_Y, PLACE, SLIP, SPEED, BEFORE, AFTER, OWN_YIELD = range(8, 16)
-SEAT_ROWS = 16
+LOAD_X, LOAD_Y, PLACE, SLIP, SPEED, BEFORE, AFTER, OWN_YIELD, DRIFT_X, DRIFT_Y = range(8, 18)
+SEAT_ROWS = 18
 
 # rows of the table of work, a column for every roller
 _RIGHT_X, _RIGHT_Y, _XX, _XY, _YY, _LXX, _LXY, _LYX, _LYY = range(9)

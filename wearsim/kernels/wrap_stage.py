@@ -11,6 +11,8 @@ from wearsim.kernels.wrap_equilibrium import CONSTANTS, FRICTION, PITCH_ANGLE, S
 from wearsim.kernels.wrap_seats import (
     AFTER,
     BEFORE,
+    DRIFT_X,
+    DRIFT_Y,
     FIRST,
     HALF_WIDTH,
     LAST,
@@ -36,9 +38,9 @@ BLOCK_ROWS = CONSTANTS + 2
 # numbers of a stage
 (
     WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, ROLLER_RADIUS, MODULUS, REACH, TOLERANCE,
-    RATE_FACTOR, EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS,
-) = range(13)
-STAGE_NUMBERS = 13
+    RATE_FACTOR, EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS, BEHIND, AHEAD,
+) = range(15)
+STAGE_NUMBERS = 15
 
 # rows of the table of outlines, each for every body: points, cell width, depth, area, how fast the area
 # grows by pressure, area not yet worn by the pressures known
@@ -146,17 +148,21 @@ def yields(
     spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
 
 
-@kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE))
+@kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE, TABLE))
 def slips(
     start: int, kinds: int, numbers: Vector, phases: Vector, constants: Vector, pitch_time: float, most: int,
-    spacing: float, seats: Vector,
+    spacing: float, outlines: Vector, seats: Vector,
 ) -> None:
     """Write slip, speed and the cells swept of every roller of a block.
 
     Slip of an articulation is shared out over the phases of the first and the last position, the way
-    along the path is half of that from the phase before and to the phase after.
+    along the path is half of that from the phase before and to the phase after. A roller sweeps
+    the cells half way to its next places, and those that it drifts over in the step of the wear.
+
+    Equations physics.md (W9) and (W15).
     """
     count, angle = phases.shape[1], constants[0, PITCH_ANGLE]
+    bodies, n = outlines.shape[0] // OUTLINES, outlines.shape[1]
     for kind in range(kinds):
         for step in range(count):
             rollers = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, step])
@@ -188,6 +194,15 @@ def slips(
                         half = 0.5 * min(abs(cells), moved / spacing)
                         side_swept = AFTER if cells > 0.0 else BEFORE
                         seats[side_swept, here] += half
+                body, k = (i + kind) % bodies, int(seats[NEAREST, here])
+                x, y = outlines[OUTLINE_X * bodies + body], outlines[OUTLINE_Y * bodies + body]
+                before, after = max(k - 1, 0), min(k + 1, n - 1)
+                tx, ty = x[after] - x[before], y[after] - y[before]
+                along = tx * seats[DRIFT_X, here] + ty * seats[DRIFT_Y, here]
+                drift = along / (math.sqrt(tx * tx + ty * ty) * spacing)
+                ahead, behind = drift * numbers[AHEAD], drift * numbers[BEHIND]
+                seats[AFTER, here] += max(ahead, 0.0) + max(-behind, 0.0)
+                seats[BEFORE, here] += max(behind, 0.0) + max(-ahead, 0.0)
                 slip = ends * numbers[ARTICULATION_SLIP] * phases[1, step] + numbers[PATH_SLIP] * way
                 seats[SLIP, here] = slip
                 seats[SPEED, here] = slip / (pitch_time * phases[1, step])
@@ -302,7 +317,7 @@ def implicit_stage(
             )
             if status != SEATED:
                 return status
-            slips(start, kinds, numbers, phases, constants, blocks[block, PITCH_TIME], most, spacing, seats)
+            slips(start, kinds, numbers, phases, constants, blocks[block, PITCH_TIME], most, spacing, outlines, seats)
         if elastic == 1:
             continue
         for body in range(bodies):

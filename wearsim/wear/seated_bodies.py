@@ -20,6 +20,10 @@ Rows = NDArray[np.float64]
 
 _GAMMA = 1.0 - math.sqrt(0.5)
 
+# The wear of the first stage, at gamma of the step, counts for its first part 1 - gamma, that of the second
+# for the rest: the mates sweep over what they wear meanwhile.
+_FIRST_SWEPT, _SECOND_SWEPT = (_GAMMA, 1.0 - 2.0 * _GAMMA), (_GAMMA, 0.0)
+
 _HALVINGS = 10
 """Times that a step is halved whose stages are not found."""
 
@@ -80,6 +84,7 @@ class SeatedBodies(WornBodies):
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles, or for a part of them where the mates are not found after all."""
+        self.seating.begin_step(self.updates)
         self._seat()
         kept, before = self.seating.kept(), self.depth.copy()
         for _ in range(_HALVINGS):
@@ -111,14 +116,15 @@ class SeatedBodies(WornBodies):
             works += inner * self.growth
             self._move(self.drift * inner)
         before = places.copy()
-        if not self.seating.stage(begin, inner, works, self._chain(inner)):
+        self.seating.drift[:] = self.drift * cycles if self.growth is not None else 0.0
+        if not self.seating.stage(begin, inner, works, self._chain(inner), _FIRST_SWEPT):
             return None
         growth, middle = (works - begin) / inner, places.copy()
         if self.growth is not None:
             self._move((middle - before + self.drift * inner) * (outer / inner))
         base = begin + outer * growth
         works = begin + cycles * growth
-        if not self.seating.stage(base, inner, works, self._chain(cycles)):
+        if not self.seating.stage(base, inner, works, self._chain(cycles), _SECOND_SWEPT):
             return None
         self.growth, self.drift = (works - base) / inner, (places - middle) / outer
         return np.maximum(works, begin)

@@ -24,6 +24,8 @@ from wearsim.kernels.event_rows import (
 from wearsim.kernels.wrap_equilibrium import CONSTANTS, SEATED
 from wearsim.kernels.wrap_seats import (
     CELL_ROWS,
+    DRIFT_X,
+    DRIFT_Y,
     HALF_WIDTH,
     LOAD_X,
     LOAD_Y,
@@ -37,7 +39,9 @@ from wearsim.kernels.wrap_seats import (
     SPEED,
 )
 from wearsim.kernels.wrap_stage import (
+    AHEAD,
     ARTICULATION_SLIP,
+    BEHIND,
     BLOCK_ROWS,
     COUNT,
     EXPONENT,
@@ -67,12 +71,17 @@ _PASSES = 3
 _TOLERANCE = 1e-6
 """Force that may be left unbalanced, as a part of the tight tension."""
 
+_PLACES = (0.5, 0.7, 0.9, 0.7, 0.5, 0.3, 0.1, 0.3)
+"""Places of a phase in its part of the pitch, from step to step."""
+
 _REACH = 1.2
 """Half of the stretch of outline that a roller may touch, in its radii."""
 
 
-def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int) -> Rows:
+def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int, at: float = 0.5) -> Rows:
     """Return places and weights of phases of a pitch, both sides of where a roller leaves the wrap.
+
+    ``at``, from 0 to 1, is the place of every phase in its part of the pitch.
 
     Examples
     --------
@@ -85,11 +94,11 @@ def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int) -> Rows:
     leaves = (wrap_angle / pitch_angle + 1.0) % 1.0
     first = round(count * leaves)
     if count < 2 or not 1e-6 < leaves < 1.0 - 1e-6:
-        return np.array([(np.arange(count) + 0.5) / count, np.full(count, 1.0 / count)])
+        return np.array([(np.arange(count) + at) / count, np.full(count, 1.0 / count)])
     first = min(max(first, 1), count - 1)
     rest = count - first
     place = np.concatenate(
-        [(np.arange(first) + 0.5) / first * leaves, leaves + (np.arange(rest) + 0.5) / rest * (1.0 - leaves)]
+        [(np.arange(first) + at) / first * leaves, leaves + (np.arange(rest) + at) / rest * (1.0 - leaves)]
     )
     return np.array([place, np.repeat([leaves / first, (1.0 - leaves) / rest], [first, rest])])
 
@@ -112,7 +121,7 @@ class WrapSeating(PressedPlaces):
         self.contact, self.unworn = contact, unworn
         mechanism, points = contact.mechanism, unworn.shape[1]
         self.kinds, most = (2 if mechanism.chain.alternating else 1), contact.most_rollers
-        self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, contact.phases)
+        self.begin_step(0)
         events = len(contact.blocks) * self.kinds * contact.phases * most
         self.most, self.seats = most, np.zeros((SEAT_ROWS, events))
         self.pressures = np.zeros((events, points))
@@ -139,6 +148,18 @@ class WrapSeating(PressedPlaces):
     def places(self) -> Rows:
         """Centres of all rollers in their gaps [mm], shape (2, rollers); may be moved."""
         return self.seats[SEAT_X : SEAT_Y + 1]
+
+    @property
+    def drift(self) -> Rows:
+        """Way of all centres in the step under way [mm], shape (2, rollers); to be set."""
+        return self.seats[DRIFT_X : DRIFT_Y + 1]
+
+    def begin_step(self, number: int) -> None:
+        """Take the phases of a step: they move to and fro, so that none leaves ridges."""
+        mechanism, at = self.contact.mechanism, _PLACES[number % len(_PLACES)]
+        self.phases = phases_of_pitch(
+            mechanism.wrap_angle, mechanism.pitch_angle, self.contact.phases, at
+        )
 
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
@@ -212,9 +233,10 @@ class WrapSeating(PressedPlaces):
         kind = event // (self.most * self.phases.shape[1]) % self.kinds
         return (event % self.most + kind) % self.contact.bodies
 
-    def stage(self, base: Rows, cycles: float, works: Rows, wear: ChainWear) -> bool:
+    def stage(self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]) -> bool:
         """Replace a guess by the base and the work of so many cycles at the pressures in the end."""
         self._set(cycles, wear)
+        self.numbers[[BEHIND, AHEAD]] = swept
         return self._solve(base, works, elastic=False)
 
     def jumps(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
