@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from numbers import Integral, Real
 from typing import Any
 
 
@@ -52,36 +53,84 @@ class Fault:
         return ": ".join(part for part in (place, self.key, self.message) if part)
 
 
-Range = tuple[float, float] | tuple[str, ...]
-"""Least and greatest value of a number, both allowed; or the words that are."""
+@dataclass(frozen=True)
+class Range:
+    """What a number may be; it is finite in any case."""
 
-ABOVE_0: tuple[float, float] = (math.ulp(0.0), 1e300)
-AT_LEAST_0: tuple[float, float] = (0.0, 1e300)
+    least: float = -math.inf
+    most: float = math.inf
+    # above, below: ends that are no part of the range
+    above: float = -math.inf
+    below: float = math.inf
+    whole: bool = False  # an int, or numpy's
+    optional: bool = False  # None is allowed too
+
+    def must(self, value: Any) -> str:
+        """Return what a value must be and is not; empty where it is all that."""
+        fits = isinstance(value, Integral if self.whole else Real) and not isinstance(value, bool)
+        if not fits:
+            return "a whole number" if self.whole else "a number"
+        if not -1e300 <= value <= 1e300:
+            return "a finite number"
+        if self.least <= value <= self.most and self.above < value < self.below:
+            return ""
+        ends = {"above": self.above, "at least": self.least, "below": self.below, "at most": self.most}
+        return " and ".join(f"{word} {end:g}" for word, end in ends.items() if math.isfinite(end))
 
 
-def check_ranges(place: str, values: Mapping[str, Any], ranges: Mapping[str, Range]) -> None:
-    """Raise for the first value that is outside its range; what is None or not there is not looked at.
+Allowed = Range | tuple[str | int | None, ...]
+"""A range of numbers, or the values that there are; with None where it may be left out."""
+
+ABOVE_0 = Range(above=0.0)
+AT_LEAST_0 = Range(least=0.0)
+POISSONS_RATIO = Range(above=-1.0, below=0.5)
+
+
+def check_ranges(place: str, values: Mapping[str, Any], ranges: Mapping[str, Allowed]) -> None:
+    """Raise for the first value that is outside its range, or missing though it may not be left out.
 
     Examples
     --------
-    >>> check_ranges("pair", {"ratio": 0.5}, {"ratio": (1.0, 100.0)})
+    >>> check_ranges("pair", {"ratio": 0.5}, {"ratio": Range(1.0, 100.0)})
     Traceback (most recent call last):
     wearsim.errors.GeometryError: pair: ratio must be at least 1 and at most 100, is 0.5: correct it
     """
     for name, allowed in ranges.items():
         value = values.get(name)
         if value is None:
-            continue
-        low, high = allowed[0], allowed[-1]
-        if isinstance(low, str) or isinstance(high, str):
-            inside, must = value in allowed, f"one of {', '.join(map(str, allowed))}"
+            if None in allowed if isinstance(allowed, tuple) else allowed.optional:
+                continue
+            raise GeometryError(f"{place}: {name} must be given, but is not: give it")
+        if isinstance(allowed, Range):
+            must = allowed.must(value)
         else:
-            inside = low <= value <= high
-            least = "above 0" if 0.0 < low < 1e-300 else f"at least {low:g}"
-            must = least if high == 1e300 else f"{least} and at most {high:g}"
-        if not inside:
-            shown = repr(value) if isinstance(value, str) else f"{value:g}"
+            words = ", ".join(str(word) for word in allowed if word is not None)
+            must = "" if value in allowed else f"one of {words}"
+        if must:
+            shown = repr(value) if isinstance(value, str) else value
             raise GeometryError(f"{place}: {name} must be {must}, is {shown}: correct it")
+
+
+def check_series(
+    place: str, name: str, values: Any, allowed: Range = Range(), count: int | None = None
+) -> None:
+    """Raise for a sequence that is empty or not of the count, or for its first entry outside a range.
+
+    Examples
+    --------
+    >>> check_series("pair", "moduli", (2e5, -1.0), ABOVE_0, 2)
+    Traceback (most recent call last):
+    wearsim.errors.GeometryError: pair: moduli[1] must be above 0, is -1.0: correct it
+    """
+    try:
+        entries = list(values)
+    except TypeError:
+        entries = []
+    if len(entries) != (count or max(1, len(entries))):
+        must = count or "1 or more"
+        raise GeometryError(f"{place}: {name} must be a sequence of length {must}, is {values!r}: correct it")
+    numbers = {f"{name}[{i}]": entry for i, entry in enumerate(entries)}
+    check_ranges(place, numbers, dict.fromkeys(numbers, allowed))
 
 
 class CaseError(WearsimError, ValueError):

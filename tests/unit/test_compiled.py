@@ -92,12 +92,13 @@ def test_edited_helper_changes_the_answer_and_cold_starts_share_the_cache(packag
     """Twice the depth per cycle is half the life; numba inlines a small helper into its caller."""
     kernels, cache = package / "wearsim" / "kernels", str(tmp_path / "cache")
     (kernels / "scaled.py").write_text(HELPER, encoding="utf-8")
-    edit(kernels / "wear.py", "depth[j] = factor\n", "depth[j] = scaled(factor)\n")
-    edit(kernels / "wear.py", "import math\n", "import math\n\nfrom wearsim.kernels.scaled import scaled\n")
+    source = kernels / "hertz_wear.py"
+    edit(source, "depth[j] = factor\n", "depth[j] = scaled(factor)\n")
+    edit(source, "import math\n", "import math\n\nfrom wearsim.kernels.scaled import scaled\n")
     run = partial(life, package, NUMBA_CACHE_DIR=cache)
     (before, folder), again = at_once(run, run)
     assert (before, folder) == again
-    assert list(Path(cache).rglob("cycles.run_cycles*.nbc"))
+    assert list(Path(cache).rglob("per_cycle_loop.run_cycles*.nbc"))
     edit(kernels / "scaled.py", "1.0 * value", "2.0 * value")
     after, other = run()
     assert after == pytest.approx(before / 2.0, rel=0.005)

@@ -162,6 +162,12 @@ class ConvexConcaveGear:
         """
         (head, tip), (foot, end) = self.flanks()
         least, greatest = self.seated_diameter(foot, end), self.seated_diameter(head, tip)
+        if not least < greatest:
+            raise GeometryError(
+                f"roller_diameters_mm: no diameter is possible, rollers need flanks that face the middle of "
+                f"the gap up to the tip, but those of z = {self.teeth} turn away from it: raise the number "
+                "of teeth or lower addendum_ratio"
+            )
         if not least <= diameter <= greatest:
             raise GeometryError(
                 f"roller_diameters_mm: must be from {least:.5g} to {greatest:.5g} mm to rest on the flanks "

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Allowed, Range, check_ranges, check_series
 from wearsim.geometry.gear.circle_fit import CircleFit, rack_arc
 from wearsim.geometry.gear.convex_concave import ConvexConcave, Zone
 from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
@@ -89,13 +89,17 @@ class GearBlanks:
     roller_diameters: Sequence[float] | None = None  #: [mm]
 
 
-_RANGES: Mapping[str, Range] = {
-    **dict.fromkeys(("module", "addendum_arc_radius", "dedendum_arc_radius", "addendum_ratio"), ABOVE_0),
-    **dict.fromkeys(("pinion_teeth", "wheel_teeth"), (5.0, 400.0)),
-    **dict.fromkeys(("backlash", "root_clearance_ratio"), AT_LEAST_0),
-    "pitch_point_angle": (math.ulp(0.0), math.radians(45.0)),
-    "face_width": ABOVE_0,
+_PAIR: Mapping[str, Allowed] = {
+    **dict.fromkeys(("module", "addendum_arc_radius", "addendum_ratio"), ABOVE_0),
+    "dedendum_arc_radius": Range(above=0.0, optional=True),
+    **dict.fromkeys(("pinion_teeth", "wheel_teeth"), Range(5, 400, whole=True)),
+    "backlash": AT_LEAST_0,
+    "pitch_point_angle": Range(above=0.0, most=math.radians(45.0)),
+}
+_BLANKS: Mapping[str, Allowed] = {
+    "face_width": Range(above=0.0, optional=True),
     "root_form": ("fillet", "radial"),
+    "root_clearance_ratio": Range(least=0.0, optional=True),
 }
 
 
@@ -160,7 +164,10 @@ def pair_layout(
         "addendum_ratio": addendum_ratio,
         "backlash": backlash,
     }
-    check_ranges("convex-concave", {**numbers, **vars(blanks)}, _RANGES)
+    check_ranges("convex-concave", numbers, _PAIR)
+    check_ranges("convex-concave", vars(blanks), _BLANKS)
+    if blanks.roller_diameters is not None:
+        check_series("convex-concave", "roller_diameters", blanks.roller_diameters, ABOVE_0)
     second = addendum_arc_radius if dedendum_arc_radius is None else dedendum_arc_radius
     pair = ConvexConcave(
         module,
@@ -234,5 +241,6 @@ def _bodies(pair: ConvexConcave, body: GearBlanks) -> tuple[MeasuredGear, Measur
 
 
 def _measured(gear: ConvexConcaveGear, diameter: float) -> OverRollers:
+    measured = gear.over_rollers(diameter)
     over = involute_over_pins(gear.module, gear.teeth, gear.pitch_point_angle, diameter, gear.thinning)
-    return OverRollers(gear.over_rollers(diameter), over)
+    return OverRollers(measured, over)

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Allowed, Range, check_ranges
 from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.face_load.face_slices import WideMesh, self_aligned_gap
 from wearsim.handbook.face_load.face_wear import FaceRunningIn, WearingFace, WearRates
@@ -149,12 +149,13 @@ class FaceLoad:
     self_aligning: FaceRunningIn
 
 
-_RANGES: Mapping[str, Range] = {
+_RANGES: Mapping[str, Allowed] = {
     **dict.fromkeys(("face_width", "pinion_pitch_diameter", "mesh_stiffness"), ABOVE_0),
     **dict.fromkeys(("specific_wear_rate", "slip_ratio", "hours", "power", "pinion_speed"), ABOVE_0),
-    **dict.fromkeys(("fixed", "varying", "crown", "wheel_wear_ratio", "pivot_friction_lever"), AT_LEAST_0),
-    **dict.fromkeys(("gear_ratio", "application_factor"), (1.0, 1e300)),
-    "slices": (10.0, 2000.0),
+    **dict.fromkeys(("fixed", "varying", "crown", "wheel_wear_ratio"), AT_LEAST_0),
+    **dict.fromkeys(("gear_ratio", "application_factor"), Range(least=1.0)),
+    "pivot_friction_lever": Range(least=0.0, optional=True),
+    "slices": Range(10, 2000, whole=True),
     "varies_with": ("load", "wheel", "pinion"),
 }
 

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from wearsim.errors import ABOVE_0, Range, check_ranges
+from wearsim.errors import ABOVE_0, Allowed, GeometryError, Range, check_ranges, check_series
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.handbook.hertz_check.pitch_point_contact import (
     PRINTED_DEPTH,
@@ -138,11 +138,18 @@ class HertzCheck:
     comparison: Comparison | None  #: the published comparison, where there is one
 
 
-_RANGES: Mapping[str, Range] = {
+_CONTACT: Mapping[str, Allowed] = {
     **dict.fromkeys(("torque", "gear_ratio", "face_width", "pitch_diameter", "load_factor"), ABOVE_0),
-    "youngs_modulus": ABOVE_0,
-    "pressure_angle": (math.radians(10.0), math.radians(45.0)),
-    "poissons_ratio": (0.0, 0.5 - 1e-12),
+    "pressure_angle": Range(math.radians(10.0), math.radians(45.0)),
+    "poissons_ratio": Range(least=0.0, below=0.5),
+}
+_TEETH: Mapping[str, Allowed] = {
+    **dict.fromkeys(("pinion_teeth", "wheel_teeth"), Range(5, 1000, whole=True)),
+    "module": ABOVE_0,
+}
+_PUBLISHED: Mapping[str, Range] = {
+    **dict.fromkeys(("hertz", "finite_elements"), ABOVE_0),
+    "difference": Range(above=0.0, below=100.0),
 }
 
 
@@ -188,10 +195,13 @@ def pitch_point_check(
     >>> round(four.contact.peak_pressure / found.contact.peak_pressure, 9)
     2.0
     """
-    numbers = {**vars(contact), "youngs_modulus": min(contact.youngs_modulus)}
-    check_ranges("hertz check", numbers, _RANGES)
+    _check_contact("hertz check", contact)
+    for number, other in enumerate(literal, start=1):
+        _check_contact(f"hertz check: literal {number}", other)
+    if teeth is not None:
+        check_ranges("hertz check", vars(teeth), _TEETH)
     if published is not None:
-        check_ranges("hertz check", {"contact": 0.0, **published.hertz}, {"contact": ABOVE_0})
+        _check_published(published)
     target = math.nan if published is None else published.hertz["contact"]
     return HertzCheck(
         contact=contact,
@@ -202,6 +212,23 @@ def pitch_point_check(
         changes=[] if published is None else single_changes(contact, target, ROUNDING),
         comparison=None if published is None else completed(published, contact),
     )
+
+
+def _check_contact(place: str, contact: PitchPointContact) -> None:
+    check_ranges(place, vars(contact), _CONTACT)
+    check_series(place, "youngs_modulus", contact.youngs_modulus, ABOVE_0, 2)
+
+
+def _check_published(published: PublishedStresses) -> None:
+    for row, allowed in _PUBLISHED.items():
+        place, given = f"hertz check: published {row}", getattr(published, row)
+        unknown = sorted(given.keys() - SHARES)
+        if unknown:
+            names = ", ".join(SHARES)
+            raise GeometryError(f"{place} must be of {names}, but holds {unknown[0]!r}: correct it")
+        legible = {name: value for name, value in given.items() if value == value}
+        needed = {"contact"} if row == "hertz" else set()
+        check_ranges(place, legible, dict.fromkeys(legible.keys() | needed, allowed))
 
 
 def _contact_ratio(teeth: TeethOfPair | None, pressure_angle: float) -> float:

@@ -9,11 +9,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
-from wearsim.errors import ABOVE_0, AT_LEAST_0, Range, check_ranges
+from wearsim.errors import ABOVE_0, AT_LEAST_0, Allowed, GeometryError, Range, check_ranges
 from wearsim.handbook.stiffness_spectrum.contact_number import (
     Floats,
     GearPair,
@@ -108,23 +108,30 @@ class SpectrumChoice:
     series_harmonics: int | None = None
 
 
-_RANGES: Mapping[str, Range] = {
+_PAIR: Mapping[str, Allowed] = {
     "module": ABOVE_0,
-    "pressure_angle": (math.radians(10.0), math.radians(35.0)),
-    "pinion_speed": ABOVE_0,
-    "teeth": (5.0, 300.0),
-    "pitch_error": AT_LEAST_0,
-    "error_order": (1.0, 150.0),
-    "model": ("pairs", "double_sum"),
-    "tooth_harmonics": (1.0, 20.0),
-    "sideband_order": (0.0, 5.0),
+    "pressure_angle": Range(math.radians(10.0), math.radians(35.0)),
+    "pinion_speed": Range(above=0.0, optional=True),
 }
-_LOADED: Mapping[str, Range] = {
-    **dict.fromkeys(("pinion_curvature_radius", "wheel_curvature_radius", "force", "pinion_torque"), ABOVE_0),
-    "youngs_modulus": ABOVE_0,
-    "poissons_ratio": (0.0, 0.5 - 1e-12),
-    "energy_exponent": (1.5, 4.0),
-    "formula": ("corrected", "printed"),
+_TEETH: Mapping[str, Allowed] = {
+    "teeth": Range(5, 300, whole=True),
+    "pitch_error": AT_LEAST_0,
+    "error_order": Range(1, 150, whole=True),
+    "error_phase": Range(),
+}
+_CHOICE: Mapping[str, Allowed] = {
+    "model": ("pairs", "double_sum"),
+    "tooth_harmonics": Range(1, 20, whole=True),
+    "sideband_order": Range(0, 5, whole=True),
+    "formula": (*get_args(Formula), None),
+    "series_harmonics": Range(10, 100_000, whole=True, optional=True),
+}
+_LOADED: Mapping[str, Allowed] = {
+    **dict.fromkeys(("pinion_curvature_radius", "wheel_curvature_radius", "youngs_modulus"), ABOVE_0),
+    **dict.fromkeys(("force", "pinion_torque"), Range(above=0.0, optional=True)),
+    "poissons_ratio": Range(least=0.0, below=0.5),
+    "energy_exponent": Range(1.5, 4.0),
+    "formula": ("corrected", "printed", None),
 }
 
 
@@ -180,10 +187,19 @@ def mesh_spectrum(
     [3, 6, 54, 57, 60, 63, 66]
     """
     pair_numbers = {"module": module, "pressure_angle": pressure_angle, "pinion_speed": pinion_speed}
-    check_ranges("stiffness spectrum", {**pair_numbers, **vars(choice)}, _RANGES)
+    check_ranges("stiffness spectrum", pair_numbers, _PAIR)
     for name, errors in (("pinion", pinion), ("wheel", wheel)):
-        check_ranges(f"stiffness spectrum: {name}", vars(errors), _RANGES)
-    check_ranges("stiffness spectrum", {} if load is None else vars(load), _LOADED)
+        check_ranges(f"stiffness spectrum: {name}", vars(errors), _TEETH)
+        most = Range(most=errors.teeth // 2)
+        check_ranges(f"stiffness spectrum: {name}", vars(errors), {"error_order": most})
+    check_ranges("stiffness spectrum: choice", vars(choice), _CHOICE)
+    if choice.model != "double_sum" and (choice.formula or choice.series_harmonics):
+        raise GeometryError(
+            "stiffness spectrum: formula and series_harmonics belong to the closed form of "
+            'model="double_sum": leave them out or set that model'
+        )
+    if load is not None:
+        _check_load(load)
     pair = gear_pair(pinion, wheel, module, pressure_angle)
     contacts = contact_number(pair, choice.model)
     statics = None
@@ -210,6 +226,14 @@ def mesh_spectrum(
         statics,
         _beyond_involute({"pinion": pinion.teeth, "wheel": wheel.teeth}, pressure_angle),
     )
+
+
+def _check_load(load: LoadedTeeth) -> None:
+    check_ranges("stiffness spectrum: load", vars(load), _LOADED)
+    if (load.force is None) == (load.pinion_torque is None):
+        raise GeometryError("stiffness spectrum: load must have one of force and pinion_torque: give one")
+    if load.formula is not None and load.pinion_torque is None:
+        raise GeometryError("stiffness spectrum: formula belongs to pinion_torque: leave it out")
 
 
 def _series(pair: GearPair, choice: SpectrumChoice, harmonics: list[int]) -> Floats:

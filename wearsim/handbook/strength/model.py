@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from wearsim.contact.hertz import contact_modulus
-from wearsim.errors import ABOVE_0, GeometryError, Range, check_ranges
+from wearsim.errors import ABOVE_0, POISSONS_RATIO, Allowed, GeometryError, Range, check_ranges
 from wearsim.fatigue.endurance import (
     CONTACT_EXPONENT,
     Endurance,
@@ -16,7 +16,7 @@ from wearsim.fatigue.endurance import (
     cycles_per_hour,
 )
 from wearsim.fatigue.heat_treatment import Treatment, in_brinell, treatments
-from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
+from wearsim.handbook.strength.spectrum import OVERLOAD_CYCLES, LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import (
     LoadFactor,
     SpurMesh,
@@ -213,37 +213,47 @@ def first_life(lives: Sequence[EnduredHours]) -> tuple[int, EnduredHours]:
     return place, lives[place]
 
 
-_FACTOR = (1.0, 1e300)
-_DRIVE: Mapping[str, Range] = {
+_FACTOR = Range(least=1.0)
+_OWN_FACTOR, _OWN = replace(_FACTOR, optional=True), replace(ABOVE_0, optional=True)
+_DRIVE: Mapping[str, Allowed] = {
     "pinion_speed": ABOVE_0,
     "gear_ratio": _FACTOR,
     "hours": ABOVE_0,
     "regime": ("0", "I", "II", "III", "IV", "V"),
 }
-_MATERIAL: Mapping[str, Range] = {
-    "poissons_ratio": (-1.0 + 1e-12, 0.5 - 1e-12),
-    "meshings_per_revolution": (1.0, 100.0),
-    **dict.fromkeys(("contact_safety", "bending_safety", "bending_exponent"), _FACTOR),
-    **dict.fromkeys(("greatest_contact_life_factor", "greatest_bending_life_factor"), _FACTOR),
-    **dict.fromkeys(("hardness_HB", "hardness_HRC", "core_hardness_HRC", "yield_strength"), ABOVE_0),
-    **dict.fromkeys(("youngs_modulus", "contact_limit", "bending_limit"), ABOVE_0),
-    **dict.fromkeys(("contact_base_cycles", "bending_base_cycles", "form_factor"), ABOVE_0),
-    **dict.fromkeys(("greatest_contact", "greatest_bending", "roughness_factor"), ABOVE_0),
+_STEP: Mapping[str, Allowed] = {
+    "relative_torque": Range(0.0, 1000.0),
+    "share_of_time": Range(above=0.0, most=1.0, optional=True),
+    "overload_cycles": Range(above=0.0, below=OVERLOAD_CYCLES, optional=True),
+}
+_MATERIAL: Mapping[str, Allowed] = {
+    "poissons_ratio": POISSONS_RATIO,
+    "meshings_per_revolution": Range(1, 100, whole=True),
+    "bending_safety": _FACTOR,
+    **dict.fromkeys(("contact_safety", "bending_exponent"), _OWN_FACTOR),
+    **dict.fromkeys(("greatest_contact_life_factor", "greatest_bending_life_factor"), _OWN_FACTOR),
+    **dict.fromkeys(("hardness_HB", "hardness_HRC", "core_hardness_HRC", "yield_strength"), _OWN),
+    **dict.fromkeys(("contact_limit", "bending_limit", "contact_base_cycles", "form_factor"), _OWN),
+    **dict.fromkeys(("greatest_contact", "greatest_bending"), _OWN),
+    **dict.fromkeys(("youngs_modulus", "bending_base_cycles", "roughness_factor"), ABOVE_0),
     **dict.fromkeys(("speed_factor", "fillet_factor", "reversal_factor"), ABOVE_0),
 }
-_RULES: Mapping[str, Range] = {
+_RULES: Mapping[str, Allowed] = {
     "base_cycles": ("gost", "source"),
     "long_life": ("constant", "gost"),
-    **dict.fromkeys(("overload_ratio", "overload_frequency_factor", "static_safety"), _FACTOR),
+    "overload_ratio": _OWN_FACTOR,
+    **dict.fromkeys(("overload_frequency_factor", "static_safety"), _FACTOR),
 }
-_LOAD: Mapping[str, Range] = {
-    "pinion_teeth": (5.0, 1000.0),
-    "pressure_angle": (math.radians(10.0), math.radians(35.0)),
-    "accuracy_grade": (5.0, 9.0),
-    "running_in_share": (math.ulp(0.0), 1.0),
+_LOAD: Mapping[str, Allowed] = {
+    "pinion_teeth": Range(5, 1000, whole=True),
+    "pressure_angle": Range(math.radians(10.0), math.radians(35.0)),
+    "accuracy_grade": Range(5, 9, whole=True, optional=True),
+    "running_in_share": Range(above=0.0, most=1.0),
     "formula": ("corrected", "printed"),
-    **dict.fromkeys(("pinion_torque", "module", "face_width", "application_factor"), ABOVE_0),
-    **dict.fromkeys(("initial_face_load_factor", "initial_transverse_load_factor"), _FACTOR),
+    "application_factor": _OWN,
+    "initial_transverse_load_factor": _OWN_FACTOR,
+    **dict.fromkeys(("pinion_torque", "module", "face_width"), ABOVE_0),
+    "initial_face_load_factor": _FACTOR,
     **dict.fromkeys(("contact_dynamic_factor", "bending_dynamic_factor"), _FACTOR),
 }
 
@@ -307,8 +317,11 @@ def pair_strength(
     given_numbers = {"pinion_speed": pinion_speed, "gear_ratio": gear_ratio, "hours": hours, "regime": regime}
     check_ranges("strength", given_numbers, _DRIVE)
     check_ranges("strength", vars(rules), _RULES)
-    check_ranges("strength", {} if load is None else vars(load), _LOAD)
+    if load is not None:
+        check_ranges("strength", vars(load), _LOAD)
     given = (("pinion", pinion, 1.0), ("wheel", wheel, gear_ratio))
+    for name, gear, _ in given:
+        check_ranges(f"strength: {name}", vars(gear), {"treatment": tuple(treatments()), **_MATERIAL})
     rates = [cycles_per_hour(pinion_speed / ratio, gear.meshings_per_revolution) for _, gear, ratio in given]
     spectrum = _spectrum(load_spectrum, regime, hours * max(rates))
     gears = [
@@ -324,6 +337,13 @@ def _spectrum(steps: Sequence[SpectrumStep], regime: str, cycles: float) -> Load
     """Return the loads; a torque is no overload once the gear with more cycles has enough."""
     if not steps:
         return regime_spectrum(regime)
+    if regime != "0":
+        raise GeometryError("strength: load_spectrum gives the loads already: leave out it or regime")
+    for number, step in enumerate(steps, start=1):
+        place = f"strength: step {number} of load_spectrum"
+        check_ranges(place, vars(step), _STEP)
+        if (step.share_of_time is None) == (step.overload_cycles is None):
+            raise GeometryError(f"{place} must have one of share_of_time and overload_cycles: give one")
     shares = math.fsum(step.share_of_time or 0.0 for step in steps)
     if abs(shares - 1.0) > 1e-6:
         raise GeometryError(
@@ -338,7 +358,6 @@ def _spectrum(steps: Sequence[SpectrumStep], regime: str, cycles: float) -> Load
 def _gear(
     name: str, gear: GearMaterial, rules: StrengthRules, spectrum: LoadSpectrum, rate: float, hours: float
 ) -> GearEndurance:
-    check_ranges(f"strength: {name}", vars(gear), {**_MATERIAL, "treatment": tuple(treatments())})
     if (gear.hardness_HB is None) == (gear.hardness_HRC is None):
         raise GeometryError(f"strength: {name} must have one of hardness_HB and hardness_HRC: give one")
     if gear.treatment == "nitrided" and (

@@ -1,15 +1,25 @@
 """Synthesis of the profiles of a gear pair with a prescribed contact stress, phase by phase."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
-from wearsim.errors import ABOVE_0, GeometryError, check_ranges
+from wearsim.errors import (
+    ABOVE_0,
+    AT_LEAST_0,
+    POISSONS_RATIO,
+    Allowed,
+    GeometryError,
+    Range,
+    check_ranges,
+    check_series,
+)
 from wearsim.geometry.gear.path_of_contact import PathOfContact, involute
 from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, Family, PitchCircles
@@ -53,7 +63,7 @@ class PhaseStart:
 
     last_distance: float  #: signed distance of its last point from the pitch point [mm]
     first_distance: float | None = None  #: the same of the first, for a path through the pitch point
-    start: tuple[float, float] | None = None  #: else distance [mm] and pressure angle [rad] of the start
+    start: tuple[float, float] | None = None  #: else distance [mm] and pressure angle [rad], above 0
     family: Family = 1  #: which of the two pairs of profiles
     nodes: int = 201
 
@@ -66,6 +76,21 @@ class MeshPlane:
     y: tuple[float, float]
     nodes: int = 81  #: along each side
     directions: tuple[float, ...] = ()  #: angles between path of contact and normal [deg]
+
+
+_LOAD = Range(above=0.0, optional=True)
+_PAIR: Mapping[str, Allowed] = {
+    **dict.fromkeys(("centre_distance", "gear_ratio"), ABOVE_0),
+    **dict.fromkeys(("load_per_width", "pinion_torque", "face_width"), _LOAD),
+    "pinion_speed": AT_LEAST_0,
+}
+_NODES = Range(2, 20_001, whole=True)
+_PHASE: Mapping[str, Allowed] = {
+    "last_distance": Range(),
+    "first_distance": Range(optional=True),
+    "family": (1, -1),
+    "nodes": _NODES,
+}
 
 
 def loaded_pair(
@@ -123,19 +148,24 @@ def loaded_pair(
     >>> round(float(pair.reduced_radius(0.0, 0.35)), 4)
     14.4114
     """
-    stress = np.array(contact_stress, dtype=float)
     numbers = {
         "centre_distance": centre_distance,
         "gear_ratio": gear_ratio,
-        "contact_stress": float(stress.min()),
         "load_per_width": load_per_width,
         "pinion_torque": pinion_torque,
         "face_width": face_width,
-        "youngs_modulus": min(youngs_modulus),
+        "pinion_speed": pinion_speed,
     }
-    check_ranges("synthesis", numbers, dict.fromkeys(numbers, ABOVE_0))
-    for ratio in poissons_ratio:
-        check_ranges("synthesis", {"poissons_ratio": ratio}, {"poissons_ratio": (-1.0 + 1e-12, 0.5 - 1e-12)})
+    check_ranges("synthesis", numbers, _PAIR)
+    check_series("synthesis", "youngs_modulus", youngs_modulus, ABOVE_0, 2)
+    check_series("synthesis", "poissons_ratio", poissons_ratio, POISSONS_RATIO, 2)
+    check_series("synthesis", "contact_stress", contact_stress, ABOVE_0)
+    stress = np.array(contact_stress, dtype=float)
+    if pitch_point_distance is not None:
+        check_series("synthesis", "pitch_point_distance", pitch_point_distance, count=stress.size)
+        _check_ascent("pitch_point_distance", pitch_point_distance)
+    elif stress.size > 1:
+        raise GeometryError("synthesis: pitch_point_distance must be given for several stresses: give it")
     circles = PitchCircles(centre_distance, gear_ratio)
     if load_per_width is not None and pinion_torque is None:
         line_load = LineLoad(float(load_per_width), 0)
@@ -155,6 +185,12 @@ def loaded_pair(
     )
 
 
+def _check_ascent(name: str, values: Sequence[float]) -> None:
+    if not all(one < other for one, other in pairwise(values)):
+        shown = ", ".join(f"{value:g}" for value in values)
+        raise GeometryError(f"synthesis: {name} must ascend, is {shown}: correct it")
+
+
 def profile_phases(
     pair: LoadedPair, starts: Sequence[PhaseStart], compared_angle: float | None = None
 ) -> tuple[MeshPhase, ...]:
@@ -170,7 +206,7 @@ def profile_phases(
     starts : sequence of PhaseStart
         Where the paths run.
     compared_angle : float, optional
-        Pressure angle of the involute [rad]; that of the path in its start if left out.
+        Pressure angle of the involute [rad], above 0; that of the path in its start if left out.
 
     Returns
     -------
@@ -180,7 +216,7 @@ def profile_phases(
     Raises
     ------
     GeometryError
-        A phase has no path with that stress, or the path ends within it.
+        A number cannot be, a phase has no path with that stress, or the path ends within it.
 
     Examples
     --------
@@ -194,8 +230,11 @@ def profile_phases(
     >>> round(float(pair.circles.pitch_point_radius(middle) / pair.reduced_radius(0.0, middle)), 9)
     1.0
     """
+    angle = Range(above=0.0, below=0.5 * math.pi, optional=True)
+    check_ranges("synthesis", {"compared_angle": compared_angle}, {"compared_angle": angle})
     found = []
     for number, start in enumerate(starts, start=1):
+        _check_start(f"synthesis: phase {number}", start)
         try:
             found.append(_phase(pair, start, compared_angle))
         except GeometryError as error:
@@ -203,13 +242,35 @@ def profile_phases(
     return tuple(found)
 
 
+def _check_start(place: str, given: PhaseStart) -> None:
+    check_ranges(place, vars(given), _PHASE)
+    if (given.start is None) == (given.first_distance is None):
+        raise GeometryError(f"{place} must have one of first_distance and start: give one")
+    if given.start is None:
+        if given.family != 1:
+            raise GeometryError(
+                f"{place}: family must be 1 without start, the small radii never reach the pitch point: "
+                "correct it"
+            )
+        return
+    check_series(place, "start", given.start, count=2)
+    distance, angle = given.start
+    check_ranges(place, {"start[1]": angle}, {"start[1]": Range(above=0.0, below=0.5 * math.pi)})
+    if not distance * given.last_distance > 0.0 or distance == given.last_distance:
+        raise GeometryError(
+            f"{place}: last_distance must be on the side of the start, {distance:g}, and not there, is "
+            f"{given.last_distance:g}: correct it"
+        )
+
+
 def _phase(pair: LoadedPair, given: PhaseStart, compared: float | None) -> MeshPhase:
     synthesis = PathSynthesis(pair.circles, pair.radius_rule, given.family)
     if given.start is None:
-        if given.first_distance is None or not given.first_distance < given.last_distance:
+        assert given.first_distance is not None
+        if not given.first_distance < given.last_distance:
             raise GeometryError(
                 "a path through the pitch point needs first_distance below last_distance: "
-                f"{given.first_distance} and {given.last_distance:g} mm"
+                f"{given.first_distance:g} and {given.last_distance:g} mm"
             )
         crossing = pair.pitch_point_crossing()
         along = np.linspace(given.first_distance, given.last_distance, given.nodes)
@@ -301,6 +362,12 @@ class _Plane:
     """Points over a part of the plane with their l and alpha; l is nan on the line of centres."""
 
     def __init__(self, part: MeshPlane) -> None:
+        for name, side in (("x", part.x), ("y", part.y)):
+            check_series("synthesis", name, side, count=2)
+            _check_ascent(name, side)
+        check_ranges("synthesis", {"nodes": part.nodes}, {"nodes": _NODES})
+        if np.size(part.directions):
+            check_series("synthesis", "directions", part.directions, Range(above=-90.0, below=90.0))
         self.x, self.y = np.meshgrid(np.linspace(*part.x, part.nodes), np.linspace(*part.y, part.nodes))
         central = np.abs(self.x) < 1e-9 * (part.x[1] - part.x[0])
         self.distance = np.where(central, math.nan, np.copysign(np.hypot(self.x, self.y), self.x))

@@ -117,5 +117,5 @@ class WaveDriveTables(CalculationTables):
                 for name, table in given.items()
                 if table.published_diameter_mm is not None
             },
-            required=self.model_fields_set,
+            required=self.model_fields_set & given.keys(),
         )

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from scipy.optimize import brentq
 
-from wearsim.errors import ABOVE_0, GeometryError, check_ranges
+from wearsim.errors import ABOVE_0, GeometryError, Range, check_ranges
 from wearsim.handbook.wave_drive.formulas import (
     Values,
     crushing_diameter,
@@ -34,11 +34,19 @@ class DiameterMethod:
     diameter: Callable[[Values], float]
     # least and greatest value that the source recommends, for each key of the method that it gives one for
     ranges: Ranges
-    allowable: str  # the key that the diameter is usually set by
-    drive_ranges: Ranges = field(default_factory=dict)  # the same for keys of the drive
+    numbers: Mapping[str, Range]  # what it takes; the first is what the diameter is usually set by
+    drive_ranges: Ranges = field(default_factory=dict)  # as `ranges` for keys of the drive
+
+    @property
+    def allowable(self) -> str:
+        """The key that the diameter is usually set by."""
+        return next(iter(self.numbers))
 
 
 _TOOTH_LENGTH: Ranges = {"tooth_length_ratio": (0.15, 0.25)}
+
+_SHARE = Range(above=0.0, most=1.0)
+_FACTOR = Range(least=1.0)
 
 METHODS = (
     DiameterMethod(
@@ -47,7 +55,7 @@ METHODS = (
         "pressure between the teeth",
         pressure_diameter,
         {"allowable_pressure_MPa": (60.0, 65.0), "engaged_share": (0.22, 0.25)},
-        "allowable_pressure_MPa",
+        {"allowable_pressure_MPa": ABOVE_0, "load_nonuniformity": ABOVE_0, "engaged_share": _SHARE},
         _TOOTH_LENGTH,
     ),
     DiameterMethod(
@@ -56,7 +64,7 @@ METHODS = (
         "crushing of the flanks",
         crushing_diameter,
         {"allowable_crushing_MPa": (10.0, 30.0)},
-        "allowable_crushing_MPa",
+        {"allowable_crushing_MPa": ABOVE_0},
         _TOOTH_LENGTH,
     ),
     DiameterMethod(
@@ -65,7 +73,11 @@ METHODS = (
         "torsion of the rim",
         torsion_diameter,
         {"allowable_shear_MPa": (60.0, 90.0), "diameter_to_thickness": (80.0, 100.0)},
-        "allowable_shear_MPa",
+        {
+            "allowable_shear_MPa": ABOVE_0,
+            "diameter_to_thickness": ABOVE_0,
+            "torsion_coefficient": Range(above=0.0, optional=True),
+        },
         {"gear_ratio": (100.0, 400.0)},
     ),
     DiameterMethod(
@@ -74,7 +86,7 @@ METHODS = (
         "wear of the teeth",
         tooth_wear_diameter,
         {"allowable_crushing_MPa": (10.0, 20.0), "dynamic_factor": (1.0, 1.75)},
-        "allowable_crushing_MPa",
+        {"allowable_crushing_MPa": ABOVE_0, "dynamic_factor": _FACTOR},
     ),
     DiameterMethod(
         "flank_pressure",
@@ -82,10 +94,20 @@ METHODS = (
         "wear of the teeth",
         flank_pressure_diameter,
         {"allowable_pressure_MPa": (20.0, 25.0)},
-        "allowable_pressure_MPa",
+        {"allowable_pressure_MPa": ABOVE_0},
     ),
     DiameterMethod(
-        "rim_bending", "[5]", "endurance of the rim", rim_bending_diameter, {}, "endurance_limit_MPa"
+        "rim_bending",
+        "[5]",
+        "endurance of the rim",
+        rim_bending_diameter,
+        {},
+        {
+            "endurance_limit_MPa": ABOVE_0,
+            **dict.fromkeys(("safety_factor", "stress_concentration"), _FACTOR),
+            **dict.fromkeys(("tooth_form_factor", "youngs_modulus_MPa"), ABOVE_0),
+            "thickness_ratio": Range(above=0.0, below=1.0),
+        },
     ),
     DiameterMethod(
         "rim_endurance",
@@ -93,7 +115,11 @@ METHODS = (
         "endurance of the rim",
         rim_endurance_diameter,
         {"safety_factor": (1.6, 1.7)},
-        "endurance_limit_MPa",
+        {
+            "endurance_limit_MPa": ABOVE_0,
+            "safety_factor": _FACTOR,
+            "stress_concentration": Range(least=1.0, optional=True),
+        },
     ),
     DiameterMethod(
         "generator_bearing",
@@ -101,7 +127,7 @@ METHODS = (
         "bearing of the generator",
         generator_bearing_diameter,
         {},
-        "bearing_constant",
+        {"bearing_constant": ABOVE_0},
     ),
 )
 """In the order of the source."""
@@ -144,7 +170,10 @@ class MethodComparison:
     left_out: Mapping[str, str]
 
 
-_DRIVE = {"gear_ratio", "output_torque_N_m", "life_hours", "generator_speed_rpm", "tooth_length_ratio"}
+_DRIVE: Mapping[str, Range] = {
+    **dict.fromkeys(("gear_ratio", "output_torque_N_m", "life_hours", "generator_speed_rpm"), ABOVE_0),
+    "tooth_length_ratio": _SHARE,
+}
 
 
 def flexspline_diameters(
@@ -170,7 +199,7 @@ def flexspline_diameters(
     printed : collection of str, optional
         Methods whose formula is to be taken as printed, ``torsion`` and ``rim_bending`` only.
     published : mapping of str to float, optional
-        Diameters to hold the results against [mm].
+        Diameters to hold the results against [mm], above 0.
     required : collection of str, optional
         Methods without which there is no answer; all that are wanted if left out.
 
@@ -182,7 +211,7 @@ def flexspline_diameters(
     Raises
     ------
     GeometryError
-        A number is not above 0, or a method that is required has no diameter.
+        A number cannot be or is missing, a name is not known, or a method that is required has no diameter.
 
     Examples
     --------
@@ -201,16 +230,21 @@ def flexspline_diameters(
     >>> round((size(400.0) / size(200.0)) ** 3, 9)
     2.0
     """
-    unknown = sorted(methods.keys() - {method.name for method in METHODS})
-    if unknown:
-        names = ", ".join(method.name for method in METHODS)
-        raise GeometryError(f"wave drive: methods must be among {names}, but holds {unknown[0]}: correct it")
-    for numbers in (drive, *methods.values()):
-        check_ranges("wave drive", numbers, dict.fromkeys(numbers, ABOVE_0))
-    missing = sorted(_DRIVE - drive.keys())
-    if missing:
-        raise GeometryError(f"wave drive: drive must have {missing[0]}: give it")
-    used, left_out = _feasible(drive, methods, printed, methods if required is None else required)
+    known = {method.name: method for method in METHODS}
+    wanted = methods if required is None else required
+    for name, given, names in (
+        ("methods", methods, known),
+        ("printed", printed, _PRINTED),
+        ("published", published, known),
+        ("required", wanted, methods),
+    ):
+        _check_names(name, given, names)
+    check_ranges("wave drive: published", published, dict.fromkeys(published, ABOVE_0))
+    numbers = {"drive": (drive, _DRIVE)} | {name: (methods[name], known[name].numbers) for name in methods}
+    for name, (values, allowed) in numbers.items():
+        _check_names(name, values, allowed)
+        check_ranges(f"wave drive: {name}", values, allowed)
+    used, left_out = _feasible(drive, methods, printed, wanted)
     sizes = [method.diameter(v) for method, v in used]
     ranges = [_range(method, v) for method, v in used]
     results = []
@@ -237,6 +271,14 @@ def flexspline_diameters(
     return MethodComparison(tuple(results), left_out)
 
 
+def _check_names(what: str, given: Collection[str], known: Collection[str]) -> None:
+    unknown = [name for name in given if name not in known]
+    if unknown:
+        raise GeometryError(
+            f"wave drive: {what} must be among {', '.join(known)}, but holds {unknown[0]}: correct it"
+        )
+
+
 def _feasible(
     drive: Values, methods: Mapping[str, Values], printed: Collection[str], required: Collection[str]
 ) -> tuple[list[tuple[DiameterMethod, Values]], dict[str, str]]:
@@ -246,7 +288,8 @@ def _feasible(
     for method in METHODS:
         if method.name not in methods:
             continue
-        v = {**drive, **methods[method.name]}
+        own = {key: value for key, value in methods[method.name].items() if value is not None}
+        v = {**drive, **own}
         if method.name in _PRINTED:
             name, corrected, as_printed = _PRINTED[method.name]
             v[name] = as_printed if method.name in printed else corrected
