@@ -56,7 +56,14 @@ def seats_in_wrap(wrap_angle: float, pitch_angle: float, phase: float) -> int:
 
 @kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR))
 def near_cells(
-    x: Vector, y: Vector, recess: Vector, reach: int, radius: float, cx: float, cy: float, nearest: float,
+    x: Vector,
+    y: Vector,
+    recess: Vector,
+    reach: int,
+    radius: float,
+    cx: float,
+    cy: float,
+    nearest: float,
     found: Vector,
 ) -> None:
     """Write the first cell and the one after the last that a roller may press, and the nearest one."""
@@ -76,13 +83,37 @@ def near_cells(
 
 @kernel(
     void(
-        VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64, float64, float64, float64, VECTOR, int64, TABLE,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        VECTOR,
+        int64,
+        int64,
+        float64,
+        float64,
+        float64,
+        VECTOR,
+        int64,
+        TABLE,
         VECTOR,
     )
 )
 def foundation_force(
-    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, first: int, last: int,
-    radius: float, cx: float, cy: float, held: Vector, holds: int, cells: Vector, out: Vector,
+    x: Vector,
+    y: Vector,
+    width: Vector,
+    compliance: Vector,
+    recess: Vector,
+    first: int,
+    last: int,
+    radius: float,
+    cx: float,
+    cy: float,
+    held: Vector,
+    holds: int,
+    cells: Vector,
+    out: Vector,
 ) -> None:
     """Write force per width on a roller, its stiffness, energy and the width that presses.
 
@@ -122,14 +153,47 @@ def foundation_force(
 
 @kernel(
     float64(
-        int64, int64, int64, VECTOR, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64, float64,
-        float64, TABLE, int64, TABLE, TABLE,
+        int64,
+        int64,
+        int64,
+        VECTOR,
+        float64,
+        float64,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        int64,
+        float64,
+        float64,
+        TABLE,
+        int64,
+        TABLE,
+        TABLE,
     )
 )
 def wrap_balance(
-    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
-    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, pressures: Vector, holds: int,
-    radius: float, face_width: float, seats: Vector, row: int, work: Vector, cells: Vector,
+    event: int,
+    rollers: int,
+    kind: int,
+    constants: Vector,
+    tight_angle: float,
+    slack_angle: float,
+    x: Vector,
+    y: Vector,
+    width: Vector,
+    compliance: Vector,
+    recess: Vector,
+    pressures: Vector,
+    holds: int,
+    radius: float,
+    face_width: float,
+    seats: Vector,
+    row: int,
+    work: Vector,
+    cells: Vector,
 ) -> float:
     """Write what pulls on every roller and the stiffness against it; return the potential energy.
 
@@ -145,13 +209,29 @@ def wrap_balance(
     for i in range(rollers):
         body = (i + kind) % bodies
         foundation_force(
-            x[body], y[body], width[body], compliance[i], recess[i], int(work[_LOW, i]), int(work[_HIGH, i]),
-            radius, work[row, i], work[row + 1, i], pressures[event + i], holds, cells, out,
+            x[body],
+            y[body],
+            width[body],
+            compliance[i],
+            recess[i],
+            int(work[_LOW, i]),
+            int(work[_HIGH, i]),
+            radius,
+            work[row, i],
+            work[row + 1, i],
+            pressures[event + i],
+            holds,
+            cells,
+            out,
         )
         drag_x, drag_y = seats[DRAG_X, event + i], seats[DRAG_Y, event + i]
         work[_RIGHT_X, i] = face_width * out[0] + drag_x
         work[_RIGHT_Y, i] = face_width * out[1] + drag_y
-        work[_XX, i], work[_XY, i], work[_YY, i] = face_width * out[2], face_width * out[3], face_width * out[4]
+        work[_XX, i], work[_XY, i], work[_YY, i] = (
+            face_width * out[2],
+            face_width * out[3],
+            face_width * out[4],
+        )
         work[_PRESSED, i] = out[6]
         energy += face_width * out[5]
         energy -= drag_x * (work[row, i] - work[_FROM_X, i]) + drag_y * (work[row + 1, i] - work[_FROM_Y, i])
@@ -241,13 +321,29 @@ def largest_of(rollers: int, row: int, work: Vector) -> float:
 
 @kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, VECTOR))
 def look_around(
-    event: int, i: int, body: int, x: Vector, y: Vector, recess: Vector, reach: int, radius: float,
-    seats: Vector, work: Vector, found: Vector,
+    event: int,
+    i: int,
+    body: int,
+    x: Vector,
+    y: Vector,
+    recess: Vector,
+    reach: int,
+    radius: float,
+    seats: Vector,
+    work: Vector,
+    found: Vector,
 ) -> None:
     """Find the cells that a roller may press from its trial place."""
     near_cells(
-        x[body], y[body], recess[i], reach, radius, work[_TRIAL_X, i], work[_TRIAL_Y, i],
-        seats[NEAREST, event + i], found,
+        x[body],
+        y[body],
+        recess[i],
+        reach,
+        radius,
+        work[_TRIAL_X, i],
+        work[_TRIAL_Y, i],
+        seats[NEAREST, event + i],
+        found,
     )
     seats[NEAREST, event + i] = found[2]
     work[_SEEN_X, i], work[_SEEN_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
@@ -255,14 +351,48 @@ def look_around(
 
 @kernel(
     int64(
-        int64, int64, int64, VECTOR, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64, int64,
-        float64, float64, float64, TABLE, TABLE, TABLE,
+        int64,
+        int64,
+        int64,
+        VECTOR,
+        float64,
+        float64,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        int64,
+        int64,
+        float64,
+        float64,
+        float64,
+        TABLE,
+        TABLE,
+        TABLE,
     )
 )
 def balance_rollers(
-    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
-    x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector, pressures: Vector, holds: int,
-    reach: int, radius: float, face_width: float, tolerance: float, seats: Vector, work: Vector,
+    event: int,
+    rollers: int,
+    kind: int,
+    constants: Vector,
+    tight_angle: float,
+    slack_angle: float,
+    x: Vector,
+    y: Vector,
+    width: Vector,
+    compliance: Vector,
+    recess: Vector,
+    pressures: Vector,
+    holds: int,
+    reach: int,
+    radius: float,
+    face_width: float,
+    tolerance: float,
+    seats: Vector,
+    work: Vector,
     cells: Vector,
 ) -> int:
     """Bring the rollers of one phase into balance, by Newton steps of limited length; the energy falls.
@@ -283,8 +413,25 @@ def balance_rollers(
             work[_HIGH, i] = max(found[1], seats[LAST, event + i])
     if holds == 1:
         wrap_balance(
-            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
-            1, radius, face_width, seats, _TRIAL_X, work, cells,
+            event,
+            rollers,
+            kind,
+            constants,
+            tight_angle,
+            slack_angle,
+            x,
+            y,
+            width,
+            compliance,
+            recess,
+            pressures,
+            1,
+            radius,
+            face_width,
+            seats,
+            _TRIAL_X,
+            work,
+            cells,
         )
         if wrap_step(rollers, 0.0, work) == 0 and largest_of(rollers, _STEP_X, work) < 10.0 * longest:
             for i in range(rollers):
@@ -295,8 +442,25 @@ def balance_rollers(
     for i in range(rollers):
         seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
     energy = wrap_balance(
-        event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures, 0,
-        radius, face_width, seats, _TRIAL_X, work, cells,
+        event,
+        rollers,
+        kind,
+        constants,
+        tight_angle,
+        slack_angle,
+        x,
+        y,
+        width,
+        compliance,
+        recess,
+        pressures,
+        0,
+        radius,
+        face_width,
+        seats,
+        _TRIAL_X,
+        work,
+        cells,
     )
     error = largest_of(rollers, _RIGHT_X, work)
     for _ in range(_MAX_ITERATIONS):
@@ -329,8 +493,25 @@ def balance_rollers(
                     work[_LOW, i] = min(low, found[0]) if high > low else found[0]
                     work[_HIGH, i] = max(high, found[1]) if high > low else found[1]
         after = wrap_balance(
-            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
-            0, radius, face_width, seats, _TRIAL_X, work, cells,
+            event,
+            rollers,
+            kind,
+            constants,
+            tight_angle,
+            slack_angle,
+            x,
+            y,
+            width,
+            compliance,
+            recess,
+            pressures,
+            0,
+            radius,
+            face_width,
+            seats,
+            _TRIAL_X,
+            work,
+            cells,
         )
         left = largest_of(rollers, _RIGHT_X, work)
         level = abs(after - energy) <= _ROUNDING * abs(energy)
@@ -347,23 +528,76 @@ def balance_rollers(
             for i in range(rollers):
                 work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
             energy = wrap_balance(
-                event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess,
-                pressures, 0, radius, face_width, seats, _TRIAL_X, work, cells,
+                event,
+                rollers,
+                kind,
+                constants,
+                tight_angle,
+                slack_angle,
+                x,
+                y,
+                width,
+                compliance,
+                recess,
+                pressures,
+                0,
+                radius,
+                face_width,
+                seats,
+                _TRIAL_X,
+                work,
+                cells,
             )
     return STALLED
 
 
 @kernel(
     int64(
-        int64, int64, int64, VECTOR, float64, float64, float64, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64,
-        int64, float64, float64, float64, TABLE, TABLE, TABLE,
+        int64,
+        int64,
+        int64,
+        VECTOR,
+        float64,
+        float64,
+        float64,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        int64,
+        int64,
+        float64,
+        float64,
+        float64,
+        TABLE,
+        TABLE,
+        TABLE,
     )
 )
 def seat_rollers(
-    event: int, rollers: int, kind: int, constants: Vector, tight_angle: float, slack_angle: float,
-    friction: float, x: Vector, y: Vector, width: Vector, compliance: Vector, recess: Vector,
-    pressures: Vector, holds: int, reach: int, radius: float, face_width: float, tolerance: float,
-    seats: Vector, work: Vector, cells: Vector,
+    event: int,
+    rollers: int,
+    kind: int,
+    constants: Vector,
+    tight_angle: float,
+    slack_angle: float,
+    friction: float,
+    x: Vector,
+    y: Vector,
+    width: Vector,
+    compliance: Vector,
+    recess: Vector,
+    pressures: Vector,
+    holds: int,
+    reach: int,
+    radius: float,
+    face_width: float,
+    tolerance: float,
+    seats: Vector,
+    work: Vector,
+    cells: Vector,
 ) -> int:
     """Find where the rollers of one phase rest, friction included, and write how they press.
 
@@ -373,8 +607,26 @@ def seat_rollers(
     status, bodies = STALLED, x.shape[0]
     for _ in range(_MAX_DRAGS):
         status = balance_rollers(
-            event, rollers, kind, constants, tight_angle, slack_angle, x, y, width, compliance, recess, pressures,
-            holds, reach, radius, face_width, tolerance, seats, work, cells,
+            event,
+            rollers,
+            kind,
+            constants,
+            tight_angle,
+            slack_angle,
+            x,
+            y,
+            width,
+            compliance,
+            recess,
+            pressures,
+            holds,
+            reach,
+            radius,
+            face_width,
+            tolerance,
+            seats,
+            work,
+            cells,
         )
         change, holds = 0.0, 0
         for i in range(rollers):
@@ -382,13 +634,27 @@ def seat_rollers(
             first, last = int(work[_LOW, i]), int(work[_HIGH, i])
             out = cells[CELL_ROWS]
             foundation_force(
-                x[body], y[body], width[body], compliance[i], recess[i], first, last, radius,
-                seats[SEAT_X, event + i], seats[SEAT_Y, event + i], pressures[event + i], 0, cells, out,
+                x[body],
+                y[body],
+                width[body],
+                compliance[i],
+                recess[i],
+                first,
+                last,
+                radius,
+                seats[SEAT_X, event + i],
+                seats[SEAT_Y, event + i],
+                pressures[event + i],
+                0,
+                cells,
+                out,
             )
             load_x, load_y = out[0], out[1]
             seats[LOAD_X, event + i], seats[LOAD_Y, event + i] = load_x, load_y
             drag_x, drag_y = -friction * face_width * load_y, friction * face_width * load_x
-            change = max(change, abs(drag_x - seats[DRAG_X, event + i]), abs(drag_y - seats[DRAG_Y, event + i]))
+            change = max(
+                change, abs(drag_x - seats[DRAG_X, event + i]), abs(drag_y - seats[DRAG_Y, event + i])
+            )
             seats[DRAG_X, event + i], seats[DRAG_Y, event + i] = drag_x, drag_y
         if status != SEATED or friction == 0.0 or change <= 10.0 * tolerance:
             break

@@ -37,8 +37,21 @@ BLOCK_ROWS = CONSTANTS + 2
 
 # numbers of a stage
 (
-    WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, ROLLER_RADIUS, MODULUS, REACH, TOLERANCE,
-    RATE_FACTOR, EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS, BEHIND, AHEAD,
+    WRAP_ANGLE,
+    FACE_WIDTH,
+    ARTICULATION_SLIP,
+    PATH_SLIP,
+    ROLLER_RADIUS,
+    MODULUS,
+    REACH,
+    TOLERANCE,
+    RATE_FACTOR,
+    EXPONENT,
+    SPEED_POWER,
+    HARD_DEPTH,
+    SOFTNESS,
+    BEHIND,
+    AHEAD,
 ) = range(15)
 STAGE_NUMBERS = 15
 
@@ -75,7 +88,14 @@ def swept(masses: Vector, first_sum: Vector, second_sum: Vector, low: int, high:
 
 @kernel(void(VECTOR, int64, int64, float64, float64, TABLE, VECTOR, TABLE))
 def spread(
-    masses: Vector, low: int, high: int, before: float, after: float, unworn: Vector, density: Vector, sums: Vector
+    masses: Vector,
+    low: int,
+    high: int,
+    before: float,
+    after: float,
+    unworn: Vector,
+    density: Vector,
+    sums: Vector,
 ) -> None:
     """Add areas of cells to the area per unworn length, spread evenly over the cells swept."""
     n, whole = unworn.shape[1], before + after
@@ -116,8 +136,18 @@ def shape_outlines(works: Vector, numbers: Vector, unworn: Vector, outlines: Vec
 
 @kernel(void(int64, int64, int64, float64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, VECTOR))
 def yields(
-    event: int, body: int, bodies: int, count: float, seats: Vector, pressures: Vector, works: Vector,
-    numbers: Vector, unworn: Vector, outlines: Vector, sums: Vector, masses: Vector,
+    event: int,
+    body: int,
+    bodies: int,
+    count: float,
+    seats: Vector,
+    pressures: Vector,
+    works: Vector,
+    numbers: Vector,
+    unworn: Vector,
+    outlines: Vector,
+    sums: Vector,
+    masses: Vector,
 ) -> None:
     """Add what a roller wears off, and how fast that grows by its pressure, to its outline's tables."""
     first, last = int(seats[FIRST, event]), int(seats[LAST, event])
@@ -150,8 +180,16 @@ def yields(
 
 @kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE, TABLE))
 def slips(
-    start: int, kinds: int, numbers: Vector, phases: Vector, constants: Vector, pitch_time: float, most: int,
-    spacing: float, outlines: Vector, seats: Vector,
+    start: int,
+    kinds: int,
+    numbers: Vector,
+    phases: Vector,
+    constants: Vector,
+    pitch_time: float,
+    most: int,
+    spacing: float,
+    outlines: Vector,
+    seats: Vector,
 ) -> None:
     """Write slip, speed and the cells swept of every roller of a block.
 
@@ -208,14 +246,20 @@ def slips(
                 seats[SPEED, here] = slip / (pitch_time * phases[1, step])
 
 
-@kernel(
-    int64(
-        int64, int64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64,
-    )
-)
+@kernel(int64(int64, int64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64))
 def sweep_phases(
-    start: int, kinds: int, constants: Vector, phases: Vector, seats: Vector, numbers: Vector,
-    pressures: Vector, outlines: Vector, compliance: Vector, recess: Vector, work: Vector, cells: Vector,
+    start: int,
+    kinds: int,
+    constants: Vector,
+    phases: Vector,
+    seats: Vector,
+    numbers: Vector,
+    pressures: Vector,
+    outlines: Vector,
+    compliance: Vector,
+    recess: Vector,
+    work: Vector,
+    cells: Vector,
     elastic: int,
 ) -> int:
     """Seat the rollers of all phases of a block on the present outlines.
@@ -239,7 +283,9 @@ def sweep_phases(
             slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle
             for i in range(rollers):
                 body, near = (i + kind) % bodies, int(seats[NEAREST, event + i])
-                spring = _WINKLER * max(seats[HALF_WIDTH, event + i], 2.0 * width[body, near]) / numbers[MODULUS]
+                spring = (
+                    _WINKLER * max(seats[HALF_WIDTH, event + i], 2.0 * width[body, near]) / numbers[MODULUS]
+                )
                 # A little beyond what the roller can reach, as the nearest cell may move.
                 low, high = max(0, near - 2 * reach), min(n, near + 2 * reach + 1)
                 if elastic == 1:
@@ -254,9 +300,27 @@ def sweep_phases(
                     compliance[i, j] = spring + grows
                     recess[i, j] = grows * pressure[j] + rest[j]
             status = seat_rollers(
-                event, rollers, kind, constants[0], tight_angle, slack_angle, constants[0, FRICTION], x, y, width, compliance,
-                recess, pressures, 1 - elastic, reach, radius, numbers[FACE_WIDTH], numbers[TOLERANCE] * tight, seats,
-                work, cells,
+                event,
+                rollers,
+                kind,
+                constants[0],
+                tight_angle,
+                slack_angle,
+                constants[0, FRICTION],
+                x,
+                y,
+                width,
+                compliance,
+                recess,
+                pressures,
+                1 - elastic,
+                reach,
+                radius,
+                numbers[FACE_WIDTH],
+                numbers[TOLERANCE] * tight,
+                seats,
+                work,
+                cells,
             )
             if status != SEATED:
                 return status
@@ -265,14 +329,43 @@ def sweep_phases(
 
 @kernel(
     int64(
-        TABLE, TABLE, int64, int64, TABLE, TABLE, int64, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE,
-        TABLE, TABLE,
+        TABLE,
+        TABLE,
+        int64,
+        int64,
+        TABLE,
+        TABLE,
+        int64,
+        TABLE,
+        VECTOR,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
     )
 )
 def implicit_stage(
-    base: Vector, works: Vector, passes: int, kinds: int, blocks: Vector, phases: Vector, elastic: int,
-    seats: Vector, numbers: Vector, unworn: Vector, pressures: Vector, outlines: Vector, compliance: Vector,
-    recess: Vector, work: Vector, cells: Vector, sums: Vector,
+    base: Vector,
+    works: Vector,
+    passes: int,
+    kinds: int,
+    blocks: Vector,
+    phases: Vector,
+    elastic: int,
+    seats: Vector,
+    numbers: Vector,
+    unworn: Vector,
+    pressures: Vector,
+    outlines: Vector,
+    compliance: Vector,
+    recess: Vector,
+    work: Vector,
+    cells: Vector,
+    sums: Vector,
 ) -> int:
     """Replace a guess of the work done on all outlines by ``base`` plus that of the pressures in the end.
 
@@ -296,8 +389,18 @@ def implicit_stage(
             for event in range(seats.shape[1]):
                 block, kind = event // (kinds * count * most), event // (count * most) % kinds
                 yields(
-                    event, (event % most + kind) % bodies, bodies, blocks[block, COUNT], seats, pressures, sums[3:],
-                    numbers, unworn, outlines, sums, sums[2],
+                    event,
+                    (event % most + kind) % bodies,
+                    bodies,
+                    blocks[block, COUNT],
+                    seats,
+                    pressures,
+                    sums[3:],
+                    numbers,
+                    unworn,
+                    outlines,
+                    sums,
+                    sums[2],
                 )
             for body in range(bodies):
                 rest, fast = outlines[REST * bodies + body], outlines[YIELD * bodies + body]
@@ -312,12 +415,34 @@ def implicit_stage(
             if not blocks[block, TIGHT_TENSION] > 0.0:
                 continue
             status = sweep_phases(
-                start, kinds, constants, phases, seats, numbers, pressures, outlines, compliance, recess, work,
-                cells, elastic,
+                start,
+                kinds,
+                constants,
+                phases,
+                seats,
+                numbers,
+                pressures,
+                outlines,
+                compliance,
+                recess,
+                work,
+                cells,
+                elastic,
             )
             if status != SEATED:
                 return status
-            slips(start, kinds, numbers, phases, constants, blocks[block, PITCH_TIME], most, spacing, outlines, seats)
+            slips(
+                start,
+                kinds,
+                numbers,
+                phases,
+                constants,
+                blocks[block, PITCH_TIME],
+                most,
+                spacing,
+                outlines,
+                seats,
+            )
         if elastic == 1:
             continue
         for body in range(bodies):
@@ -326,7 +451,17 @@ def implicit_stage(
         for event in range(seats.shape[1]):
             block, kind = event // (kinds * count * most), event // (count * most) % kinds
             yields(
-                event, (event % most + kind) % bodies, bodies, blocks[block, COUNT], seats, pressures, works, numbers,
-                unworn, outlines, sums, sums[2],
+                event,
+                (event % most + kind) % bodies,
+                bodies,
+                blocks[block, COUNT],
+                seats,
+                pressures,
+                works,
+                numbers,
+                unworn,
+                outlines,
+                sums,
+                sums[2],
             )
     return SEATED

@@ -27,6 +27,7 @@ from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 
 Rows = NDArray[np.float64]
 
+
 @dataclass(frozen=True)
 class Pace:
     """How steps grow: depths as parts of the limit, at level 0."""

@@ -144,9 +144,7 @@ class SeatedBodies(WornBodies):
         self.hard_rate = hard_area / cycles
         self.works, self.area = works, area
         for body in range(self.contact.bodies):
-            recede(
-                area[body], self.depth[body], self.x[body], self.y[body], self.unworn, 0, area.shape[1]
-            )
+            recede(area[body], self.depth[body], self.x[body], self.y[body], self.unworn, 0, area.shape[1])
         self.removed += worn
         self.cycles += cycles
         self.updates += 1

@@ -157,9 +157,7 @@ class WrapSeating(PressedPlaces):
     def begin_step(self, number: int) -> None:
         """Take the phases of a step: they move to and fro, so that none leaves ridges."""
         mechanism, at = self.contact.mechanism, _PLACES[number % len(_PLACES)]
-        self.phases = phases_of_pitch(
-            mechanism.wrap_angle, mechanism.pitch_angle, self.contact.phases, at
-        )
+        self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, self.contact.phases, at)
 
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
@@ -233,7 +231,9 @@ class WrapSeating(PressedPlaces):
         kind = event // (self.most * self.phases.shape[1]) % self.kinds
         return (event % self.most + kind) % self.contact.bodies
 
-    def stage(self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]) -> bool:
+    def stage(
+        self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]
+    ) -> bool:
         """Replace a guess by the base and the work of so many cycles at the pressures in the end."""
         self._set(cycles, wear)
         self.numbers[[BEHIND, AHEAD]] = swept
