@@ -168,3 +168,9 @@ def test_drawing_in_another_encoding_is_kept(tmp_path):
     (tmp_path / "case.toml").write_text(text)
     kept = load_case(tmp_path / "case.toml").input_files["wheel.dxf"]
     assert kept.encode("utf-8", "surrogateescape") == drawing.replace(b"\r\n", b"\n")
+
+
+@pytest.mark.parametrize("value", ["[1]", "{a = 1}", "true"])
+def test_kind_that_is_no_word(value):
+    with pytest.raises(CaseError, match=r"--set mechanism\.kind: must be 'strand', 'prescribed' or 'wrap'"):
+        load_case(STRAND, [f"mechanism.kind={value}"])
