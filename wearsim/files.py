@@ -18,8 +18,11 @@ def check_free(path: Path, force: bool) -> None:
     """Raise where something is in the way."""
     try:
         taken = path.exists()
+        file = next((parent for parent in path.parents if parent.is_file()), None)
     except OSError as error:
         raise OutputError(f"{path}: must be reachable: {error.strerror or error}") from None
+    if file is not None:
+        raise OutputError(f"{path}: must lie in a folder, but {file} is a file: choose another place")
     if taken and not force:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 

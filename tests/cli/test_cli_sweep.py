@@ -138,6 +138,13 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
         ('[grid]\n"a.b" = [20, 20]\n', "every value once"),
         ('[grid]\n"a.b" = [[nan, 1.0]]\n', "must be"),
         ('[grid]\n"a.b" = [[1979-05-27]]\n', "must be"),
+        (
+            '[grid]\n"a.b" = [[1], {a = 2}]\n',
+            ":5: grid.a.b.2: must be a finite number, a word, true or false",
+        ),
+        ("grid = 3\n", ":4: grid: must be a table (got 3)"),
+        ('[[zip]]\n"a.b" = 3\n', "zip.1.a.b: must be a list of values (got 3)"),
+        ('[grid]\n"a.b" = {from = "x", to = 2.0, count = 3}\n', "grid.a.b.from: must be a number (got 'x')"),
         ('[grid]\n"a.b" = [1]\na.b = [2]\n', "a.b is given twice"),
         ('[[zip]]\n"a.b" = [1, 2]\n"a.c" = [1]\n', "need as many values: a.b 2, a.c 1"),
         ('[grid]\n"a.b" = [1]\n[[zip]]\n"a.b" = [1]\n', "a.b stands in two places"),

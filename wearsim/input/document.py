@@ -50,7 +50,7 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
         text = source.text if isinstance(source, CaseText) else _read(path)
         data = _parsed(path, text)
     keys = [item.partition("=")[0].strip() for item in overrides]
-    faults = Faults(file, text, map(present_key, keys))
+    faults = Faults(file, text, keys)
     written = present_tables(data, faults.note, faults.add)
     data = copy.deepcopy(written)
     for key, item in zip(keys, overrides, strict=True):
@@ -159,7 +159,8 @@ def _bare(raw: str) -> float | str:
 
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
-    key, raw = present_key(key.strip()), raw.strip()
+    typed, raw = key.strip(), raw.strip()
+    key = present_key(typed)
     if not equals or not all(key.split(".")):
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:
@@ -171,6 +172,6 @@ def _override(data: dict[str, Any], item: str) -> None:
     for table in tables:
         place = place.setdefault(table, {})
         if not isinstance(place, dict):
-            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {typed}")])
     place[last] = value
     _check_depth(data, f"--set {tables[0] if tables else last}")

@@ -11,7 +11,7 @@ from typing import Any
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import MARKER, mark, write_file, written
+from wearsim.files import MARKER, check_free, mark, write_file, written
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import COLUMNS, Rows, Shard
 
@@ -120,6 +120,7 @@ def _is_own_design(path: Path) -> bool:
 
 def _found(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
+    check_free(folder, force=True)
     place = folder / MANIFEST
     try:
         own = written(folder)
