@@ -2,9 +2,11 @@
 
 import copy
 import re
+import sys
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -46,8 +48,8 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
         data = copy.deepcopy(dict(source))
     else:
         path = source.path if isinstance(source, CaseText) else Path(source)
-        file, name, folder = str(path), path.stem, path.parent
-        text = source.text if isinstance(source, CaseText) else _read(path)
+        file, name, folder = str(path), "case" if path == STDIN else path.stem, path.parent
+        text = source.text if isinstance(source, CaseText) else _text(path)
         data = _parsed(path, text)
     keys = [item.partition("=")[0].strip() for item in overrides]
     faults = Faults(file, text, keys)
@@ -103,9 +105,19 @@ def _shown(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _read(path: Path) -> str:
+STDIN = Path("-")
+"""What stands for the case that is on standard input."""
+
+
+@cache
+def stdin_bytes() -> bytes:
+    """Return all of standard input, which can be read only once."""
+    return sys.stdin.buffer.read()
+
+
+def _text(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return (stdin_bytes() if path == STDIN else path.read_bytes()).decode("utf-8-sig")
     except OSError as error:
         raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
     except UnicodeDecodeError:

@@ -1,7 +1,7 @@
 """Faults of an input file: where each key stands and what is wrong with it, in plain words."""
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -61,18 +61,8 @@ class Faults:
 
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
         """Add everything that pydantic found."""
-        names = known_keys(model)
-        for entry in error.errors(include_url=False):
-            key = ".".join(
-                str(part + 1 if isinstance(part, int) else part)
-                for part in entry["loc"]
-                if part not in CHOSEN
-            )
-            if entry["type"] == "conflicts":
-                for name, message in entry["ctx"]["faults"]:
-                    self.add(f"{key}.{name}" if key else name, message)
-                continue
-            self.add(key, _message(dict(entry), key, names))
+        for key, message, _ in validation_faults(error, model):
+            self.add(key, message)
 
     def distrust(self, tables: Iterable[str]) -> None:
         """Take no more faults of some tables: they may only follow from those already found."""
@@ -87,6 +77,20 @@ class Faults:
         if len(ordered) > len(shown):
             shown.append(Fault(f"and {len(ordered) - len(shown)} more", "", self.file))
         raise CaseError(shown)
+
+
+def validation_faults(error: ValidationError, model: type[BaseModel]) -> Iterator[tuple[str, str, bool]]:
+    """Give key and message of all that pydantic found, and whether the value is wrong beside any others."""
+    names = known_keys(model)
+    for entry in error.errors(include_url=False):
+        key = ".".join(
+            str(part + 1 if isinstance(part, int) else part) for part in entry["loc"] if part not in CHOSEN
+        )
+        if entry["type"] == "conflicts":
+            for name, message in entry["ctx"]["faults"]:
+                yield f"{key}.{name}" if key else name, message, False
+            continue
+        yield key, _message(dict(entry), key, names), True
 
 
 def known_keys(model: type[BaseModel]) -> list[str]:
