@@ -1,4 +1,4 @@
-"""The seam between a mechanism whose contacts dwell and the wear engine."""
+"""The seam between a mechanism whose contacts rest and the wear engine."""
 
 import math
 from abc import ABC, abstractmethod
@@ -34,7 +34,7 @@ NEW_CHAIN = ChainWear()
 
 
 class RestingContact(ABC):
-    """Contacts that dwell on one or several worn bodies that were alike when new."""
+    """Contacts that rest on one or several worn bodies that were alike when new."""
 
     kind = ContactKind.RESTING
 
