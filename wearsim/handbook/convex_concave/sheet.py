@@ -96,15 +96,11 @@ def _gear(body: MeasuredGear) -> dict[str, Any]:
     }
 
 
-_PLACES = {"pole": "pitch_point"}
-"""Places of contacts by their names in the model, where an answer has others."""
-
-
 def _contact(one: ZoneContact) -> dict[str, Any]:
     zone, alpha = one.zone, one.alpha
     return {
         "zone": zone.name,
-        "place": _PLACES.get(one.place, one.place),
+        "place": one.place,
         "pressure_angle_deg": math.degrees(alpha),
         "path_coordinate_mm": float(zone.pinion.path_coordinate(alpha)) + 0.0,
         "pinion_flank_radius_mm": _known(float(zone.pinion.curvature_radius(alpha))),
