@@ -18,29 +18,33 @@ def check_free(path: Path, force: bool) -> None:
     """Raise where something is in the way."""
     try:
         taken = path.exists()
+        file = next((parent for parent in path.parents if parent.is_file()), None)
     except OSError as error:
         raise OutputError(f"{path}: must be reachable: {error.strerror or error}") from None
+    if file is not None:
+        raise OutputError(f"{path}: must lie in a folder, but {file} is a file: choose another place")
     if taken and not force:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
-_MARKER = ".wearsim"
+MARKER = ".wearsim"
 """File in every folder of wearsim: a head with who wrote it, then the names of the files, one a line."""
 
 
 def mark(folder: Path, names: Iterable[str]) -> None:
-    """Note in the marker of a folder which files wearsim writes there."""
+    """Note in the marker of a folder which files wearsim writes there; those that are gone fall out."""
     head = f"written by wearsim {__version__}, with --force replaced or removed:"
-    lines = (head, *sorted({*written(folder), *names} - {_MARKER}), "")
-    write_file(folder / _MARKER, os.fsencode("\n".join(lines)), force=True)
+    kept = {name for name in written(folder) if (folder / name).exists()}
+    lines = (head, *sorted({*kept, *names} - {MARKER}), "")
+    write_file(folder / MARKER, os.fsencode("\n".join(lines)), force=True)
 
 
 def written(folder: Path) -> set[str]:
     """Return the names that the marker of a folder holds and its own; none where there is no marker."""
-    marker = folder / _MARKER
+    marker = folder / MARKER
     if not marker.is_file():
         return set()
-    return {_MARKER, *os.fsdecode(marker.read_bytes()).splitlines()[1:]}
+    return {MARKER, *os.fsdecode(marker.read_bytes()).splitlines()[1:]}
 
 
 def check_folder(folder: Path, force: bool) -> None:
@@ -53,7 +57,7 @@ def check_folder(folder: Path, force: bool) -> None:
     foreign = sorted(_names(folder) - written(folder))
     if foreign:
         raise OutputError(
-            f"{folder}: must hold nothing but what its file {_MARKER} lists to be replaced, but holds "
+            f"{folder}: must hold nothing but what its file {MARKER} lists to be replaced, but holds "
             f"{foreign[0]}: move that away, or choose another place"
         )
     if Path.cwd().is_relative_to(folder.resolve()):

@@ -196,7 +196,7 @@ def test_case_is_worn_first_and_stdout_takes_the_file(cli, drive, monkeypatch):
         (("--out", "wear.gif", "--seconds", "0"), "0.1<=x<=120"),
         (("--out", "wear.gif", "--seconds", "nan"), "not a finite number"),
         (("--out", "wear.gif", "--seconds", "1"), "60 frames 1.2 s (got 1)"),
-        (("--out", "there.gif/wear.gif", "--frames", "2"), "must be writable"),
+        (("--out", "there.gif/wear.gif", "--frames", "2"), "must lie in a folder, but there.gif is a file"),
         ((), "Missing option '--out'"),
     ],
 )

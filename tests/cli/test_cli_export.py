@@ -226,7 +226,7 @@ def test_note_and_layers(cli, drive, tmp_path):
 
 @pytest.mark.parametrize("profile", PAIRS)
 def test_gear_pair(cli, gears, tmp_path, profile):
-    """Both gears at their distance; their flanks touch in the pole and nowhere enter each other."""
+    """Both gears at their distance; their flanks touch at the pitch point and nowhere enter each other."""
     path, out = gears(profile), tmp_path / "pair.dxf"
     assert cli("export", path, "--state", "both", "--out", out).code == 0
     space = ezdxf.readfile(out).modelspace()

@@ -36,7 +36,7 @@ def test_text(cli):
     done = cli("hertz-check", CASE)
     assert done.code == 0
     lines = done.out.splitlines()
-    assert lines[0] == "Gear pair 36/54 at the pole, 240 N m"
+    assert lines[0] == "Gear pair 36/54 at the pitch point, 240 N m"
     assert max(map(len, lines)) <= 100
     assert "453.938 MPa with the coefficient 0.418, 454.161 MPa with the exact 0.418205" in done.out
     assert sum("  11824.197" in line for line in lines) == 4
@@ -204,4 +204,4 @@ def test_page_shows_what_is_printed(cli):
     page = (docs / "hertz-check.md").read_text(encoding="utf-8")
     assert f"```text\n{cli('hertz-check', CASE).out}```" in page
     picture = (docs / "hertz-check.svg").read_text(encoding="utf-8")
-    assert "Gear pair 36/54 at the pole, 240 N m" in picture
+    assert "Gear pair 36/54 at the pitch point, 240 N m" in picture

@@ -65,17 +65,41 @@ def test_setting_of_the_case(cli, sweep):
 
 
 def test_table_on_stdout_and_failures(cli, sweep):
-    done = cli("sweep", sweep('[grid]\n"sprocket.teeth" = [20, 5]\n'))
+    done = cli("sweep", sweep('[grid]\n"load.power_kW" = [3, 3000]\n'))
     assert done.code == 5
     head, _, good, bad = done.out.splitlines()
-    assert head == "| sprocket.teeth | life, h | ended by |"
-    assert good.startswith("| 20 | ")
+    assert head == "| load.power_kW | life, h | ended by |"
+    assert good.startswith("| 3 | ")
     assert good.endswith(" | critical_depth_mm |")
-    assert bad.startswith("| 5 | failed: sprocket.")
+    assert bad.startswith("| 3000 | failed: load.")
     assert "1 of 2 cases failed, first case 1" in done.err
-    done = cli("sweep", sweep('[grid]\n"sprocket.teeth" = [4, 5]\n'))
+    done = cli("sweep", sweep('[grid]\n"load.power_kW" = [3000, 4000]\n'))
     assert done.code == 3
     assert "2 of 2 cases failed" in done.err
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('[grid]\n"load.power_kW" = ["a", 3, true, -5]\n', [":5: grid.load.power_kW: must be"] * 3),
+        ('[[zip]]\n"title" = ["A", 2]\n"sprocket.teeth" = [20, 21]\n', ["zip.1.title: must be"]),
+        ('[grid]\n"mechanism.kind" = [[1]]\n', ["grid.mechanism.kind: must be 'strand'"]),
+    ],
+)
+def test_value_that_a_key_can_never_have(cli, sweep, text, told):
+    done = cli("sweep", sweep(text), "--dry-run")
+    assert (done.code, done.out) == (2, "")
+    lines = done.err.splitlines()
+    assert len(lines) == len(told)
+    assert all(message in line for message, line in zip(told, lines, strict=True))
+
+
+def test_case_that_is_wrong_whatever_the_values(cli, sweep):
+    done = cli("sweep", sweep(GRID), "--dry-run", "--set", "mechanism=3")
+    assert (done.code, done.err) == (2, "--set mechanism: must be a table (got 3)\n")
+    done = cli("sweep", sweep(GRID, STUDY.replace("drive", "study")), "--dry-run")
+    assert done.code == 2
+    assert "study.toml: must be an input of this command, but is one of wearsim sweep" in done.err
 
 
 def test_limit_that_is_not_reached(cli, sweep):
@@ -138,6 +162,13 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
         ('[grid]\n"a.b" = [20, 20]\n', "every value once"),
         ('[grid]\n"a.b" = [[nan, 1.0]]\n', "must be"),
         ('[grid]\n"a.b" = [[1979-05-27]]\n', "must be"),
+        (
+            '[grid]\n"a.b" = [[1], {a = 2}]\n',
+            ":5: grid.a.b.2: must be a finite number, a word, true or false",
+        ),
+        ("grid = 3\n", ":4: grid: must be a table (got 3)"),
+        ('[[zip]]\n"a.b" = 3\n', "zip.1.a.b: must be a list of values (got 3)"),
+        ('[grid]\n"a.b" = {from = "x", to = 2.0, count = 3}\n', "grid.a.b.from: must be a number (got 'x')"),
         ('[grid]\n"a.b" = [1]\na.b = [2]\n', "a.b is given twice"),
         ('[[zip]]\n"a.b" = [1, 2]\n"a.c" = [1]\n', "need as many values: a.b 2, a.c 1"),
         ('[grid]\n"a.b" = [1]\n[[zip]]\n"a.b" = [1]\n', "a.b stands in two places"),

@@ -196,7 +196,7 @@ def synthesised(nodes: int, length: float = 1.0, load: float = 1.0, slip: float 
 
 
 SMOOTH = (evolute, points, slip_ratio, sliding_distance, wrap)
-"""Mechanisms with no kink in the middle of the flank, as gears have one at the pole."""
+"""Mechanisms with no kink in the middle of the flank, as gears have one at the pitch point."""
 
 MECHANISMS = (*SMOOTH, rigid_gears, elastic_gears, convex_concave, synthesised)
 

@@ -53,7 +53,7 @@ ROUGH: dict[str, Any] = {
 
 
 def test_fatigue_looks_at_the_highest_stress_not_only_at_the_pitch_point() -> None:
-    """1205 MPa 2 mm before the pole against 23 HRC/1.2: 1513 h at 1000 rpm; 1100 MPa never pits."""
+    """1205 MPa 2 mm before the pitch point against 23 HRC/1.2: 1513 h at 1000 rpm; 1100 MPa never pits."""
     tables = gears(ROUGH, 240.0, 0.05, 1.0)
     tables["load"]["speed_rpm"] = 1000
     tables["fatigue"] = {"pinion": STEEL, "wheel": STEEL}

@@ -168,3 +168,25 @@ def test_drawing_in_another_encoding_is_kept(tmp_path):
     (tmp_path / "case.toml").write_text(text)
     kept = load_case(tmp_path / "case.toml").input_files["wheel.dxf"]
     assert kept.encode("utf-8", "surrogateescape") == drawing.replace(b"\r\n", b"\n")
+
+
+@pytest.mark.parametrize("value", ["[1]", "{a = 1}", "true"])
+def test_kind_that_is_no_word(value):
+    with pytest.raises(CaseError, match=r"--set mechanism\.kind: must be 'strand', 'prescribed' or 'wrap'"):
+        load_case(STRAND, [f"mechanism.kind={value}"])
+
+
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ("a.b.c=3", "--set a: unknown table"),
+        ("load.x.y=2", "--set load.x: unknown table"),
+        ("uncertainty=3", "--set uncertainty: must be a table (got 3)"),
+        ("optimise.objectives=3", "--set optimise.objectives: must be a list of values (got 3)"),
+        ("chain.exploitation_factor=[1]", "--set chain.exploitation_factor: unknown key"),
+    ],
+)
+def test_fault_of_a_setting_names_what_was_typed(setting, told):
+    with pytest.raises(CaseError) as caught:
+        load_case(STRAND, [setting])
+    assert any(line.startswith(told) for line in str(caught.value).splitlines()), str(caught.value)

@@ -92,11 +92,11 @@ def test_force_does_not_replace_a_file(tmp_path):
 def test_parent_is_a_file(tmp_path):
     (tmp_path / "file").write_text("x")
     with (
-        pytest.raises(OutputError, match="must be writable"),
+        pytest.raises(OutputError, match=r"must lie in a folder, but .*file is a file"),
         new_folder(tmp_path / "file" / "run", force=False),
     ):
         pytest.fail("must not be entered")
-    with pytest.raises(OutputError, match="must be writable"):
+    with pytest.raises(OutputError, match=r"must lie in a folder, but .*file is a file"):
         write_file(tmp_path / "file" / "x.csv", "history.csv", force=False)
     assert tree(tmp_path) == ["file"]
 

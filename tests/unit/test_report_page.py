@@ -85,7 +85,7 @@ def test_rollers_sit_in_the_gaps_of_the_drawn_wheel(role):
 
 
 def test_the_roller_of_a_strand_touches_the_drawn_flank():
-    """The conjugate flank: touched by the roller one pitch before the pole line, cut by none."""
+    """The conjugate flank: touched by the roller one pitch before that of the pitch point, cut by none."""
     drive = wearsim.load_case(STRAND).drive
     (outline,) = drawn(strand_scene(drive, 1), "worn")
     wheel = shapely.Polygon(outline.vertices)

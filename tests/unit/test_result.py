@@ -269,3 +269,18 @@ def test_broken_folder(results, tmp_path, how):
 def test_no_folder(tmp_path):
     with pytest.raises(OutputError, match="must be the folder of a result"):
         WearResult.load(tmp_path / "none")
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ("[]", "result.json must hold one JSON object"),
+        ("{", "result.json is not readable JSON"),
+        ('{"schema_version": 1}', "case.lock.toml: No such file or directory"),
+    ],
+)
+def test_folder_that_is_no_result_is_told_in_plain_words(tmp_path, content, told):
+    (tmp_path / "result.json").write_text(content)
+    with pytest.raises(OutputError, match=told) as caught:
+        wearsim.WearResult.load(tmp_path)
+    assert "Error" not in str(caught.value)

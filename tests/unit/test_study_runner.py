@@ -269,6 +269,41 @@ def test_folder_of_another_study_is_refused(cases, store, tmp_path):
         open_store(tmp_path / "mine", cases, {"study": "test"}, True)
 
 
+@pytest.mark.parametrize("content", ["mine", '{"schema_version": 1}'])
+def test_folder_of_a_stranger_is_never_taken(cases, tmp_path, content):
+    from wearsim.runner.store import check_store, open_store
+
+    (tmp_path / "study.json").write_text(content)
+    for take in (open_store, check_store):
+        with pytest.raises(OutputError, match="must be new or hold a study of wearsim"):
+            take(tmp_path, cases, {"study": "test"}, True)
+    assert [path.name for path in tmp_path.iterdir()] == ["study.json"]
+    assert (tmp_path / "study.json").read_text() == content
+
+
+def test_marker_of_a_study_names_its_files(cases, tmp_path):
+    from wearsim.command.study_files import save_files
+    from wearsim.runner.store import open_store
+
+    folder = open_store(tmp_path / "study", cases, {"study": "test"}, False).folder
+
+    def named():
+        return (folder / ".wearsim").read_text().splitlines()[1:]
+
+    assert named() == ["study.json"]
+    save_files(folder, {"cases.csv": "ours"})
+    assert named() == ["cases.csv", "study.json"]
+    (folder / "summary.md").write_text("mine")
+    with pytest.raises(OutputError, match=r"summary\.md: must be free for the study"):
+        save_files(folder, {"cases.csv": "new", "summary.md": "new"})
+    assert (folder / "summary.md").read_text() == "mine"
+    assert (folder / "cases.csv").read_text() == "ours"
+    other = replace(cases, rows=cases.rows[:-1])
+    assert open_store(folder, other, {"study": "test"}, True).folder == folder
+    assert named() == ["study.json"]
+    assert sorted(path.name for path in folder.iterdir()) == [".wearsim", "study.json", "summary.md"]
+
+
 def test_warnings_and_errors_stay_apart():
     from wearsim.runner import shard as shard_module
 

@@ -218,7 +218,7 @@ def test_reduced_radius_in_the_pitch_point_is_the_same_on_both_sides(validated, 
     pair = ConvexConcave(4.5, 17, mate, POLE, 10.0, 10.0, 4.5)
     # For 51 teeth the reference prints 9.8117026617: the closed form below has another digit.
     found = [float(zone.reduced_radius(POLE)) for zone in pair.zones]
-    quantity, source = f"reduced radius in the pole, 17 and {mate} teeth", "independent program"
+    quantity, source = f"reduced radius at the pitch point, 17 and {mate} teeth", "independent program"
     validated(quantity, found, rho, 5e-11, source, "mm", absolute=True, page=mate == 34)
     r2 = 2.25 * mate
     assert rho == pytest.approx(math.sin(POLE) / (1.0 / R1 + 1.0 / r2), abs=5e-11)

@@ -1,7 +1,7 @@
 """The integrated evolute flank against the closed form of its conjugate points.
 
 Expected points: the roller touches the strand-conjugate flank on the line from its centre C
-to the pole; turning that contact point by psi = x/R into the sprocket's frame gives the
+to the pitch point; turning that contact point by psi = x/R into the sprocket's frame gives the
 flank. Expected numbers of the example (p 25.4, d1 15.88, z 20, x 4.0..30.67): worked out by
 hand and with an independent sweep for offsets 2.0, 4.0 and 5.5.
 """

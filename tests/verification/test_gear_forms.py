@@ -74,7 +74,7 @@ def test_a_straight_line_of_action_is_the_involute() -> None:
 
 @pytest.mark.parametrize("name", ["bosansky", "unequal arcs", "constant stress"])
 def test_flanks_touch_on_the_line_of_action(name: str) -> None:
-    """Both turned to a contact: the same point, as far from the pole as it says."""
+    """Both turned to a contact: the same point, as far from the pitch point as it says."""
     mesh, circles = mesh_of(name), PAIRS[name].circles
     for k in (3, 100, 200, 300, 397):
         turn = mesh.place[k] / circles.pinion_radius
@@ -119,7 +119,7 @@ def test_sliding_is_the_difference_of_both_ways(name: str) -> None:
     way = np.diff(mesh.arc, axis=1)
     depth, cycles = run.depth[-1], run.cycles[-1]
     load = 400.0 * pair.circles.pinion_radius * of.share / mesh.lever
-    middle = np.abs(mesh.pitch_point_distance[1:]) > 0.02  # the slip has a kink in the pole
+    middle = np.abs(mesh.pitch_point_distance[1:]) > 0.02  # the slip has a kink at the pitch point
     slip = np.abs(1.0 - way[1] / way[0])
     expected = 1e-10 * 0.5 * (load[1:] + load[:-1]) * slip * cycles
     np.testing.assert_allclose(
@@ -185,7 +185,7 @@ def test_contact_ratio_is_that_of_the_closed_form(validated: Callable[..., None]
     ("pair", "message"),
     [
         (prescribed(reach=25.0), "width of the tip of the pinion must be above 0"),
-        (prescribed(stress=300.0), "must be above .* in the pole"),
+        (prescribed(stress=300.0), "must be above .* at the pitch point"),
         (prescribed(reach=100.0), "family [+]1 from .* must end before"),
     ],
 )
@@ -195,7 +195,7 @@ def test_pairs_that_cannot_run(pair: ToothPair, message: str) -> None:
 
 
 def test_constant_stress_lives_longer(validated: Callable[..., None]) -> None:
-    """Than the involute of the same pressure angle and stress in the pole, over the same path.
+    """Than the involute of the same pressure angle and stress at the pitch point, over the same path.
 
     Rigid teeth: h = k q |1 - v2/v1|, the greatest of which the first contact has in both.
     """

@@ -229,7 +229,7 @@ def test_power_law_follows_the_curvature_of_both_flanks() -> None:
 
 @pytest.mark.parametrize("stiffness", [0.0, 14000.0])
 def test_lives_converge_with_the_points(stiffness: float) -> None:
-    """Kinks at the pole and where a pair takes over: to 2e-3 from 101 points on."""
+    """Kinks at the pitch point and where a pair takes over: to 2e-3 from 101 points on."""
     law, limit = power(RATE / 1000.0, 2.0), (depth_limit(0.02),)
     lives = []
     for points in (101, 201, 401):
@@ -296,7 +296,7 @@ def test_fatigue_that_never_comes_is_a_bound() -> None:
 
 
 def test_ridges_and_hollows_are_told() -> None:
-    """Rigid teeth leave a step where a second pair takes over, and a ridge at the pole."""
+    """Rigid teeth leave a step where a second pair takes over, and a ridge at the pitch point."""
     deep = ["mechanism.load_sharing=rigid", "stop.critical_depth_mm=0.1"]
     warnings = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, deep)).warnings)
     assert "the mate bridges hollows" in warnings

@@ -122,7 +122,7 @@ def test_stiffness_spectrum():
 
 
 def test_synthesise():
-    """454.16 MPa is Hertz' stress of the involute of 20 degrees in its pitch point."""
+    """454.16 MPa is Hertz' stress of the involute of 20 degrees at its pitch point."""
     pair = synthesise.loaded_pair(
         centre_distance=135.0,
         gear_ratio=1.5,

@@ -1,4 +1,4 @@
-"""Contact at the pole: the printed formulas, the inputs, the lost cell (source 000, second paper)."""
+"""Contact at the pitch point: the printed formulas, the inputs, the lost cell (source 000, second paper)."""
 
 import math
 from dataclasses import replace
@@ -64,7 +64,7 @@ def test_exact_coefficient_is_that_of_hertz(validated):
     source, how = "independent program", {"absolute": True}
     found = BASE.exact_coefficient
     validated("exact coefficient", found, 0.4182051433, 5e-11, source, page=False, **how)
-    quantity = "stress in the pole by the exact coefficient"
+    quantity = "stress at the pitch point by the exact coefficient"
     validated(quantity, BASE.peak_pressure, 454.160863, 5e-7, source, "MPa", **how)
     for contact in (BASE, PRINTED, replace(BASE, youngs_modulus=(2e5, 1.1e5), poissons_ratio=0.25)):
         by_coefficient = contact.exact_coefficient * math.sqrt(
@@ -79,7 +79,7 @@ def test_exact_coefficient_is_that_of_hertz(validated):
 
 def test_half_width(validated):
     found, source = BASE.half_width, "independent program"
-    validated("half-width in the pole", found, 0.0872345429, 5e-11, source, "mm", absolute=True)
+    validated("half-width at the pitch point", found, 0.0872345429, 5e-11, source, "mm", absolute=True)
     by_load = 2.0 * BASE.load_per_width / (math.pi * BASE.half_width)
     assert by_load == pytest.approx(BASE.peak_pressure, rel=1e-13)
 

@@ -103,16 +103,16 @@ def test_form_of_the_gear_standards():
 )
 def test_pitch_point_angle(validated, stress, angle):
     found = math.degrees(pair(stress).pitch_point_crossing().pressure_angle)
-    quantity, source = f"pressure angle in the pole at {stress:g} MPa", "independent program"
+    quantity, source = f"pressure angle at the pitch point at {stress:g} MPa", "independent program"
     how = {"absolute": True, "page": stress != 400}
     validated(quantity, found, float(angle), half_unit(angle), source, "deg", **how)
 
 
 def test_least_stress_in_the_pitch_point(validated):
     found, source = pair().least_pitch_point_stress, "independent program"
-    validated("least stress in the pole", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
+    validated("least stress at the pitch point", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
     assert pair(364.1191).pitch_point_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
-    with pytest.raises(GeometryError, match=r"above 364\.119 in the pole.*45 deg.*but is 364"):
+    with pytest.raises(GeometryError, match=r"above 364\.119 at the pitch point.*45 deg.*but is 364"):
         tables(364).phases(pair(364))
     steepest = np.radians(np.linspace(1, 89, 881))
     curvature = 1 / CIRCLES.pitch_point_radius(steepest)
@@ -513,8 +513,8 @@ def nodes(first, last, count=48):
 
 
 LINES = {
-    "pole": lambda: through_pitch_point(nodes(-10, 10)),
-    "pole, normal load": lambda: through_pitch_point(nodes(-10, 10), load=NORMAL),
+    "pitch point": lambda: through_pitch_point(nodes(-10, 10)),
+    "pitch point, normal load": lambda: through_pitch_point(nodes(-10, 10), load=NORMAL),
     **{
         f"{family:+d} at {stress} MPa": lambda family=family, last=last, stress=stress: segment(
             family, last, stress, at=nodes(START[0], last)
@@ -540,7 +540,7 @@ def rotated(points, angle):
 def test_wheel_is_the_envelope_of_the_pinion(name):
     """Where the pinion's profile, as it rolls, moves along itself as seen from the wheel.
 
-    Only the points of the pinion's profile and the rigid motion enter: no pole, no normal.
+    Only the points of the pinion's profile and the rigid motion enter: no pitch point, no normal.
     """
     line = LINES[name]()
     point, tangent, _ = fitted(line.contacts.pitch_point_distance, line.pinion_profile)
@@ -666,7 +666,7 @@ def test_lines_end_at_a_pressure_angle_of_zero():
     ("load", "power"), [(NORMAL, 0.5), (TORQUE, 0.5 * (1 - math.tan(math.radians(20)) ** 2))]
 )
 def test_one_line_goes_through_the_pitch_point_below_45_degrees(load, power):
-    """What is added to it near the pole fades outward as l^(-power)."""
+    """What is added to it near the pitch point fades outward as l^(-power)."""
     synthesis = PathSynthesis(CIRCLES, pair(load=load).radius_rule, 1)
     exact = through_pitch_point([1e-4, 1e-2], load=load).contacts.pressure_angle
     for shift in (1e-6, -1e-6):
@@ -676,10 +676,10 @@ def test_one_line_goes_through_the_pitch_point_below_45_degrees(load, power):
 
 @pytest.mark.parametrize("degrees", [60, 65, 75, 80])
 def test_many_lines_go_through_the_pitch_point_above_45_degrees(degrees):
-    """Under a constant torque 70 deg has the same stress in the pole as 20 deg.
+    """Under a constant torque 70 deg has the same stress at the pitch point as 20 deg.
 
-    "Only one line of constant stress crosses the pole" holds for the smaller angle only: at the
-    greater one perturbations fade towards the pole, and every line nearby ends up in it.
+    "Only one line of constant stress crosses the pole" (the pitch point) holds for the smaller angle only: at
+    the greater one perturbations fade towards the pitch point, and every line nearby ends up in it.
     """
     synthesis = PathSynthesis(CIRCLES, pair().radius_rule, 1)
     for start, last in ((3.0, 1e-5), (-3.0, -1e-5)):

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from wearsim.case.model import Case
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.input.other_files import check_command
 
 
 def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
@@ -41,6 +42,7 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     6000.0
     """
     document = read_document(source, overrides)
+    check_command(document.data, document.faults.file, "life")
     # Models of tables and of geometry take time to import: only those of one mechanism are.
     read: Callable[[Document], Case] = mechanism_of(document.data).load("read")
     return read(document)

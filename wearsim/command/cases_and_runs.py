@@ -20,7 +20,7 @@ def results_of(
     from wearsim.result import WearResult
 
     for path in sources:
-        if not path.is_dir() and path.suffix != ".toml":
+        if not path.is_dir() and path.suffix != ".toml" and str(path) != "-":
             raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
     check_settings(sources, settings)
     paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]

@@ -36,7 +36,7 @@ class _OfferedPath(click.Path):
 
 
 class CasePath(_OfferedPath):
-    """A case: ``.toml``."""
+    """A case: ``.toml``, or - for one on stdin."""
 
 
 class RunPath(_OfferedPath):

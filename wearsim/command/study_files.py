@@ -7,15 +7,22 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from wearsim.files import mark, write_file
+from wearsim.errors import OutputError
+from wearsim.files import mark, write_file, written
 from wearsim.report.figures import picture_bytes
 from wearsim.report.text_lines import literal
 
 _KINDS = ("png", "svg")
 
 
-def save_texts(folder: Path, files: Mapping[str, str]) -> None:
-    """Write the tables of a study, each in place of that of an earlier run."""
+def save_files(folder: Path, files: Mapping[str, str | bytes]) -> None:
+    """Write tables or pictures of a study, each in place of that of an earlier run and of nothing else."""
+    for name in sorted(files.keys() - written(folder)):
+        if (folder / name).exists():
+            raise OutputError(
+                f"{folder / name}: must be free for the study, but wearsim did not write what is there: move "
+                "it away, then the same command goes on"
+            )
     mark(folder, files)
     for name, content in files.items():
         write_file(folder / name, content, force=True)
@@ -23,11 +30,12 @@ def save_texts(folder: Path, files: Mapping[str, str]) -> None:
 
 def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
     """Write the pictures of a study as PNG and SVG."""
-    mark(folder, (f"{name}.{kind}" for name in figures for kind in _KINDS))
-    for name, figure in figures.items():
+    for figure in figures.values():
         figure.suptitle(literal(title), fontsize=10)
-        for kind in _KINDS:
-            write_file(folder / f"{name}.{kind}", picture_bytes(figure, kind), force=True)
+    pictures = {
+        f"{name}.{kind}": picture_bytes(figure, kind) for name, figure in figures.items() for kind in _KINDS
+    }
+    save_files(folder, pictures)
 
 
 def plain(value: Any) -> Any:

@@ -20,7 +20,7 @@ class ContactKind(Enum):
     LOCAL = "local"
     """Slip is the path [mm] a point slides under the local peak pressure."""
 
-    RESTING = "dwelling"
+    RESTING = "resting"
     """A mate rests in the outline and slides a path [mm]; its pressure follows from the gap."""
 
 

@@ -43,7 +43,7 @@ class LineLoad:
 
     @property
     def best_pitch_point_angle(self) -> float:
-        """Pressure angle with the greatest s/q in the pitch point [rad]: 45 deg, or 90 for n = 0."""
+        """Pressure angle with the greatest s/q at the pitch point [rad]: 45 deg, or 90 for n = 0."""
         return 0.5 * math.pi / (1 + self.power)
 
 
@@ -131,7 +131,7 @@ class LoadedPair:
 
     @property
     def least_pitch_point_stress(self) -> float:
-        """Least contact stress that profiles can have in the pitch point, where rho = sin(alpha)/A.
+        """Least contact stress that profiles can have at the pitch point, where rho = sin(alpha)/A.
 
         Equation synthesise.md (12).
         """
@@ -155,14 +155,15 @@ class LoadedPair:
         Raises
         ------
         GeometryError
-            No profiles have a stress as low as this in the pitch point.
+            No profiles have a stress as low as this at the pitch point.
         """
         requested, least = float(self.stress.at(0.0)), self.least_pitch_point_stress
         if not requested > least:
             raise GeometryError(
-                f"contact_stress_MPa: must be above {least:.6g} in the pole, the least at any pressure "
-                f"angle (it is that at {math.degrees(self.load.best_pitch_point_angle):g} deg), but is "
-                f"{requested:g}: raise it or lower the load (a phase of synthesise may start beside the pole)"
+                f"contact_stress_MPa: must be above {least:.6g} at the pitch point, the least at any "
+                f"pressure angle (it is that at {math.degrees(self.load.best_pitch_point_angle):g} deg), "
+                f"but is {requested:g}: raise it or lower the load (a phase of synthesise may start "
+                "beside the pitch point)"
             )
         angle = math.asin((least / requested) ** 2) / (1 + self.load.power)
         radius = float(self.circles.pitch_point_radius(angle))

@@ -1,4 +1,4 @@
-"""The seam between a mechanism whose contacts dwell and the wear engine."""
+"""The seam between a mechanism whose contacts rest and the wear engine."""
 
 import math
 from abc import ABC, abstractmethod

@@ -28,7 +28,7 @@ class SynthesisedPair:
 
     @property
     def pitch_point_angle(self) -> float:
-        """Pressure angle in the pitch point [rad]."""
+        """Pressure angle at the pitch point [rad]."""
         return self.loaded.pitch_point_crossing().pressure_angle
 
     def line(self, points: int) -> PathOfContact:

@@ -39,7 +39,7 @@ def smallest_offset(
     if _is_cut(high):
         raise GeometryError(
             f"exit clearance: no evolute offset up to {high:.4g} mm lets the roller leave a flank "
-            f"that reaches {contact_start:.4g} mm before the pole line"
+            f"that reaches {contact_start:.4g} mm before the line of the pitch point"
         )
     while high - low > 1e-5 * high:
         middle = 0.5 * (low + high)
@@ -55,8 +55,8 @@ def evolute_limits(
     """Return what keeps an evolute flank from running on a strand."""
     if contact_end <= 0.0:
         message = (
-            f"contact_end must be above 0 (the flank ends before the pole line), is {contact_end:g} "
-            f"mm: {0.16 * pitch:.4g} mm will do"
+            f"contact_end must be above 0 (the flank ends before the line of the pitch point), is "
+            f"{contact_end:g} mm: {0.16 * pitch:.4g} mm will do"
         )
         return [("contact_end", message)]
     ratio = contact_ratio(contact_end, contact_start, pitch)

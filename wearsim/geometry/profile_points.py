@@ -146,10 +146,6 @@ class Profile:
         cosine, sine = np.cos(angle), np.sin(angle)
         return Profile(self.x * cosine - self.y * sine, self.x * sine + self.y * cosine)
 
-    def area_from(self, other: "Profile") -> float:
-        """Return the area between this flank and another, by the shoelace formula."""
-        return area_between(other.x, other.y, self.x, self.y)
-
     def with_fine_ends(self, intervals: int) -> "Profile":
         """Return the same flank on even intervals, of which those near both ends are divided.
 

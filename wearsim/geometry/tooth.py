@@ -83,7 +83,7 @@ class Tooth:
                 return points
         raise GeometryError(
             "seat: an arc through both root points must clear the roller, but none does: move the "
-            "root end of the flank (contact_end_mm) nearer to the pole line"
+            "root end of the flank (contact_end_mm) nearer to the line of the pitch point"
         )
 
     @property

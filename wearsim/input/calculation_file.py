@@ -6,6 +6,7 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.input.other_files import check_command
 from wearsim.input.schema.table import CalculationTables, Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)
@@ -13,7 +14,14 @@ Tables = TypeVar("Tables", bound=CalculationTables)
 
 def load_calculation(source: CaseSource, model: type[Tables], overrides: Sequence[str] = ()) -> Tables:
     """Return the tables of a calculation."""
-    document = read_document(source, overrides)
+    return calculation_tables(read_document(source, overrides), model)
+
+
+def calculation_tables(document: Document, model: type[Tables]) -> Tables:
+    """Return the tables of a calculation, or raise where the input is that of another command."""
+    needed = {name for name, field in model.model_fields.items() if field.is_required()}
+    if not needed - {"format_version"} <= document.data.keys():
+        check_command(document.data, document.faults.file)
     document.data.setdefault("title", document.name)
     return checked(document, model)
 

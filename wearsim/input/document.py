@@ -2,9 +2,11 @@
 
 import copy
 import re
+import sys
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +48,11 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
         data = copy.deepcopy(dict(source))
     else:
         path = source.path if isinstance(source, CaseText) else Path(source)
-        file, name, folder = str(path), path.stem, path.parent
-        text = source.text if isinstance(source, CaseText) else _read(path)
+        file, name, folder = str(path), "case" if path == STDIN else path.stem, path.parent
+        text = source.text if isinstance(source, CaseText) else _text(path)
         data = _parsed(path, text)
     keys = [item.partition("=")[0].strip() for item in overrides]
-    faults = Faults(file, text, map(present_key, keys))
+    faults = Faults(file, text, keys)
     written = present_tables(data, faults.note, faults.add)
     data = copy.deepcopy(written)
     for key, item in zip(keys, overrides, strict=True):
@@ -103,9 +105,19 @@ def _shown(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _read(path: Path) -> str:
+STDIN = Path("-")
+"""What stands for the case that is on standard input."""
+
+
+@cache
+def stdin_bytes() -> bytes:
+    """Return all of standard input, which can be read only once."""
+    return sys.stdin.buffer.read()
+
+
+def _text(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return (stdin_bytes() if path == STDIN else path.read_bytes()).decode("utf-8-sig")
     except OSError as error:
         raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
     except UnicodeDecodeError:
@@ -159,7 +171,8 @@ def _bare(raw: str) -> float | str:
 
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
-    key, raw = present_key(key.strip()), raw.strip()
+    typed, raw = key.strip(), raw.strip()
+    key = present_key(typed)
     if not equals or not all(key.split(".")):
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:
@@ -171,6 +184,6 @@ def _override(data: dict[str, Any], item: str) -> None:
     for table in tables:
         place = place.setdefault(table, {})
         if not isinstance(place, dict):
-            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {typed}")])
     place[last] = value
     _check_depth(data, f"--set {tables[0] if tables else last}")

@@ -1,13 +1,13 @@
 """Faults of an input file: where each key stands and what is wrong with it, in plain words."""
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.former_words import written_key
+from wearsim.input.former_words import present_key, written_key
 from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
@@ -20,7 +20,7 @@ class Faults:
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
         self.file = file
         self.text = text
-        self.overrides = tuple(overrides)
+        self._overrides = {present_key(key): key for key in overrides}
         self.notes: list[str] = []
         self._found: list[Fault] = []
         self._lines: dict[str, int] = {}
@@ -39,27 +39,30 @@ class Faults:
         """Add a fault of a key."""
         if key.partition(".")[0] in self._distrusted:
             return
-        if any(key == given or key.startswith(f"{given}.") for given in self.overrides):
-            self._found.append(Fault(message, "", f"--set {key}"))
+        setting = self._setting(key)
+        if setting:
+            self._found.append(Fault(message, "", f"--set {setting}"))
             return
         if key not in self._lines:
             self._lines[key] = line_of(self.text, written_key(key, self.text))
         self._found.append(Fault(message, key, self.file, self._lines[key]))
 
+    def _setting(self, key: str) -> str:
+        """Return a key as it was typed in an override that holds it, or that made the table of this name."""
+        for given, typed in self._overrides.items():
+            if key == given or key.startswith(f"{given}."):
+                return typed + key.removeprefix(given)
+            if given.startswith(f"{key}.") and self.text and not self._stands(key):
+                return ".".join(typed.split(".")[: key.count(".") + 1])
+        return ""
+
+    def _stands(self, key: str) -> bool:
+        return _line_of_value(self.text, written_key(key, self.text).split(".")) > 0
+
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
         """Add everything that pydantic found."""
-        names = known_keys(model)
-        for entry in error.errors(include_url=False):
-            key = ".".join(
-                str(part + 1 if isinstance(part, int) else part)
-                for part in entry["loc"]
-                if part not in CHOSEN
-            )
-            if entry["type"] == "conflicts":
-                for name, message in entry["ctx"]["faults"]:
-                    self.add(f"{key}.{name}" if key else name, message)
-                continue
-            self.add(key, _message(dict(entry), key, names))
+        for key, message, _ in validation_faults(error, model):
+            self.add(key, message)
 
     def distrust(self, tables: Iterable[str]) -> None:
         """Take no more faults of some tables: they may only follow from those already found."""
@@ -74,6 +77,20 @@ class Faults:
         if len(ordered) > len(shown):
             shown.append(Fault(f"and {len(ordered) - len(shown)} more", "", self.file))
         raise CaseError(shown)
+
+
+def validation_faults(error: ValidationError, model: type[BaseModel]) -> Iterator[tuple[str, str, bool]]:
+    """Give key and message of all that pydantic found, and whether the value is wrong beside any others."""
+    names = known_keys(model)
+    for entry in error.errors(include_url=False):
+        key = ".".join(
+            str(part + 1 if isinstance(part, int) else part) for part in entry["loc"] if part not in CHOSEN
+        )
+        if entry["type"] == "conflicts":
+            for name, message in entry["ctx"]["faults"]:
+                yield f"{key}.{name}" if key else name, message, False
+            continue
+        yield key, _message(dict(entry), key, names), True
 
 
 def known_keys(model: type[BaseModel]) -> list[str]:
@@ -101,10 +118,11 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
         return _length_message(entry["ctx"], kind)
     text = str(entry["msg"]).removeprefix("Value error, ")
     text = text.replace("Input should be", "must be")
-    if kind == "model_type":
+    if kind in ("model_type", "dict_type"):
         text = "must be a table"
     if kind == "list_type":
-        text = f"must be tables under headers [[{key}]]"
+        tables = "." not in key or any(name.startswith(f"{key}.") for name in names)
+        text = f"must be tables under headers [[{key}]]" if tables else "must be a list of values"
     if isinstance(got, Mapping):
         return f"{text} (got a table)"
     hint = ""

@@ -87,7 +87,7 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
     profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
     default = "wrap" if profile in WRAP_PROFILES else "strand"
-    return MECHANISMS.get(kind or default, MECHANISMS[default])
+    return MECHANISMS[kind if isinstance(kind, str) and kind in MECHANISMS else default]
 
 
 _BELONGS_TO = {

@@ -12,9 +12,6 @@ from PIL.PngImagePlugin import PngInfo
 
 from wearsim._version import __version__
 
-FORMATS = ("gif", "webp", "png")
-"""Endings of the files."""
-
 _HOLD_MS = 2000
 """How much longer than the others the last frame stays."""
 

@@ -87,25 +87,49 @@ def read_result(folder: Path) -> dict[str, Any]:
         return _stored(folder)
     except OutputError:
         raise
-    except (OSError, ValueError, TypeError, AttributeError, LookupError) as error:
-        raise OutputError(
-            f"{folder}: must be the folder of a result (result.json, case.lock.toml, "
-            f"environment.json, history.csv, flank.csv): {type(error).__name__} {error}"
+    except OSError as error:
+        raise _no_result(
+            folder, f"{Path(error.filename or folder).name}: {error.strerror or error}"
         ) from None
+    except ValueError as error:
+        raise _no_result(folder, str(error)) from None
+    except (TypeError, AttributeError, LookupError):
+        raise _no_result(folder, "a value in them is missing or of another kind") from None
+
+
+def _no_result(folder: Path, why: str) -> OutputError:
+    return OutputError(
+        f"{folder}: must be the folder of a result (result.json, case.lock.toml, environment.json, "
+        f"history.csv, flank.csv): {why}"
+    )
+
+
+def _json(path: Path) -> dict[str, Any]:
+    """Return the object in a file."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{path.name} is not readable JSON: {error}") from None
+    if not isinstance(content, dict):
+        raise ValueError(f"{path.name} must hold one JSON object")
+    return content
 
 
 def _stored(folder: Path) -> dict[str, Any]:
     """Return the fields of a result in a folder."""
     import tomllib
 
-    stored = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    stored = _json(folder / "result.json")
     version = stored.get("schema_version")
     if version != SCHEMA_VERSION:
         raise OutputError(
             f"{folder}: result.json must have schema_version {SCHEMA_VERSION}, has "
             f"{version!r}: read it with the wearsim that wrote it"
         )
-    lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
+    try:
+        lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"case.lock.toml is not readable TOML: {error}") from None
     inputs = with_files(lock, "")
     mechanism = mechanism_of(inputs)
     same = (
@@ -143,7 +167,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         },
         "history_columns": _read_columns(folder / "history.csv", mechanism.history),
         "flank_columns": _read_columns(folder / "flank.csv", mechanism.flank),
-        "environment": json.loads((folder / "environment.json").read_text(encoding="utf-8")),
+        "environment": _json(folder / "environment.json"),
     }
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import mark, write_file, written
+from wearsim.files import MARKER, check_free, mark, write_file, written
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import COLUMNS, Rows, Shard
 
@@ -96,8 +96,8 @@ def open_store(folder: Path, design: Design, manifest: Mapping[str, Any], force:
         return Store(folder)
     if old is not None:
         _clear(folder)
+    mark(folder, (MANIFEST,))
     write_file(folder / MANIFEST, text, force=True)
-    mark(folder, ())
     return Store(folder)
 
 
@@ -120,14 +120,17 @@ def _is_own_design(path: Path) -> bool:
 
 def _found(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
+    check_free(folder, force=True)
     place = folder / MANIFEST
     try:
-        old = place.read_bytes().decode("utf-8", "replace") if place.exists() else None
-        taken = folder.exists() and (not folder.is_dir() or any(folder.iterdir()))
+        own = written(folder)
+        ours = MANIFEST in own and place.exists()
+        old = place.read_bytes().decode("utf-8", "replace") if ours else None
+        foreign = folder.exists() and (not folder.is_dir() or {path.name for path in folder.iterdir()} - own)
     except OSError as error:
         raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
-    if old is None and taken:
-        raise OutputError(f"{folder}: must be new or hold a study, but does not: choose another")
+    if old is None and foreign:
+        raise OutputError(f"{folder}: must be new or hold a study of wearsim, but does not: choose another")
     if old not in (None, text) and not force:
         raise OutputError(
             f"{folder}: must hold this study to go on, but holds another one (other input, seed, "
@@ -144,7 +147,7 @@ def _manifest(design: Design, manifest: Mapping[str, Any]) -> str:
 def _clear(folder: Path) -> None:
     """Remove what another study wrote about all of its cases, before this one has run."""
     try:
-        own = written(folder)
+        own = written(folder) - {MARKER, MANIFEST}
         for path in [path for path in folder.iterdir() if path.name in own]:
             path.unlink()
         for path in own_designs(folder / DESIGNS):

@@ -52,7 +52,8 @@ def check_touch(
         raise ContactError(
             f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the flank "
             "must press on the roller (pressure angle below 90 degrees), but is worn so far that it "
-            "would pull there: move contact_end_mm away from the pole line, or stop at a smaller depth"
+            "would pull there: move contact_end_mm away from the line of the pitch point, or stop at a "
+            "smaller depth"
         )
     loaded = touch.load_per_width > 0.0
     if not loaded.any():

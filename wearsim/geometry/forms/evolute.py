@@ -191,7 +191,7 @@ def evolute_flank(strand: Strand, contact_end: float, contact_start: float, node
     if not 0.0 < contact_end < contact_start:
         raise GeometryError(
             f"evolute flank: 0 < contact_end < contact_start must hold, got {contact_end:g} and "
-            f"{contact_start:g} mm: the flank ends before the pole line"
+            f"{contact_start:g} mm: the flank ends before the line of the pitch point"
         )
     x = np.linspace(contact_end, contact_start, nodes)
     half = 0.5 * np.diff(x)[:, None]

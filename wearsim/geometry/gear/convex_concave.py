@@ -69,7 +69,7 @@ class SignCondition:
 
     @property
     def arc_limit(self) -> float:
-        """What the radius of the arc must be below to hold in the pitch point [mm]: r cos(alpha_C) / 2.
+        """What the radius of the arc must be below to hold at the pitch point [mm]: r cos(alpha_C) / 2.
 
         inf for a head, which is convex with every arc.
         """
@@ -95,7 +95,7 @@ class ConvexConcave:
     # pinion_teeth, wheel_teeth: numbers z1 and z2
     pinion_teeth: int
     wheel_teeth: int
-    pitch_point_angle: float  # pressure angle alpha_C in the pitch point [rad]
+    pitch_point_angle: float  # pressure angle alpha_C at the pitch point [rad]
     # head_arc, foot_arc: radii r_kh and r_kd of the arcs on which head and foot of the pinion are in contact
     # [mm]
     head_arc: float

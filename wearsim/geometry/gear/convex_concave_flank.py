@@ -2,7 +2,7 @@
 
 M. Bosansky and co-authors, "Possibilities of AutoCAD in the design of new profiles" (2015;
 source document 002, second fragment). The path of contact is made of two circular arcs that
-touch each other in the pitch point C. Each arc belongs to the head of one gear and to the foot of
+touch each other at the pitch point C. Each arc belongs to the head of one gear and to the foot of
 the other, so that both gears and their rack have flanks of the same form.
 
 Printed eq. (1) has the sign of x in y as well; the listing beside it has the right one, and
@@ -42,7 +42,7 @@ class ConvexConcaveFlank:
 
     pitch_radius: float  # radius r of the pitch circle [mm]
     arc_radius: float  # radius r_k of the arc of the path of contact [mm]
-    pitch_point_angle: float  # pressure angle alpha_C in the pitch point [rad]
+    pitch_point_angle: float  # pressure angle alpha_C at the pitch point [rad]
     part: Part  # `head` or `foot`
 
     @property
@@ -125,7 +125,7 @@ class ConvexConcaveFlank:
         return np.asarray(0.5 * self.side * change / self.arc_radius)
 
     def roll_angle(self, alpha: ArrayLike) -> Vector:
-        """Return the angle phi_r that the gear turns from contact in the pitch point."""
+        """Return the angle phi_r that the gear turns from contact at the pitch point."""
         return self.rolled_length(alpha) / self.pitch_radius
 
     def path_points(self, alpha: ArrayLike) -> Vector:
@@ -170,7 +170,7 @@ class ConvexConcaveFlank:
         """Return the curvature, convex positive.
 
         (1 + alpha') / (l (1 + alpha') + r sin alpha) with alpha' of ``turn``, by Euler and Savary.
-        It jumps in the pitch point.
+        It jumps at the pitch point.
 
         Equation convex-concave.md (4).
 

@@ -51,7 +51,7 @@ class ConvexConcaveGear:
 
     teeth: int  # number z
     module: float  # module m [mm]
-    pitch_point_angle: float  # pressure angle alpha_C in the pitch point [rad]
+    pitch_point_angle: float  # pressure angle alpha_C at the pitch point [rad]
     # head_arc, foot_arc: radii r_k of the arcs of the path of contact that head and foot belong to [mm]
     head_arc: float
     foot_arc: float

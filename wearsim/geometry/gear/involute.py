@@ -169,7 +169,7 @@ class InvolutePair:
 
     @property
     def pitch_point_angle(self) -> float:
-        """Pressure angle in the pitch point, alpha_w [rad]."""
+        """Pressure angle at the pitch point, alpha_w [rad]."""
         return self.working_angle
 
     def mesh(self, points: int) -> Mesh:

@@ -63,7 +63,7 @@ class ToothPair(Protocol):
 
     @property
     def pitch_point_angle(self) -> float:
-        """Pressure angle in the pitch point [rad]."""
+        """Pressure angle at the pitch point [rad]."""
 
     def mesh(self, points: int) -> Mesh:
         """Return the way through contact at so many points, both ends included."""

@@ -28,7 +28,7 @@ _NEAREST = 1e-6
 class PitchPointCrossing:
     """How a path of contact of the family 1 goes through the pitch point."""
 
-    pressure_angle: float  # alpha in the pitch point [rad], below 90 deg
+    pressure_angle: float  # alpha at the pitch point [rad], below 90 deg
     # turn_before, turn_after: d(alpha)/d(phi1) on either side of it; they differ where the law has a corner
     # there
     turn_before: float

@@ -56,7 +56,7 @@ class PitchCircles:
         return 0.5 * (1.0 / self.wheel_radius - 1.0 / self.pinion_radius)
 
     def pitch_point_radius(self, pressure_angle: ArrayLike) -> Vector:
-        """Return the reduced radius of any regular pair of profiles that touches in the pitch point.
+        """Return the reduced radius of any regular pair of profiles that touches at the pitch point.
 
         s = sin(alpha)/A.
         """
@@ -98,9 +98,9 @@ class PitchCircles:
         return np.asarray(self.pinion_radius * (self.curvature_bias + leaning / l))
 
     def pitch_point_turn(self, pressure_angle: float, by_distance: float, by_angle: float) -> float:
-        """Return how fast the normal turns in the pitch point itself, on the way through it.
+        """Return how fast the normal turns at the pitch point itself, on the way through it.
 
-        The limit of ``turn`` for the family 1 with rho = s in the pitch point:
+        The limit of ``turn`` for the family 1 with rho = s at the pitch point:
         d(alpha)/d(phi1) = r1 cos(alpha) (2 B + A rho_l)/(3 cos(alpha) - A rho_alpha).
 
         Equations synthesise.md (13) times (1).
@@ -108,7 +108,7 @@ class PitchCircles:
         Parameters
         ----------
         pressure_angle : float
-            alpha in the pitch point [rad].
+            alpha at the pitch point [rad].
         by_distance, by_angle : float
             Partial derivatives rho_l and rho_alpha [mm] of the reduced radius asked for.
 

@@ -17,7 +17,7 @@ _ANGLES = 201
 
 
 def convex_concave_figure(title: str, layout: PairLayout) -> Figure:
-    """Return the teeth in contact in the pitch point, and the reduced radius beside the involute's."""
+    """Return the teeth in contact at the pitch point, and the reduced radius beside the involute's."""
     figure = Figure(figsize=(10.4, 5.0), layout=ConstrainedLayoutEngine(w_pad=0.1))
     mesh, along = figure.subplots(1, 2, width_ratios=[1.15, 1.0])
     _draw_mesh(mesh, layout)
@@ -48,14 +48,14 @@ def _draw_mesh(panel: Axes, layout: PairLayout) -> None:
     for zone, label, style in zip(pair.zones, labels, ("-", "--"), strict=True):
         path = zone.pinion.path_points(zone.angles(_ANGLES)) - (0.0, pair.pinion.pitch_radius)
         panel.plot(*path.T, color="tab:red", linewidth=2.2, linestyle=style, label=label)
-    panel.plot(0.0, 0.0, "o", color="black", markersize=4, label="pole C")
+    panel.plot(0.0, 0.0, "o", color="black", markersize=4, label="pitch point C")
     for name, y in (("pinion", -0.85 * high), ("wheel", 0.85 * high)):
         panel.text(0.0, y, name, ha="center", va="center")
     panel.set_xlim(-across, across)
     panel.set_ylim(-high, high)
     panel.set_aspect("equal", "box")
-    panel.set_xlabel("x from the pole, mm")
-    panel.set_ylabel("y from the pole, mm")
+    panel.set_xlabel("x from the pitch point, mm")
+    panel.set_ylabel("y from the pitch point, mm")
     _legend_below(panel)
 
 
@@ -81,7 +81,7 @@ def _draw_radius(panel: Axes, layout: PairLayout) -> None:
         label="involute",
     )
     panel.set_ylim(bottom=0.0)
-    panel.set_xlabel("distance l from the pole, mm")
+    panel.set_xlabel("distance l from the pitch point, mm")
     panel.set_ylabel("reduced radius of curvature, mm")
     panel.grid(alpha=0.3)
     _legend_below(panel)

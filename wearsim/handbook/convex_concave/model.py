@@ -73,7 +73,7 @@ class PairLayout:
     pair: ConvexConcave  #: the pair
     #: standard gears of the same module, teeth, addendum, and of the pressure angle in the pitch point
     involute: InvolutePair
-    contacts: tuple[ZoneContact, ...]  #: pole, best place and end of both zones
+    contacts: tuple[ZoneContact, ...]  #: pitch point, best place and end of both zones
     rack_arcs: tuple[RackArc, ...]  #: of the halves that cut the pinion's head and foot
     bodies: tuple[MeasuredGear, MeasuredGear]  #: pinion and wheel
     face_width: float  #: of the solids [mm]
@@ -196,7 +196,7 @@ def _contacts(zone: Zone, involute: InvolutePair) -> list[ZoneContact]:
     """Pole, best place and end of a zone."""
     alpha = zone.angles(_ANGLES)
     best = alpha[zone.reduced_radius(alpha).argmax()]
-    places = {"pole": alpha[0], "best": best, "end": zone.end}
+    places = {"pitch_point": alpha[0], "best": best, "end": zone.end}
     return [
         ZoneContact(zone, place, float(at), involute_radius(zone, float(at), involute))
         for place, at in places.items()

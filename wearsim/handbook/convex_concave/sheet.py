@@ -34,7 +34,7 @@ _ASSUMPTIONS = (
     "addendum, root and backlash are not in the source; backlash turns the flanks about the axis, "
     "its listing shifts them along x, which only a rack allows",
     "the involute pair has the same module, teeth, addendum and centre distance, its pressure angle "
-    "is that in the pole; its path ends at the base circles where those come before the tips",
+    "is that at the pitch point; its path ends at the base circles where those come before the tips",
 )
 
 
@@ -202,8 +202,8 @@ def _rack_table(layout: PairLayout) -> pd.DataFrame:
 def _text(title: str, layout: PairLayout) -> str:
     pair = layout.pair
     ratio = (
-        f"{pair.contact_ratio:.4f} ({pair.approach_ratio:.4f} before the pole, {pair.recess_ratio:.4f} "
-        f"after it); involute {layout.involute.contact_ratio:.4f}"
+        f"{pair.contact_ratio:.4f} ({pair.approach_ratio:.4f} before the pitch point, "
+        f"{pair.recess_ratio:.4f} after it); involute {layout.involute.contact_ratio:.4f}"
     )
     return "\n".join(
         [
@@ -246,7 +246,7 @@ def _gear_lines(layout: PairLayout) -> list[str]:
 
 def _contact_lines(layout: PairLayout) -> list[str]:
     lines = [
-        f"{'zone':6s}{'place':6s}{'alpha, deg':>11s}{'l, mm':>9s}{'rho_1, mm':>12s}{'rho_2, mm':>12s}"
+        f"{'zone':6s}{'place':12s}{'alpha, deg':>11s}{'l, mm':>9s}{'rho_1, mm':>12s}{'rho_2, mm':>12s}"
         f"{'rack, mm':>11s}{'rho, mm':>10s}{'involute, mm':>14s}"
     ]
     ends = {one.zone.name: one.alpha for one in layout.contacts if one.place == "end"}
@@ -256,7 +256,7 @@ def _contact_lines(layout: PairLayout) -> list[str]:
         one = _contact(contact)
         numbers = zip(list(one.values())[2:], (11, 9, 12, 12, 11, 10, 14), strict=True)
         lines.append(
-            f"{one['zone']:6s}{one['place']:6s}"
+            f"{one['zone']:6s}{one['place'].replace('_', ' '):12s}"
             + "".join(f"{'-':>{n}s}" if v is None else f"{v:{n}.4f}" for v, n in numbers)
         )
     return lines
@@ -267,7 +267,7 @@ def _reduced(layout: PairLayout) -> str:
     best = max((one for one in layout.contacts if one.place == "best"), key=_radius)
     against = f", where the involute pair has {best.involute_radius:.4g} mm"
     return (
-        f"radius {_radius(pitch_point):.4g} mm in the pole as of the involute pair, best "
+        f"radius {_radius(pitch_point):.4g} mm at the pitch point as of the involute pair, best "
         f"{_radius(best):.4g} mm "
         f"at l = {float(best.zone.pinion.path_coordinate(best.alpha)):.4g} mm"
         + ("" if math.isnan(best.involute_radius) else against)
@@ -284,7 +284,7 @@ def _signs(conditions: tuple[SignCondition, ...]) -> str:
         verdict = "holds" if one.holds else "does NOT hold"
         limit = "with every arc"
         if math.isfinite(one.arc_limit):
-            limit = f"arc of {one.flank.arc_radius:g} mm, in the pole below {one.arc_limit:.4g} mm"
+            limit = f"arc of {one.flank.arc_radius:g} mm, at the pitch point below {one.arc_limit:.4g} mm"
         found.append(f"({one.number}) {one.radius} {verdict} ({limit})")
     return "; ".join(found)
 

@@ -12,7 +12,7 @@ Rows = Sequence[Mapping[str, Any]]
 _REFERENCES = {"larger": "the larger of both", "hertz": "Hertz", "finite_elements": "the finite elements"}
 
 ASSUMPTIONS = (
-    "one pair of teeth carries all of the load, at the pole, the same all along the face",
+    "one pair of teeth carries all of the load, at the pitch point, the same all along the face",
     "smooth elastic cylinders in plane strain; friction is left out (it moves nothing where both "
     "bodies have the same elastic constants)",
 )

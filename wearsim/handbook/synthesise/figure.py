@@ -38,7 +38,7 @@ def line_figure(title: str, phases: Sequence[MeshPhase]) -> Figure:
             plane.plot(*phase.line.contacts.points[0], "o", color=colour, markersize=4)
         _draw_profiles(profiles, phase, colour)
     plane.plot(0.0, 0.0, "k+", markersize=10)
-    plane.annotate("pole", (0.0, 0.0), (5, -12), textcoords="offset points", fontsize=8)
+    plane.annotate("pitch point", (0.0, 0.0), (5, -12), textcoords="offset points", fontsize=8)
     _draw_pitch_circles(plane, phases[0].line.contacts.circles)
     plane.set_title("lines of action (dashed: involute) and pitch circles", fontsize=9, loc="left")
     profiles.set_title("profiles in contact (dotted: wheel)", fontsize=9, loc="left")
@@ -86,7 +86,7 @@ def indices_figure(title: str, indices: pd.DataFrame) -> Figure:
         panel.set_title(label, fontsize=9, loc="left")
         panel.grid(alpha=0.3)
     for panel in panels[3:]:
-        panel.set_xlabel("distance from the pole, mm")
+        panel.set_xlabel("distance from the pitch point, mm")
     if indices["mesh_phase"].nunique() > 1:
         panels[2].legend(frameon=False, fontsize=8)
     figure.suptitle(literal(f"{title}; dashed: involute"), fontsize=10, x=0.01, ha="left")

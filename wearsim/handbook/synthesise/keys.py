@@ -86,7 +86,7 @@ class PhaseTable(Table):
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         if self.start_x_mm is None and self.start_y_mm is None:
-            return self._pole_conflicts()
+            return self._pitch_point_conflicts()
         missing = [key for key in ("start_x_mm", "start_y_mm") if getattr(self, key) is None]
         if missing:
             return [(missing[0], "a point needs both coordinates: give it too")]
@@ -102,9 +102,9 @@ class PhaseTable(Table):
             found.append(("last_pitch_point_distance_mm", message))
         return found
 
-    def _pole_conflicts(self) -> list[tuple[str, str]]:
+    def _pitch_point_conflicts(self) -> list[tuple[str, str]]:
         if self.family == -1:
-            message = "must be 1 without start_x_mm: the small radii never reach the pole (got -1)"
+            message = "must be 1 without start_x_mm: the small radii never reach the pitch point (got -1)"
             return [("family", message)]
         first, last = self.first_pitch_point_distance_mm, self.last_pitch_point_distance_mm
         if first is None:

@@ -161,7 +161,7 @@ def _fields(pair: LoadedPair, name: str, fields: Mapping[Any, MeshField]) -> pd.
 
 
 def _pitch_point_angle(pair: LoadedPair) -> float | None:
-    """Return the pressure angle in the pitch point [deg]; none where the stress is too low there."""
+    """Return the pressure angle at the pitch point [deg]; none where the stress is too low there."""
     try:
         return math.degrees(pair.pitch_point_crossing().pressure_angle)
     except GeometryError:
@@ -207,8 +207,8 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
             f"{pair.modulus:.6g} MPa, {load.base:.6g} N/mm {kind}",
         ),
         row(
-            "Pole",
-            f"at least {pair.least_pitch_point_stress:.6g} MPa there (at "
+            "Stress",
+            f"at least {pair.least_pitch_point_stress:.6g} MPa at the pitch point (at "
             f"{math.degrees(load.best_pitch_point_angle):g} deg); {requested}{takes}",
         ),
     ]
@@ -221,7 +221,7 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
 
 
 def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:
-    where = "through the pole" if phase.through_pitch_point else "beside the pole"
+    where = "through the pitch point" if phase.through_pitch_point else "beside the pitch point"
     size = "great" if phase.family == 1 else "small"
     compared = math.degrees(phase.involute.contacts.pressure_angle[0])
     text = (
@@ -231,7 +231,7 @@ def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:
     if phase.inner_end is None:
         return text
     end, angle = phase.inner_end[0], round(math.degrees(phase.inner_end[1]))
-    return f"{text}; towards the pole it ends at l = {end:.6g} mm (pressure angle {angle} deg)"
+    return f"{text}; towards the pitch point it ends at l = {end:.6g} mm (pressure angle {angle} deg)"
 
 
 def _form(rows: pd.DataFrame, wheel: str) -> str:

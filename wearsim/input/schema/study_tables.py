@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.input.schema.table import Above0, Finite, Table, all_differ, dotted, list_or
+from wearsim.input.schema.table import Above0, Choice, Finite, Table, all_differ, dotted, list_or
 from wearsim.input.units import Positive, PositiveNumber
 
 
@@ -105,14 +105,10 @@ class ParameterRange(Table):
         return [("high", f"must be above low = {self.low:g} (got {self.high:g})")]
 
 
-Choice = bool | Finite | str
-Choices = Annotated[list[Choice], Field(min_length=2)]
-
-
 if TYPE_CHECKING:
     _Parameter = ParameterRange | list[Choice]
 else:
-    _Parameter = list_or(ParameterRange, Choices, "a range {low, high}")
+    _Parameter = list_or(ParameterRange, Annotated[list[Choice], Field(min_length=2)], "a range {low, high}")
 
 
 class MeasureLimit(Table):
@@ -181,7 +177,7 @@ class Distribution(Table):
 
     distribution: Literal["lognormal", "normal", "uniform", "triangular", "weibull"]
     median: Above0 | None = None
-    sigma_ln: Annotated[int | float, Field(ge=0.0, le=5.0)] | None = None
+    sigma_ln: Annotated[Finite, Field(ge=0.0, le=5.0)] | None = None
     mean: Finite | None = None
     standard_deviation: Above0 | None = None
     mode: Finite | None = None

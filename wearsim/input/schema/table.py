@@ -1,6 +1,7 @@
 """What every table of the input file has in common."""
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal, Protocol, Self, TypeVar
 
@@ -108,11 +109,33 @@ class CalculationTables(Table):
     title: str = ""
 
 
-Finite = Annotated[int | float, Field(allow_inf_nan=False)]
+def _finite(value: object) -> object:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError("must be a number")
+    if not abs(value) <= sys.float_info.max:
+        raise ValueError("must be a finite number")
+    return value
+
+
+Finite = Annotated[int | float, BeforeValidator(_finite)]
 """A number in the unit of the key that it is for."""
 
-Above0 = Annotated[int | float, Field(allow_inf_nan=False, gt=0.0)]
+Above0 = Annotated[int | float, BeforeValidator(_finite), Field(gt=0.0)]
 """The same above 0."""
+
+
+def choice(value: object) -> object:
+    """Return a value that is no list, or raise."""
+    if isinstance(value, bool | str):
+        return value
+    try:
+        return _finite(value)
+    except ValueError:
+        raise ValueError("must be a finite number, a word, true or false") from None
+
+
+Choice = Annotated[bool | Finite | str, BeforeValidator(choice)]
+"""A value of any key but a list."""
 
 
 def is_number(part: str) -> bool:

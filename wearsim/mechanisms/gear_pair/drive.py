@@ -32,7 +32,7 @@ class GearDrive(Drive):
 
     @property
     def pitch_point_load(self) -> float:
-        """Normal load over face width of one pair of teeth in the pitch point [N/mm]."""
+        """Normal load over face width of one pair of teeth at the pitch point [N/mm]."""
         lever = self.pair.circles.pinion_radius * math.cos(self.pair.pitch_point_angle)
         return self.torque / (lever * self.face_width)
 

@@ -31,7 +31,7 @@ _ROOTED = (
 def gear_wheels(
     drive: "GearDrive", last: Mapping[str, Vector] | None = None
 ) -> tuple[WheelShape, WheelShape]:
-    """Return pinion and wheel at their centre distance, in contact in the pitch point.
+    """Return pinion and wheel at their centre distance, in contact at the pitch point.
 
     They are worn to the last snapshot of a run where there is one.
     """
@@ -145,13 +145,13 @@ def gear_scene(drive: "GearDrive") -> Scene:
             ),
         ),
         f"Tip and pitch circles of a pinion of {pinion} teeth and a wheel of {wheel} teeth to scale, "
-        f"{middle:.1f} mm apart, with the path of contact through the pole.",
+        f"{middle:.1f} mm apart, with the path of contact through the pitch point.",
         (
             f"pinion {pinion} teeth, wheel {wheel} teeth, centre distance {middle:.2f} mm",
             f"pitch circles {2 * radii[0]:.2f} and {2 * radii[1]:.2f} mm "
             f"(dash-dotted), tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
-            f"thick: path of contact, contact ratio {mesh.contact_ratio:.3g}, pressure angle in the pole "
-            f"{math.degrees(drive.pair.pitch_point_angle):.2f} degrees",
+            f"thick: path of contact, contact ratio {mesh.contact_ratio:.3g}, pressure angle at the "
+            f"pitch point {math.degrees(drive.pair.pitch_point_angle):.2f} degrees",
             "a pair of gears has no wrap",
         ),
     ).with_scale()

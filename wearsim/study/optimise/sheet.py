@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
@@ -217,7 +217,7 @@ def _plain(outcome: OptimiseOutcome, one: Candidate) -> dict[str, Any]:
 def save_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the table of all designs that were tried into the folder of a study."""
     tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
-    save_texts(folder, {"candidates.csv": tried.to_csv(index=False)})
+    save_files(folder, {"candidates.csv": tried.to_csv(index=False)})
 
 
 def save_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
@@ -226,7 +226,7 @@ def save_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
         "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
         "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
     }
-    save_texts(folder, texts)
+    save_files(folder, texts)
     save_figures(folder, outcome.study.case.title, optimise_figures(outcome))
     _save_designs(outcome, folder / DESIGNS)
 

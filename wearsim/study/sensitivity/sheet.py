@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from wearsim.case.model import Case
-from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
 
@@ -113,7 +113,7 @@ def save_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Pat
         "sensitivity.csv": sensitivity_table(answer).to_csv(index=False),
         "summary.md": f"```\n{sensitivity_text(answer)}\n```\n",
     }
-    save_texts(folder, texts)
+    save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})
 
 

@@ -2,11 +2,25 @@
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, PositiveInt, field_validator
+from pydantic import BeforeValidator, Field, PositiveInt, field_validator
 
-from wearsim.input.schema.table import CalculationTables, Finite, Table, all_differ, dotted, list_or
+from wearsim.input.schema.table import (
+    CalculationTables,
+    Choice,
+    Finite,
+    Table,
+    all_differ,
+    choice,
+    dotted,
+    list_or,
+)
 
-Value = bool | Finite | str | list[bool | Finite | str]
+
+def _value(value: object) -> object:
+    return [choice(entry) for entry in value] if isinstance(value, list) else choice(value)
+
+
+Value = Annotated[bool | Finite | str | list[Choice], BeforeValidator(_value)]
 Values = Annotated[list[Value], Field(min_length=1)]
 
 _MAX = 1_000_000
@@ -15,8 +29,8 @@ _MAX = 1_000_000
 class Range(Table):
     """Values between two ends, both taken."""
 
-    first: Annotated[int | float, Field(alias="from", allow_inf_nan=False)]
-    last: Annotated[int | float, Field(alias="to", allow_inf_nan=False)]
+    first: Annotated[Finite, Field(alias="from")]
+    last: Annotated[Finite, Field(alias="to")]
     count: Annotated[PositiveInt, Field(ge=2, le=_MAX)]
     spacing: Literal["linear", "log"] = "linear"
 

@@ -1,20 +1,28 @@
 """Lives over values of any input keys: grids, keys that go together, designs."""
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.calculation_file import load_calculation
-from wearsim.input.document import read_document, retitled
-from wearsim.runner.design import Design, design
+from wearsim.input.calculation_file import calculation_tables
+from wearsim.input.document import Document, read_document, retitled
+from wearsim.input.faults import validation_faults
+from wearsim.input.keys import schema_of
+from wearsim.input.other_files import check_command
+from wearsim.input.schema.table import Table
+from wearsim.runner.design import Design, design, replaced
 from wearsim.study.sweep.keys import Range, SweepTables
 
 MAX_CASES = 10_000_000
+
+_MAX_CHECKED = 1000
+"""Values of a key that are looked at before any case runs; of more, every so many."""
 
 
 @dataclass(frozen=True)
@@ -29,36 +37,73 @@ class Sweep:
 
 def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
     """Return the cases of a sweep."""
-    tables = load_calculation(path, SweepTables)
+    given = read_document(path, ())
+    tables = calculation_tables(given, SweepTables)
     axes = list(_axes(tables))
-    keys = [key for names, _ in axes for key in names]
-    count = int(np.prod([len(rows) for _, rows in axes], dtype=float))
+    keys = [key for axis in axes for key in axis.keys]
+    count = int(np.prod([len(axis.rows) for axis in axes], dtype=float))
     if count > MAX_CASES:
         text = f"a sweep may have at most {MAX_CASES} cases, this has {count}: give fewer values"
         raise CaseError([Fault(text, "grid", str(path))])
     rows = [
         tuple(itertools.chain.from_iterable(parts))
-        for parts in itertools.product(*(rows for _, rows in axes))
+        for parts in itertools.product(*(axis.rows for axis in axes))
     ]
     document, written = (read_document(path.parent / tables.case, sets) for sets in (overrides, ()))
+    check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, str(path))
-    return Sweep(report_progress, tuple(names for names, _ in axes), cases)
+    _check_values(given, document, cases, axes)
+    return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
 
 
-Axis = tuple[tuple[str, ...], list[tuple[Any, ...]]]
+@dataclass(frozen=True)
+class _Axis:
+    place: str  # table of the sweep that it stands in
+    keys: tuple[str, ...]  # keys of the case that go together
+    rows: list[tuple[Any, ...]]  # their values
 
 
-def _axes(tables: SweepTables) -> Iterator[Axis]:
+def _check_values(given: Document, document: Document, cases: Design, axes: Sequence[_Axis]) -> None:
+    """Raise where no case can have a value, or the case is wrong whatever the values."""
+    model = schema_of(cases.tables_of(0))
+    for key, message in _wrong(cases.tables_of(0), model):
+        if not any(_holds(swept, key) for swept in cases.keys):
+            document.faults.add(key, message)
+    document.faults.check()
+    for axis in axes:
+        for row in axis.rows[:: max(1, len(axis.rows) // _MAX_CHECKED)]:
+            tables = cases.tables_of(0)
+            for key, value in zip(axis.keys, row, strict=True):
+                tables = replaced(tables, key.split("."), value)
+            for key, message in _wrong(tables, model):
+                if any(_holds(swept, key) for swept in axis.keys):
+                    given.faults.add(f"{axis.place}.{key}", message)
+    given.faults.check()
+
+
+def _wrong(tables: Mapping[str, Any], model: type[Table]) -> Iterator[tuple[str, str]]:
+    """Give the keys whose values are wrong beside any others."""
+    try:
+        model.model_validate(tables)
+    except ValidationError as error:
+        yield from ((key, message) for key, message, alone in validation_faults(error, model) if alone)
+
+
+def _holds(key: str, other: str) -> bool:
+    return other == key or other.startswith(f"{key}.")
+
+
+def _axes(tables: SweepTables) -> Iterator[_Axis]:
     for key, given in tables.grid.items():
         values = values_of(given) if isinstance(given, Range) else given
-        yield (key,), [(value,) for value in values]
-    for group in tables.zip:
-        yield tuple(group), list(zip(*group.values(), strict=True))
+        yield _Axis("grid", (key,), [(value,) for value in values])
+    for number, group in enumerate(tables.zip, start=1):
+        yield _Axis(f"zip.{number}", tuple(group), list(zip(*group.values(), strict=True)))
     if tables.design:
         keys = tuple(tables.design[0])
-        yield keys, [tuple(entry[key] for key in keys) for entry in tables.design]
+        yield _Axis("design", keys, [tuple(entry[key] for key in keys) for entry in tables.design])
 
 
 def values_of(given: Range) -> list[float]:

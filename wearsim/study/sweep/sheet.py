@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.study.sweep.figure import sweep_figures
 from wearsim.study.sweep.model import Sweep
@@ -42,7 +42,7 @@ def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
         "cases.csv": table.to_csv(index=False),
         "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",
     }
-    save_texts(folder, texts)
+    save_files(folder, texts)
     save_figures(folder, sweep.title, sweep_figures(sweep, table))
 
 

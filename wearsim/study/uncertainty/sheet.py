@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from wearsim.command.study_files import plain, save_figures, save_texts
+from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
@@ -93,7 +93,7 @@ def save_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
         "convergence.csv": answer.convergence.to_csv(index=False),
         "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
     }
-    save_texts(folder, texts)
+    save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, uncertainty_figures(answer))
 
 

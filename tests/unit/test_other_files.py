@@ -1,0 +1,33 @@
+"""An input of another command is told by the name of that command."""
+
+from pathlib import Path
+
+import pytest
+
+from wearsim.case.load_case import load_case
+from wearsim.command.registry import CALCULATIONS, tables_of
+from wearsim.errors import CaseError
+from wearsim.input.calculation_file import load_calculation
+from wearsim.input.other_files import NEEDED
+
+CASES = Path(__file__).parents[2] / "cases"
+OTHERS = [*(CASES / "sizing").glob("*.toml"), *(CASES / "studies").glob("*.toml")]
+
+
+@pytest.mark.parametrize("command", [*CALCULATIONS, "sweep"])
+def test_what_a_file_must_hold_is_what_its_tables_need(command):
+    fields = tables_of(command).model_fields
+    assert NEEDED[command] == {name for name in fields if fields[name].is_required()} - {"format_version"}
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.stem)
+def test_file_of_another_command(path):
+    command = next((name for name in CALCULATIONS if path.stem.startswith(name)), "sweep")
+    for load in (load_case, lambda path: load_calculation(path, tables_of("gear"))):
+        with pytest.raises(CaseError, match=f"but is one of wearsim {command}: run that"):
+            load(path)
+
+
+def test_drive_of_another_command():
+    with pytest.raises(CaseError, match="but is one of wearsim life: run that"):
+        load_calculation(CASES / "08b-19t-wrap.toml", tables_of("strength"))
