@@ -77,13 +77,14 @@ def area_of_work(work: float, curvature: float, hard_depth: float, softness: flo
 @kernel(float64(VECTOR, VECTOR, VECTOR, int64, int64, float64))
 def swept(masses: Vector, first_sum: Vector, second_sum: Vector, low: int, high: int, place: float) -> float:
     """Return the integral from the left of the masses' cumulative sum, cell j from j to j + 1."""
-    if place <= low:
-        return 0.0
+    found: float = 0.0
     if place >= high:
-        return second_sum[high] + first_sum[high] * (place - high)
-    k = int(place)
-    part = place - k
-    return second_sum[k] + first_sum[k] * part + 0.5 * masses[k] * part * part
+        found = second_sum[high] + first_sum[high] * (place - high)
+    elif place > low:
+        k = int(place)
+        part = place - k
+        found = second_sum[k] + first_sum[k] * part + 0.5 * masses[k] * part * part
+    return found
 
 
 @kernel(void(VECTOR, int64, int64, float64, float64, TABLE, VECTOR, TABLE))

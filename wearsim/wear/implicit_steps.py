@@ -1,16 +1,16 @@
-"""Wear where mates dwell: implicit steps over many cycles, the chain growing meanwhile.
+"""Wear where mates rest: implicit steps over many cycles, the chain growing meanwhile.
 
-Every step presses each event of a cycle on the worn outline once and lets it wear as if
-it came as often as the step has cycles. The pressure of an event is that after its own
-wear, and the next event meets what it left, so a step of any size is stable; its size
-is set by the depth it takes off. The answer is first order in that size: runs with half
-of it follow until two agree.
+`run_seated` takes steps of second order that place the mates and wear the bodies together
+(`wearsim.wear.seated_bodies`). `run_resting` is the reference, event by event: a step presses each
+event of a cycle on the worn outline once and lets it wear as if it came as often as the step has
+cycles. The pressure of an event is that after its own wear, and the next event meets what it left,
+so a step of any size is stable; its size is set by the depth it takes off. Its answer is first
+order in that size.
 
 With steps of one cycle it is physics.md (10) to (12) on a wrap: points along the normals of the
 new outline, their wear summed until the deepest has come to its limit.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -62,7 +62,8 @@ class SeatedBodies(WornBodies):
         depth, curvature = self.law.case_depth, self.unworn[UNWORN_CURVATURE]
         if depth == math.inf:
             return np.full(curvature.size, math.inf)
-        return depth * (1.0 - 0.5 * curvature * depth)
+        area: Rows = depth * (1.0 - 0.5 * curvature * depth)
+        return area
 
     def first_rate(self) -> float:
         """Return how fast the outlines wear at first [mm per cycle]."""

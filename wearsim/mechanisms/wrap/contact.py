@@ -33,8 +33,8 @@ Rows = NDArray[np.float64]
 def jumped(elongation: float) -> str:
     """Say that a chain jumps."""
     return (
-        f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but it jumps on "
-        "the worn teeth: raise the slack tension or replace the chain earlier"
+        f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but it jumps "
+        "on the worn teeth: raise the slack tension or replace the chain earlier"
     )
 
 

@@ -229,7 +229,8 @@ class WrapSeating(PressedPlaces):
         """Return the outline that every roller presses."""
         event = np.arange(self.seats.shape[1])
         kind = event // (self.most * self.phases.shape[1]) % self.kinds
-        return (event % self.most + kind) % self.contact.bodies
+        body: NDArray[np.int64] = (event % self.most + kind) % self.contact.bodies
+        return body
 
     def stage(
         self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]
