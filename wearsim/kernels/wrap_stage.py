@@ -61,7 +61,10 @@ OUTLINE_X, OUTLINE_Y, OUTLINE_WIDTH, OUTLINE_DEPTH, OUTLINE_AREA, YIELD, REST = 
 OUTLINES = 7
 
 _WINKLER = 8.0 / (3.0 * math.pi)
-"""Compliance of a cell times modulus over half-width with which a Hertz contact keeps load and width."""
+"""Compliance of every cell times modulus over half-width with which a Hertz contact keeps load and width."""
+
+_EDGE = 0.2
+"""Compliance of the cells at the edges of a contact as a part of that in its middle, at least."""
 
 _LEAST_SWEEP = 0.05
 """Cells that a roller sweeps at least to have its wear spread."""
@@ -179,6 +182,23 @@ def yields(
     spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
 
 
+@kernel(void(float64, float64, float64, float64, int64, int64, VECTOR))
+def springs(
+    half: float, width: float, place: float, modulus: float, low: int, high: int, compliance: Vector
+) -> None:
+    """Write the elastic compliance of cells [mm/MPa], by where they lie in the contact as it was last.
+
+    On springs of sqrt(a^2 - x^2)/E* a roller on a flat has the pressure, the width and the load of a
+    Hertz contact of half-width a; where ``place`` is not known yet all springs are alike.
+
+    Equation physics.md (W10).
+    """
+    for j in range(low, high):
+        x = (j - place) * width
+        inside = max(half * half - x * x, _EDGE * _EDGE * half * half)
+        compliance[j] = math.sqrt(inside) / modulus if place >= 0.0 else _WINKLER * half / modulus
+
+
 @kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE, TABLE))
 def slips(
     start: int,
@@ -284,21 +304,28 @@ def sweep_phases(
             slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle
             for i in range(rollers):
                 body, near = (i + kind) % bodies, int(seats[NEAREST, event + i])
-                spring = (
-                    _WINKLER * max(seats[HALF_WIDTH, event + i], 2.0 * width[body, near]) / numbers[MODULUS]
-                )
                 # A little beyond what the roller can reach, as the nearest cell may move.
                 low, high = max(0, near - 2 * reach), min(n, near + 2 * reach + 1)
+                half = max(seats[HALF_WIDTH, event + i], 2.0 * width[body, near])
+                springs(
+                    half,
+                    width[body, near],
+                    seats[PLACE, event + i],
+                    numbers[MODULUS],
+                    low,
+                    high,
+                    compliance[i],
+                )
                 if elastic == 1:
                     for j in range(low, high):
-                        compliance[i, j], recess[i, j] = spring, 0.0
+                        recess[i, j] = 0.0
                     continue
                 fast, rest = outlines[YIELD * bodies + body], outlines[REST * bodies + body]
                 pressure = pressures[event + i]
                 own = seats[OWN_YIELD, event + i]
                 for j in range(low, high):
                     grows = max(fast[j], own)
-                    compliance[i, j] = spring + grows
+                    compliance[i, j] += grows
                     recess[i, j] = grows * pressure[j] + rest[j]
             status = seat_rollers(
                 event,
