@@ -34,7 +34,7 @@ from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile_points import Profile
 from wearsim.simulation.wear_task import wear_task
 from wearsim.simulation.wrap_life import wrap_problem
-from wearsim.wear.implicit_steps import run_resting
+from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.trajectory import Trajectory
 
 SEED = 20261122
@@ -199,7 +199,7 @@ def steps_life(case: wearsim.Case, level: int) -> Trajectory:
     """Wear a wrap by steps that are halved so many times."""
     contact = case.drive.contact(case)
     law, limits, horizon = wrap_problem(case, contact)
-    run = run_resting(contact.with_fewer_phases(), law, limits, horizon, level)
+    run = run_seated(contact, law, limits, horizon, level)
     if run.met is None:
         raise wearsim.ConvergenceError("no life")
     return run
@@ -240,10 +240,9 @@ def wrap(rng: Random, folder: Path) -> tuple[wearsim.Case, Callable[[], float]]:
             raise wearsim.ConvergenceError("many steps")
         sprocket = tables["sprocket"]
         double = {**sprocket, "nodes": 2 * sprocket["nodes"] - 1}
-        finer = wearsim.load_case({**tables, "sprocket": double})
-        lives = [float(steps_life(case, level).cycles[-1]) for level in (3, 4)]
-        nodes = float(steps_life(finer, 3).cycles[-1]) - lives[0]
-        return extrapolated(*lives) + 1.5 * nodes
+        mechanism = {**tables["mechanism"], "phases": 3 * case.drive.phases}
+        finer = wearsim.load_case({**tables, "sprocket": double, "mechanism": mechanism})
+        return float(steps_life(finer, 2).cycles[-1])
 
     return case, reference
 

@@ -1,6 +1,6 @@
 """A full life on a wrap, sprocket and chain coupled, on one core, and where its time goes.
 
-Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 16 phases, 15 000 h. Goal: 2 s.
+Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 8 phases, 15 000 h, its coarser run included. Goal: 1 s.
 """
 
 import os
@@ -12,14 +12,14 @@ import pytest
 
 import wearsim
 from wearsim.geometry import roller_path
-from wearsim.mechanisms.wrap import contact as wrap_cycle
+from wearsim.mechanisms.wrap import seating
 from wearsim.wear import resting_bodies
 
 CASE = Path(__file__).parents[2] / "cases" / "a40-19t-rating.toml"
 PARTS = {
-    "rollers in equilibrium": (wrap_cycle, "wrap_events"),
+    "rollers in equilibrium, and their wear": (seating, "implicit_stage"),
     "line of roller centres on the worn gap": (roller_path, "roller_locus"),
-    "pressure and wear of every roller": (resting_bodies, "wear_events"),
+    "pressure on the half-space": (resting_bodies, "wear_events"),
 }
 
 
@@ -55,7 +55,7 @@ def spent(monkeypatch):
 
 def test_wrap_life(benchmark, spent):
     case = wearsim.load_case(CASE, ["run.horizon_hours=15000"])
-    assert case.drive.phases == 16
+    assert case.drive.phases == 8
     wearsim.simulate(wearsim.load_case(CASE, ["run.horizon_hours=10"]))
     spent.update(dict.fromkeys(spent, 0.0))
     with one_core():
@@ -67,4 +67,4 @@ def test_wrap_life(benchmark, spent):
         seconds=seconds, shares=shares, updates=result.updates, error=result.numerical_error
     )
     benchmark.pedantic(lambda: wearsim.simulate(case), rounds=1)
-    assert 0.2 < sum(shares.values()) < 1.0
+    assert 0.5 < sum(shares.values()) < 1.0

@@ -8,7 +8,7 @@ import pytest
 
 import wearsim
 from wearsim.result import Life, LowerBound
-from wearsim.wear import implicit_steps as dwelling
+from wearsim.wear import implicit_steps
 
 SLOW = 5e-13
 STRAND = {
@@ -79,14 +79,14 @@ def test_what_hardly_wears_ends_after_a_million_hours():
 
 
 def test_a_sprocket_that_outlives_many_chains_takes_so_many_steps(monkeypatch):
-    """160 steps a chain at least: 400 are over in the third, whose life is known."""
-    monkeypatch.setattr(dwelling, "_MAX_STEPS", 400)
+    """16 steps a chain at least: 40 are over in the third, whose life is known."""
+    monkeypatch.setattr(implicit_steps, "_MAX_STEPS", 40)
     result = run(WRAP, f"{RATE}=1e-13", f"{JOINT}=1e-9")
     chain, sprocket = result.parts["chain"], result.parts["sprocket"]
     assert isinstance(chain, Life) and result.life == chain
     assert isinstance(sprocket, LowerBound)
     assert 2.0 * chain.hours < sprocket.hours_run < 3.0 * chain.hours
     assert sprocket.hours_run == result.hours_run
-    assert result.updates == 800  # steps of half the size
+    assert result.updates == 40
     (told,) = [text for text in result.warnings if "most that it takes" in text]
-    assert told.startswith("the run ends after 800 steps and 3 chains")
+    assert told.startswith("the run ends after 40 steps and 3 chains")

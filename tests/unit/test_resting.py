@@ -12,12 +12,10 @@ from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Profile
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels import wrap_wear as engine
-from wearsim.wear.advance import run_advance
-from wearsim.wear.implicit_steps import run_resting
+from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov
 from wearsim.wear.per_cycle import run_per_cycle
 from wearsim.wear.resting_bodies import StartState
-from wearsim.wear.step_halving import advance_resting, halving_error, run_together
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 RATE = 1e-11
@@ -236,53 +234,17 @@ def test_a_run_can_be_stopped():
     assert (run.updates, run.met) == (0, None)
 
 
-def test_progress_rises_to_the_end():
-    told = []
-    run_together([(Seat(), 0), (Seat(), 0)], LAW, LIMIT, 1e9, progress=told.append)
-    assert told == sorted(told)
-    assert told[0] == 0.0 and 0.98 < told[-1] <= 1.0
-
-
-def test_runs_side_by_side_are_those_alone():
-    contacts = [(Seat(), 1), (Seat(points=76), 1), (Seat(), 0)]
-    together = run_together(contacts, LAW, LIMIT, 1e9)
-    for (contact, level), run in zip(contacts, together, strict=True):
-        alone = run_resting(Seat(points=contact.points), LAW, LIMIT, 1e9, level)
-        assert run.cycles[-1] == alone.cycles[-1]
-
-
-def test_one_failing_run_fails_all():
-    with pytest.raises(ContactError):
-        run_together([(Seat(), 0), (Seat(slip=0.0), 0)], LAW, LIMIT, 1e9)
-
-
-def test_steps_are_halved_until_the_life_settles():
-    new = StartState(np.zeros((1, 151)), NEW_CHAIN, 1)
-    loose, change = advance_resting(Seat(), LAW, LIMIT, 1e9, 0.1, new)
-    tight, less = advance_resting(Seat(), LAW, LIMIT, 1e9, 8e-4, new)
-    assert less <= 8e-4 < change <= 0.1
-    assert tight.updates > loose.updates
-    assert tight.cycles[-1] == pytest.approx(loose.cycles[-1], rel=5e-3)
-
-
-def test_error_of_halved_steps_is_what_the_worst_of_the_runs_tells():
-    """Lives 1.6, 1.2 and 1 of steps 4, 2 and 1: 0.6/(2 - 1) is more than 0.2/(sqrt(2) - 1)."""
-    runs = [
-        replace(run_resting(Seat(), LAW, LIMIT, 1e9, 0), cycles=np.array([0.0, life]))
-        for life in (1.6, 1.2, 1.0)
-    ]
-    assert halving_error(runs, 0.01) == pytest.approx(2.75 * (0.6 + 0.01), rel=1e-12)
-    expected = 2.75 * (0.2 / (2.0**0.5 - 1.0) + 0.01)
-    assert halving_error(runs[1:], 0.01) == pytest.approx(expected, rel=1e-12)
-
-
-def test_dispatch_by_the_kind_of_contact():
-    advance, change = run_advance(Seat(), LAW, LIMIT, 1e9, 1e-3)
-    assert 0.0 < change < 0.05
+def test_per_cycle_goes_event_by_event():
     law = archard(1e4 * RATE)
     per_cycle = run_per_cycle(Seat(), law, LIMIT, 1e9, 10)
     assert per_cycle.updates == np.ceil(0.1 * per_cycle.cycles[-1]) > 5
-    assert 1e4 * per_cycle.cycles[-1] == pytest.approx(advance.cycles[-1], rel=0.02)
+    fine = run_resting(Seat(), LAW, LIMIT, 1e9, 3)
+    assert 1e4 * per_cycle.cycles[-1] == pytest.approx(fine.cycles[-1], rel=0.02)
+
+
+def test_contacts_of_events_alone_have_no_stages():
+    with pytest.raises(NotImplementedError, match="Seat can only be worn event by event"):
+        run_seated(Seat(), LAW, LIMIT, 1e9, 0)
 
 
 # -- errors --------------------------------------------------------------------------------------

@@ -134,7 +134,7 @@ def test_coarsened_keeps_ends_and_loads(nodes):
     assert coarse.profile.x.size == (points + 1) // 2
     for values, fewer in ((of.profile.x, coarse.profile.x), (of.profile.y, coarse.profile.y)):
         assert (values[0], values[-1]) == (fewer[0], fewer[-1])
-    assert coarse.phases == 3 * of.phases // 4
+    assert coarse.phases == of.phases // 2
     same = replace(coarse, phases=of.phases)
     load, fewer = (c.events(*unworn(c), ChainWear(0.01), c.memory())[kernels.EVENT_LOAD] for c in (of, same))
     np.testing.assert_allclose(fewer, load, rtol=0.0, atol=0.02 * load.max())

@@ -88,14 +88,19 @@ class SeatedBodies(WornBodies):
         self.seating.begin_step(self.updates)
         self._seat()
         kept, before = self.seating.kept(), self.depth.copy()
-        for _ in range(_HALVINGS):
+        for halving in range(_HALVINGS):
             works = self._stages(cycles)
             if works is not None:
                 self._accept(works, cycles)
                 return float((self.depth - before).max())
-            self.seating.restore(kept)
+            if halving == 0:
+                # Where they rested may be far from where they will: all are seated anew.
+                self.seating.seat(self.works, self.x, self.y, self.wear)
+                kept = self.seating.kept()
+            else:
+                self.seating.restore(kept)
+                cycles *= 0.5
             self.growth = None
-            cycles *= 0.5
         if self.seating.jumps(self.x, self.y, self._chain(cycles)):
             raise JumpError(f"contact at cycle {self.cycles:.6g}: the chain jumps on the worn teeth")
         raise ConvergenceError(

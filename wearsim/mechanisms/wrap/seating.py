@@ -156,7 +156,9 @@ class WrapSeating(PressedPlaces):
 
     def begin_step(self, number: int) -> None:
         """Take the phases of a step: they move to and fro, so that none leaves ridges."""
-        mechanism, at = self.contact.mechanism, _PLACES[number % len(_PLACES)]
+        mechanism = self.contact.mechanism
+        # A single phase cannot move without a roller more or less.
+        at = _PLACES[number % len(_PLACES)] if self.contact.phases > 1 else 0.5
         self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, self.contact.phases, at)
 
     def kept(self) -> tuple[Rows, Rows]:
