@@ -9,8 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from wearsim.contact.engagement import Mechanism
-from wearsim.contact.engagement import ContactKind
+from wearsim.contact.engagement import ContactKind, Mechanism
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import ContactError
 from wearsim.geometry.profile_points import area_between

@@ -221,13 +221,13 @@ def test_life_ends_with_the_thickness(life: Any) -> None:
 
 
 def test_life_ends_with_the_measurement_over_pins() -> None:
-    finer = "stop.critical_depth_mm=0.05", "sprocket.nodes=301", "mechanism.phases=8"
+    finer = "stop.critical_depth_mm=0.2", "sprocket.nodes=301", "mechanism.phases=8"
     free = wrap(*finer)
     change = free.history_columns["over_pins_mm"][0] - free.history_columns["over_pins_mm"]
     limit = 0.5 * float(change.max())
     result = wrap(*finer, f"stop.over_pins_change_mm={limit}")
     assert result.stop == "over_pins_change_mm"
-    # A ten-thousandth of a millimetre comes and goes with the last points: where it is met first.
+    # A thousandth of a millimetre comes and goes with the last points: where it is met first.
     met, cycles = int((change >= limit).argmax()), free.history_columns["cycles"]
     assert 0.94 * cycles[met - 1] < result.cycles < 1.06 * cycles[met]
 

@@ -1,0 +1,234 @@
+"""Rollers on an elastic foundation that wears: kernels on closed forms, steps, order and errors."""
+
+import numpy as np
+import pytest
+from scipy.optimize import approx_fprime
+
+import wearsim
+from wearsim.contact.hertz import half_width, peak_pressure
+from wearsim.contact.resting_engagement import NEW_CHAIN
+from wearsim.contact.stop_limits import depth_limit
+from wearsim.errors import ContactError
+from wearsim.kernels import wrap_seats as seats
+from wearsim.kernels import wrap_stage as stage
+from wearsim.mechanisms.wrap.seating import phases_of_pitch
+from wearsim.wear.implicit_steps import run_resting, run_seated
+from wearsim.wear.law import archard, drozdov, power
+from wearsim.wear.resting_bodies import WornBodies
+from wearsim.wear.settled_run import advance_resting, run_together
+
+TABLES = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 40"},
+    "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 301},
+    "mechanism": {"kind": "wrap", "phases": 4},
+    "drive": {"mate_teeth": 20, "links": 114, "slack_tension_N": 50},
+    "load": {"tension_N": 1000, "speed_rpm": 100},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+    "stop": {"critical_depth_mm": 0.05},
+}
+LIMIT = (depth_limit(0.05),)
+LAW = archard(1e-9)
+
+
+def contact(*settings):
+    case = wearsim.load_case(TABLES, settings)
+    return case.drive.contact(case)
+
+
+def life(run):
+    return float(run.cycles[-1])
+
+
+# -- kernels -------------------------------------------------------------------------------------
+
+
+def test_springs_press_as_hertz_does():
+    """A roller of 4 mm at 100 N/mm on a flat with E* = 1e5 MPa, found with the width that it makes."""
+    load, radius, modulus, cells = 100.0, 4.0, 1e5, 801
+    half = half_width(load, 1.0 / radius, modulus)
+    x = np.linspace(-2.0 * half, 2.0 * half, cells)
+    width = np.full(cells, x[1] - x[0])
+    compliance, out = np.zeros(cells), np.zeros(8)
+    low, high, pressed = 0.0, half, 0.1 * half
+    for _ in range(60):
+        stage.springs(pressed, width[0], 0.5 * (cells - 1), modulus, 0, cells, compliance)
+        low, high = 0.0, half
+        for _ in range(60):
+            sink = 0.5 * (low + high)
+            seats.foundation_force(
+                x,
+                np.zeros(cells),
+                width,
+                compliance,
+                np.zeros(cells),
+                0,
+                cells,
+                radius,
+                0.0,
+                radius - sink,
+                np.zeros(cells),
+                0,
+                np.zeros((3, cells)),
+                out,
+            )
+            low, high = (low, sink) if out[1] > load else (sink, high)
+        pressed = 0.5 * out[6]
+    assert pressed == pytest.approx(half, rel=0.02)
+    over = radius - np.hypot(x, radius - sink)
+    assert over.max() / compliance[cells // 2] == pytest.approx(
+        peak_pressure(load, 1.0 / radius, modulus), rel=0.02
+    )
+
+
+def test_spread_keeps_the_area_and_moves_its_middle():
+    """0.8 mm2 in two cells of 1 mm, spread from 2 cells before to 4 after: the middle moves by 1."""
+    cells = 40
+    unworn, density, sums = np.ones((6, cells)), np.zeros(cells), np.zeros((3, cells + 1))
+    masses = np.zeros(cells)
+    masses[[20, 21]] = 0.6, 0.2
+    stage.spread(masses, 20, 22, 2.0, 4.0, unworn, density, sums)
+    place = np.arange(cells)
+    assert density.sum() == pytest.approx(0.8, rel=1e-12)
+    assert (density * place).sum() / 0.8 == pytest.approx(20.25 + 1.0, rel=1e-12)
+    # Variances add up: 6^2/12 of the sweep, that of the cells before, and 1/12 twice of their widths.
+    expected = 3.0 + 0.1875 + 1.0 / 6.0
+    assert (density * (place - 21.25) ** 2).sum() / 0.8 == pytest.approx(expected, rel=1e-12)
+    assert density.min() >= -1e-15
+
+
+def test_pull_of_the_rollers_is_the_slope_of_the_energy():
+    """Central differences of the energy of three rollers on a seat."""
+    of = contact("mechanism.friction_roller_tooth=0.2", "mechanism.friction_roller_bush=0.4")
+    bodies = WornBodies(of, LAW, None)
+    places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
+    places.seat(bodies.area, bodies.x, bodies.y, NEW_CHAIN)
+    mechanism, points = of.mechanism, bodies.unworn.shape[1]
+    rollers, work, cells = 3, np.zeros((seats.SEAT_WORK_ROWS, of.most_rollers)), np.zeros((5, points))
+    work[seats._HIGH, :rollers] = points
+    compliance, recess = np.full((rollers, points), 1e-6), np.zeros((rollers, points))
+    start = places.places[:, :rollers].copy()
+
+    def energy(place):
+        work[seats._TRIAL_X : seats._TRIAL_Y + 1, :rollers] = place.reshape(2, rollers)
+        return seats.wrap_balance(
+            0,
+            rollers,
+            0,
+            mechanism.constants(0.01),
+            0.1,
+            0.2,
+            bodies.x,
+            bodies.y,
+            np.tile(bodies.unworn[5], (of.bodies, 1)),
+            compliance,
+            recess,
+            places.pressures,
+            0,
+            of.roller_radius,
+            of.face_width,
+            places.seats,
+            seats._TRIAL_X,
+            work,
+            cells,
+        )
+
+    slope = approx_fprime(start.ravel(), energy, 1e-7)
+    energy(start.ravel())
+    pull = work[[seats._RIGHT_X, seats._RIGHT_Y], :rollers].ravel()
+    assert np.abs(pull).max() > 10.0
+    np.testing.assert_allclose(-slope, pull, atol=1e-3 * np.abs(pull).max())
+
+
+@pytest.mark.parametrize(("wrap", "count"), [(2.5, 4), (3.01, 8), (7.0, 6), (2.3, 1)])
+@pytest.mark.parametrize("at", [0.1, 0.5, 0.9])
+def test_phases_hold_the_whole_pitch(wrap, count, at):
+    place, weight = phases_of_pitch(wrap, 1.0, count, at)
+    assert place.size == weight.size == count
+    assert weight.sum() == pytest.approx(1.0, rel=1e-12)
+    assert (np.diff(place) > 0.0).all() and place[0] > 0.0 and place[-1] < 1.0
+
+
+# -- runs ----------------------------------------------------------------------------------------
+
+
+def test_rollers_rest_as_on_rigid_teeth_but_for_what_these_yield():
+    of = contact("mechanism.friction_roller_tooth=0.1", "mechanism.friction_roller_bush=0.2")
+    bodies = WornBodies(of, LAW, None)
+    places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
+    places.seat(bodies.area, bodies.x, bodies.y, NEW_CHAIN)
+    phase = float(places.phases[0, 1])
+    loads = of.mechanism.loads(phase)
+    rollers = loads.force.size
+    column = slice(of.most_rollers, of.most_rollers + rollers)
+    found = of.face_width * np.hypot(*places.seats[seats.LOAD_X : seats.LOAD_Y + 1, column])
+    np.testing.assert_allclose(found, loads.force, atol=0.02 * loads.force.max())
+
+
+def test_life_by_the_loop_over_events_with_small_steps():
+    """Half-space and rigid places, first order: within 2 % of each other."""
+    of = contact()
+    loop = run_resting(of, LAW, LIMIT, 1e12, 2)
+    assert life(run_seated(of, LAW, LIMIT, 1e12, 1)) == pytest.approx(life(loop), rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        power(3e-12, 1.5),
+        drozdov(1e-4, 1.2, 2000.0, 100.0, 0.5),
+        archard(1e-9).__class__(1e-9, 1.0, 0.0, case_depth=0.02, core_factor=4.0),
+    ],
+    ids=["power", "speed", "hard layer"],
+)
+def test_laws_by_the_loop_over_events(law):
+    of = contact()
+    loop = run_resting(of, law, LIMIT, 1e15, 1)
+    assert life(run_seated(of, law, LIMIT, 1e15, 1)) == pytest.approx(life(loop), rel=0.04)
+
+
+def test_area_closes():
+    """The work of all pressures is what is missing of the outline, and k times load times way."""
+    run = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    of = contact()
+    missing = sum(
+        wearsim.geometry.profile_points.area_between(of.profile.x, of.profile.y, x, y)
+        for x, y in zip(*of.profile.receded(run.all_depth[-1]), strict=True)
+    )
+    assert run.area == pytest.approx(missing, rel=1e-3)
+
+
+def test_twice_the_rate_is_half_the_life():
+    of = contact("joint.specific_wear_rate_mm2_per_N=1e-16")
+    one, two = (life(run_seated(of, archard(k), LIMIT, 1e12, 0)) for k in (1e-9, 2e-9))
+    assert one == pytest.approx(2.0 * two, rel=1e-6)
+
+
+def test_horizon_limit_and_watch():
+    of = contact()
+    run = run_seated(of, LAW, LIMIT, 1e6, 0)
+    assert run.met is None and run.cycles[-1] == 1e6
+    whole = run_seated(of, LAW, LIMIT, 1e12, 0)
+    assert whole.met is LIMIT[0] and whole.depth[-1].max() == pytest.approx(0.05, rel=1e-12)
+    assert run_seated(of, LAW, LIMIT, 1e12, 0, watch=lambda part: False).updates == 0
+
+
+def test_nothing_to_wear_is_an_error():
+    with pytest.raises(ContactError, match="contact at cycle 0: loaded rollers must slide"):
+        run_seated(contact(), archard(0.0), LIMIT, 1e12, 0)
+
+
+def test_one_failing_run_fails_all_and_progress_rises():
+    of, told = contact(), []
+    run_together([(of, -1), (of.coarsened(), -1)], LAW, LIMIT, 1e12, progress=told.append)
+    assert told == sorted(told) and told[0] == 0.0 and 0.9 < told[-1] <= 1.0
+    with pytest.raises(ContactError):
+        run_together([(of, -1)], archard(0.0), LIMIT, 1e12)
+
+
+def test_steps_are_halved_where_the_error_asks_for_it():
+    of = contact()
+    loose, error = advance_resting(of, LAW, LIMIT, 1e12, 0.1)
+    tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error)
+    assert error <= 0.1 and tight.updates > 1.5 * loose.updates
+    assert life(tight) == pytest.approx(life(loose), rel=error + less)
