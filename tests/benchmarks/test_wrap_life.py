@@ -1,6 +1,7 @@
 """A full life on a wrap, sprocket and chain coupled, on one core, and where its time goes.
 
-Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 8 phases, 15 000 h, its coarser run included. Goal: 1 s.
+Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 8 phases, 15 000 h, the coarser run
+included. Goal: 1 s.
 """
 
 import os

@@ -120,7 +120,7 @@ def foundation_force(
     A cell presses along the line to the roller's centre with (overlap + recess)/compliance.
     ``holds`` 1: the cells that have a pressure in ``held`` press or pull, no others.
 
-    Equation physics.md (W10).
+    Equation physics.md (W15).
     """
     if holds == 1:
         for j in range(first, last):

@@ -191,7 +191,7 @@ def springs(
     On springs of sqrt(a^2 - x^2)/E* a roller on a flat has the pressure, the width and the load of a
     Hertz contact of half-width a; where ``place`` is not known yet all springs are alike.
 
-    Equation physics.md (W10).
+    Equation physics.md (W15).
     """
     for j in range(low, high):
         x = (j - place) * width
@@ -218,7 +218,7 @@ def slips(
     along the path is half of that from the phase before and to the phase after. A roller sweeps
     the cells half way to its next places, and those that it drifts over in the step of the wear.
 
-    Equations physics.md (W9) and (W15).
+    Equation physics.md (W9).
     """
     count, angle = phases.shape[1], constants[0, PITCH_ANGLE]
     bodies, n = outlines.shape[0] // OUTLINES, outlines.shape[1]
@@ -401,7 +401,7 @@ def implicit_stage(
     the wear in every cell, and adds up the wear of their pressures. ``elastic`` 1: the rollers are
     seated on the outlines of ``works``, twice since slips and widths follow from seats, and nothing wears.
 
-    Equations physics.md (W10) and (W12).
+    Equations physics.md (W12) and (W16).
     """
     bodies, n = works.shape
     count, most, spacing = phases.shape[1], compliance.shape[0], unworn[SPACING, n // 2]

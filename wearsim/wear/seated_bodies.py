@@ -3,6 +3,8 @@
 Two stages of Alexander's method (SDIRK2, gamma = 1 - 1/sqrt(2); R. Alexander 1977, SIAM J. Numer.
 Anal. 14, 1006): L-stable, its second stage is the result. The mates are not part of the state, they
 are where the worn outlines let them rest at the end of a stage; both are extrapolated for a start.
+
+Equation physics.md (W16).
 """
 
 import math

@@ -48,8 +48,8 @@ def wrap_lines(levels):
     )
     yield ""
     yield (
-        f"Case {CASE.stem}, one run each, all of it timed. Error against level {LEVELS[-1]} on the same points "
-        "and phases; what these make of the life is in validation.md."
+        f"Case {CASE.stem}, one run each, all of it timed. Error against level {LEVELS[-1]} on the same "
+        "points and phases; what these make of the life is in validation.md."
     )
     yield ""
     yield "| level | steps | life, cycles | life error | s |"

@@ -269,7 +269,8 @@ class WrapContact(RestingContact):
             f"a roller slides {sliding.fraction:g} of the articulation of "
             f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the "
             f"last tooth, and {sliding.path_fraction:g} of its way along the flank",
-            "pressure from the half-space contact of the roller in the worn gap; "
+            "wear from the pressure of the roller on the worn gap as an elastic foundation, the pressures "
+            "shown from half-space contact; "
             + ("rollers wear all round" if self.roller_area_ratio else "rollers do not wear"),
             "every tooth alike"
             if self.bodies == 1
