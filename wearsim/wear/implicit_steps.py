@@ -45,6 +45,9 @@ BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
 BY_STAGES = Pace(1e-4, 1e-3, 1.5, 0.04, 16)
 """Steps of implicit stages."""
 
+_PART_OF_AGE = 0.1
+"""Longest step as a part of the age of the chain, where parts run in."""
+
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
@@ -131,6 +134,10 @@ class _StepSize:
             longest = limit / (self.pace.steps_per_chain * self.refined)
             rest = limit - bodies.wear.elongation
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
+        if bodies.running_in.factor > 1.0:
+            # So that histories show how the parts run in.
+            age = bodies.cycles - bodies.chain_new_at
+            cycles = min(cycles, _PART_OF_AGE * max(age, bodies.running_in.cycles))
         return cycles
 
     def is_spent(self, bodies: WornBodies) -> bool:

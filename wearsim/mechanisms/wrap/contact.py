@@ -25,25 +25,9 @@ from wearsim.kernels.wrap_cycle import (
     wrap_events,
 )
 from wearsim.kernels.wrap_equilibrium import JUMPED, SEATED, WORK_ROWS
-from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+from wearsim.mechanisms.wrap.equilibrium import WrapMechanism, jumped, stuck
 
 Rows = NDArray[np.float64]
-
-
-def jumped(elongation: float) -> str:
-    """Say that a chain jumps."""
-    return (
-        f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but it jumps "
-        "on the worn teeth: raise the slack tension or replace the chain earlier"
-    )
-
-
-def stuck(elongation: float) -> str:
-    """Say that no equilibrium is found."""
-    return (
-        f"wrap at an elongation of {100 * elongation:.3g} %: the solver must find where the rollers rest in "
-        "the worn gaps, but does not: use other nodes or phases"
-    )
 
 
 @dataclass(frozen=True)

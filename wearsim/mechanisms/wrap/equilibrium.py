@@ -39,6 +39,22 @@ _TOLERANCE = 1e-9
 """Force along a locus left unbalanced, as a fraction of the tight tension."""
 
 
+def jumped(elongation: float) -> str:
+    """Say that a chain jumps."""
+    return (
+        f"wrap at an elongation of {100 * elongation:.3g} %: the rollers must hold the chain, but it jumps "
+        "on the worn teeth: raise the slack tension or replace the chain earlier"
+    )
+
+
+def stuck(elongation: float) -> str:
+    """Say that no equilibrium is found."""
+    return (
+        f"wrap at an elongation of {100 * elongation:.3g} %: the solver must find where the rollers rest in "
+        "the worn gaps, but does not: use other nodes or phases"
+    )
+
+
 @dataclass(frozen=True)
 class WrapChain:
     """What the wrap needs to know of the chain."""

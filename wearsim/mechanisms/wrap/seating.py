@@ -1,6 +1,7 @@
 """The rollers of a wrap in gaps that wear: the stages that the wear engine asks for."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +62,10 @@ from wearsim.kernels.wrap_stage import (
     WRAP_ANGLE,
     implicit_stage,
 )
-from wearsim.mechanisms.wrap.contact import WrapContact, stuck
+from wearsim.mechanisms.wrap.equilibrium import stuck
+
+if TYPE_CHECKING:
+    from wearsim.mechanisms.wrap.contact import WrapContact
 
 Rows = NDArray[np.float64]
 
@@ -117,7 +121,7 @@ class WrapSeating(PressedPlaces):
         Rows of the unworn outline as `WornBodies` has them.
     """
 
-    def __init__(self, contact: WrapContact, law: Vector, unworn: Rows) -> None:
+    def __init__(self, contact: "WrapContact", law: Vector, unworn: Rows) -> None:
         self.contact, self.unworn = contact, unworn
         mechanism, points = contact.mechanism, unworn.shape[1]
         self.kinds, most = (2 if mechanism.chain.alternating else 1), contact.most_rollers
