@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import ChainWear, RestingContact
+from wearsim.contact.resting_engagement import RestingContact
 from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.profile_points import Vector
@@ -46,7 +46,7 @@ BY_STAGES = Pace(1e-4, 1e-3, 1.5, 0.04, 16)
 """Steps of implicit stages."""
 
 _PART_OF_AGE = 0.1
-"""Longest step as a part of the age of the chain, where parts run in."""
+"""Longest way between two snapshots as a part of the age of the chain, where parts run in."""
 
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
@@ -77,6 +77,18 @@ class _Snapshots:
         self.states: list[WornState] = []
         self.ends: list[WornState] = []
         self.stride, self.count = 1, 0
+
+    def add_between(self, bodies: WornBodies, before: WornState) -> None:
+        """Add states of a step on whose cycles the parts run in, so that a history shows it."""
+        if bodies.running_in.factor == 1.0:
+            return
+        whole, after = bodies.cycles - before.cycles, bodies.state()
+        age = before.cycles - bodies.chain_new_at
+        count = int(whole / (_PART_OF_AGE * max(age, bodies.running_in.cycles)))
+        for place in range(1, min(count, SNAPSHOTS // 4) + 1):
+            bodies.go_back(before, after, place / (count + 1))
+            self.add(bodies)
+        bodies.go_back(before, after, 1.0)
 
     def add(self, bodies: WornBodies, last: bool = False) -> None:
         repeated = bool(self.states) and self.states[-1].cycles == bodies.cycles
@@ -134,10 +146,6 @@ class _StepSize:
             longest = limit / (self.pace.steps_per_chain * self.refined)
             rest = limit - bodies.wear.elongation
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
-        if bodies.running_in.factor > 1.0:
-            # So that histories show how the parts run in.
-            age = bodies.cycles - bodies.chain_new_at
-            cycles = min(cycles, _PART_OF_AGE * max(age, bodies.running_in.cycles))
         return cycles
 
     def is_spent(self, bodies: WornBodies) -> bool:
@@ -244,6 +252,7 @@ def _run(
             record.add(bodies, last=True)
             return record.trajectory(bodies, jump_limit(contact.slack_tension))
         met = _limit_met(stop_limits, bodies, before)
+        record.add_between(bodies, before)
         if met is None and bodies.chain_is_worn:
             record.end_chain(bodies)
             bodies.replace_chain()
@@ -268,20 +277,11 @@ def _limit_met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, before: W
 def _cut(bodies: WornBodies, before: WornState, allowed: Callable[[], bool]) -> None:
     """Go back on the last step to the place up to which it was allowed."""
     after = bodies.state()
-
-    def place(part: float) -> None:
-        bodies.x = before.x + part * (after.x - before.x)
-        bodies.y = before.y + part * (after.y - before.y)
-        bodies.depth = before.depth + part * (after.depth - before.depth)
-        bodies.removed = before.removed + part * (after.removed - before.removed)
-        bodies.wear = ChainWear(*(b + part * (a - b) for b, a in zip(before.wear, after.wear, strict=True)))
-        bodies.cycles = before.cycles + part * (after.cycles - before.cycles)
-
     low, high = 0.0, 1.0
     while True:
         middle = 0.5 * (low + high)
         if not low < middle < high:
             break
-        place(middle)
+        bodies.go_back(before, after, middle)
         low, high = (middle, high) if allowed() else (low, middle)
-    place(high)
+    bodies.go_back(before, after, high)

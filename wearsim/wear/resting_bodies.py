@@ -128,6 +128,19 @@ class WornBodies:
             self.speed,
         )
 
+    def go_back(self, before: "WornState", after: "WornState", part: float) -> None:
+        """Go to where a part of a step leads, in a straight line."""
+
+        def between(first: Rows, last: Rows) -> Rows:
+            return first + part * (last - first)
+
+        self.x, self.y = between(before.x, after.x), between(before.y, after.y)
+        self.depth = between(before.depth, after.depth)
+        self.removed = before.removed + part * (after.removed - before.removed)
+        pairs = zip(before.wear, after.wear, strict=True)
+        self.wear = ChainWear(*(old + part * (new - old) for old, new in pairs))
+        self.cycles = before.cycles + part * (after.cycles - before.cycles)
+
     def step(self, cycles: float) -> float:
         """Wear for so many cycles at once."""
         table = self.contact.events(self.x, self.y, self.wear, self.memory)
