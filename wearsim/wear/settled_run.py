@@ -66,14 +66,10 @@ def advance_resting(
     The first of them has steps twice as long on half of the points and phases and tells how wrong
     both make the life; where that is too much, steps are halved.
 
-    Equation physics.md (W14).
+    The error is what the life moves by from a run with twice the step, and by half of the points and
+    phases. A method of second order leaves a third of that; not all of it is of second order.
 
-    Returns
-    -------
-    tuple
-        The finest run, and how wrong its life may be, relative: what it moves by from a run with
-        twice the step, and by half of the points and phases. A method of second order leaves a
-        third of that; not all of it is of second order.
+    Equation physics.md (W14).
     """
     pair = [(contact, 0), (contact.coarsened() if start is None else contact, -1)]
     run, coarse = run_together(pair, law, stop_limits, horizon, start, progress)
