@@ -70,6 +70,38 @@ def advance_resting(
     phases. A method of second order leaves a third of that; not all of it is of second order.
 
     Equation physics.md (W14).
+
+    Parameters
+    ----------
+    contact : RestingContact
+        The outlines and their contacts.
+    law : WearLaw
+        The wear law.
+    stop_limits : tuple of StopLimit
+        What ends the run, the limit on the depth first.
+    horizon : float
+        Cycles of constant coefficient after which the run ends in any case.
+    life_tolerance : float
+        Relative error of the life that is asked for.
+    start : StartState, optional
+        What has worn off already; nothing by default. It stands on the points of the contact, which are
+        kept then.
+    progress : callable, optional
+        Told how much of the run is done, from 0 to 1.
+
+    Returns
+    -------
+    run : RestingTrajectory
+        The finest run.
+    error : float
+        How wrong its life may be, relative; above the tolerance where halved steps do not help.
+
+    Raises
+    ------
+    ContactError
+        Nothing wears, the rollers are worn through, or the chain jumps from the first cycle on.
+    ConvergenceError
+        No equilibrium of the rollers is found.
     """
     pair = [(contact, 0), (contact.coarsened() if start is None else contact, -1)]
     run, coarse = run_together(pair, law, stop_limits, horizon, start, progress)
