@@ -13,7 +13,7 @@ from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import event_rows as kernels
-from wearsim.kernels.wrap_cycle import engaged
+from wearsim.kernels.wrap_equilibrium import engaged
 from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.law import archard
 

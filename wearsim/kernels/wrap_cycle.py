@@ -30,6 +30,7 @@ from wearsim.kernels.wrap_equilibrium import (
     SEATED,
     STALLED,
     TIGHT_TENSION,
+    engaged,
     place_rollers,
     residual,
     solve_wrap,
@@ -43,14 +44,8 @@ _TOLERANCE = 1e-9
 LOOSEST = 1e-2
 
 # numbers of a cycle
-WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST, SHIFT = range(9)
-CYCLE_NUMBERS = 9
-
-
-@kernel(int64(float64, float64, float64))
-def engaged(wrap_angle: float, pitch_angle: float, phase: float) -> int:
-    """Return the number of rollers between the straight strands."""
-    return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
+WRAP_ANGLE, FACE_WIDTH, ARTICULATION_SLIP, PATH_SLIP, PHASE_TIME, START, LOOSE, LOWEST = range(8)
+CYCLE_NUMBERS = 8
 
 
 @kernel(
@@ -89,7 +84,7 @@ def wrap_events(
 ) -> int:
     """Solve phases of one pitch and write what a gap meets in one revolution.
 
-    Phase k is (k + shift)/phases with ``numbers[SHIFT]`` from 0 to 1.
+    Phase k is (k + 1/2)/phases.
 
     ``loci`` and ``touched``: roller path and touched places of each worn body;
     ``configurations`` 2 where inner and outer links differ. ``positions`` (configuration,
@@ -106,7 +101,7 @@ def wrap_events(
     bodies, angle = loci.shape[0], constants[PITCH_ANGLE]
     for configuration in range(configurations):
         for step in range(phases):
-            phase = (step + numbers[SHIFT]) / phases
+            phase = (step + 0.5) / phases
             rollers = engaged(numbers[WRAP_ANGLE], angle, phase)
             tight = angle * (phase - 0.5)
             slack = numbers[WRAP_ANGLE] - tight - (rollers - 1) * angle

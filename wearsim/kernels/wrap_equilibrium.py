@@ -33,6 +33,12 @@ _HANGING = 1e-4
 """How far a roller aloft may hang inside the tooth, in pitches."""
 
 
+@kernel(int64(float64, float64, float64))
+def engaged(wrap_angle: float, pitch_angle: float, phase: float) -> int:
+    """Return the number of rollers between the straight strands."""
+    return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
+
+
 @kernel(void(TABLE, TABLE, int64, int64, VECTOR, float64, TABLE))
 def place_rollers(
     locus: Vector, other: Vector, first: int, rollers: int, position: Vector, pitch_angle: float, work: Vector

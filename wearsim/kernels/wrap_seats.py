@@ -48,12 +48,6 @@ _STIFFEST = 1e14
 _ROUNDING = 1e-11
 
 
-@kernel(int64(float64, float64, float64))
-def seats_in_wrap(wrap_angle: float, pitch_angle: float, phase: float) -> int:
-    """Return the number of rollers between the straight strands."""
-    return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
-
-
 @kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR))
 def near_cells(
     x: Vector,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
-from wearsim.kernels.wrap_equilibrium import CONSTANTS, FRICTION, PITCH_ANGLE, SEATED, TIGHT_TENSION
+from wearsim.kernels.wrap_equilibrium import CONSTANTS, FRICTION, PITCH_ANGLE, SEATED, TIGHT_TENSION, engaged
 from wearsim.kernels.wrap_seats import (
     AFTER,
     BEFORE,
@@ -24,7 +24,6 @@ from wearsim.kernels.wrap_seats import (
     SLIP,
     SPEED,
     seat_rollers,
-    seats_in_wrap,
 )
 from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
 
@@ -224,7 +223,7 @@ def slips(
     bodies, n = outlines.shape[0] // OUTLINES, outlines.shape[1]
     for kind in range(kinds):
         for step in range(count):
-            rollers = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, step])
+            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[0, step])
             for i in range(most):
                 here = start + (kind * count + step) * most + i
                 seats[SLIP, here], seats[BEFORE, here], seats[AFTER, here] = 0.0, 0.0, 0.0
@@ -242,8 +241,8 @@ def slips(
                     if row < 0 or row >= most:
                         continue
                     there = start + (rotated * count + other) * most + row
-                    engaged = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, other])
-                    if row < engaged and seats[PLACE, there] >= 0.0:
+                    rollers_there = engaged(numbers[WRAP_ANGLE], angle, phases[0, other])
+                    if row < rollers_there and seats[PLACE, there] >= 0.0:
                         dx = seats[SEAT_X, there] - seats[SEAT_X, here]
                         dy = seats[SEAT_Y, there] - seats[SEAT_Y, here]
                         moved = math.sqrt(dx * dx + dy * dy)
@@ -298,7 +297,7 @@ def sweep_phases(
     tight = constants[0, TIGHT_TENSION]
     for kind in range(kinds):
         for step in range(count):
-            rollers = seats_in_wrap(numbers[WRAP_ANGLE], angle, phases[0, step])
+            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[0, step])
             event = start + (kind * count + step) * most
             tight_angle = angle * (phases[0, step] - 0.5)
             slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle

@@ -19,7 +19,6 @@ from wearsim.kernels.wrap_cycle import (
     LOWEST,
     PATH_SLIP,
     PHASE_TIME,
-    SHIFT,
     START,
     WRAP_ANGLE,
     wrap_events,
@@ -208,7 +207,6 @@ class WrapContact(RestingContact):
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
         numbers[PHASE_TIME] = block.pitch_time / self.phases
-        numbers[SHIFT] = 0.5
         numbers[START] = mechanism.start(wear.elongation, loci[0])
         numbers[LOWEST] = float(np.hypot(loci[0, 0], loci[0, 1]).argmin())
         status = wrap_events(
