@@ -1,6 +1,6 @@
 """How often the stated numerical error of a life holds: random drives against finer references.
 
-``python docs/stated_error.py`` (an hour and a half on two cores, nearly all of it for the wraps)
+``python docs/stated_error.py`` (half an hour on two cores, nearly all of it for the wraps)
 writes reports/reference/stated_error.csv, with the reference lives, and docs/stated_error.svg.
 ``python docs/stated_error.py strand pair`` renews these kinds only; ``python docs/stated_error.py
 again`` (some minutes) finds the lives and stated errors anew and keeps the references.
@@ -11,8 +11,7 @@ what they judge:
 - strand: lives on 801 and 1601 even points, extrapolated with the first power of the spacing;
 - pair: the same on two and four times the points of the case;
 - table: its functions on eight times the rows;
-- wrap: steps three and four times halved, extrapolated, and one and a half times what twice the
-  points move the life by.
+- wrap: a quarter of the steps on twice the points and three times the phases.
 """
 
 import csv
