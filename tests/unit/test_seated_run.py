@@ -128,7 +128,6 @@ def test_pull_of_the_rollers_is_the_slope_of_the_energy():
             of.roller_radius,
             of.face_width,
             places.seats,
-            seats._TRIAL_X,
             work,
             cells,
         )

@@ -33,6 +33,7 @@ from wearsim.kernels.wrap_equilibrium import (
     engaged,
     place_rollers,
     residual,
+    same_roller,
     solve_wrap,
 )
 
@@ -160,16 +161,8 @@ def wrap_events(
                     continue
                 way = 0.0
                 for side in range(2):
-                    # In the next pitch a roller counts one more from the tight end.
-                    other, row, rotated = step + 2 * side - 1, i, configuration
-                    if other < 0 or other >= phases:
-                        row = i + (1 if side == 1 else -1)
-                        rotated = (configuration + 1) % configurations
-                        other = 0 if side == 1 else phases - 1
-                    if row < 0 or row >= greatest:
-                        continue
-                    there = (rotated * phases + other) * greatest + row
-                    if events[EVENT_LOAD, there] > 0.0:
+                    there = same_roller(configuration, step, i, side, configurations, phases, greatest)
+                    if there >= 0 and events[EVENT_LOAD, there] > 0.0:
                         dx = events[EVENT_CENTRE_X, there] - events[EVENT_CENTRE_X, here]
                         dy = events[EVENT_CENTRE_Y, there] - events[EVENT_CENTRE_Y, here]
                         way += 0.5 * math.sqrt(dx * dx + dy * dy)

@@ -39,6 +39,21 @@ def engaged(wrap_angle: float, pitch_angle: float, phase: float) -> int:
     return max(1, math.ceil(wrap_angle / pitch_angle + 1.0 - phase - 1e-9))
 
 
+@kernel(int64(int64, int64, int64, int64, int64, int64, int64))
+def same_roller(kind: int, phase: int, roller: int, side: int, kinds: int, phases: int, most: int) -> int:
+    """Return where a roller stands in the phase before (side 0) or after (side 1), -1 where out of the wrap.
+
+    Places count by kinds of links, phases and rollers. In the next pitch a roller counts one more from
+    the tight end.
+    """
+    other, row, rotated = phase + 2 * side - 1, roller, kind
+    if other < 0 or other >= phases:
+        row = roller + (1 if side == 1 else -1)
+        rotated = (kind + 1) % kinds
+        other = 0 if side == 1 else phases - 1
+    return (rotated * phases + other) * most + row if 0 <= row < most else -1
+
+
 @kernel(void(TABLE, TABLE, int64, int64, VECTOR, float64, TABLE))
 def place_rollers(
     locus: Vector, other: Vector, first: int, rollers: int, position: Vector, pitch_angle: float, work: Vector

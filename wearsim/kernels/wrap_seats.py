@@ -33,7 +33,8 @@ SEAT_ROWS = 18
 _RIGHT_X, _RIGHT_Y, _XX, _XY, _YY, _LXX, _LXY, _LYX, _LYY = range(9)
 _IXX, _IXY, _IYY, _DOWN_X, _DOWN_Y, _STEP_X, _STEP_Y = range(9, 16)
 _TRIAL_X, _TRIAL_Y, _FROM_X, _FROM_Y, _SEEN_X, _SEEN_Y, _LOW, _HIGH, _PRESSED = range(16, 25)
-SEAT_WORK_ROWS = 25
+_LOAD_X, _LOAD_Y = 25, 26
+SEAT_WORK_ROWS = 27
 
 # rows of the table of cells: force of each, and its direction
 _FORCE, _ACROSS, _UP = 0, 1, 2
@@ -163,7 +164,6 @@ def foundation_force(
         float64,
         float64,
         TABLE,
-        int64,
         TABLE,
         TABLE,
     )
@@ -185,15 +185,13 @@ def wrap_balance(
     radius: float,
     face_width: float,
     seats: Vector,
-    row: int,
     work: Vector,
     cells: Vector,
 ) -> float:
     """Write what pulls on every roller and the stiffness against it; return the potential energy.
 
-    The centres are rows ``row`` and ``row`` + 1 of ``work``, each in the frame of its own gap, which is
-    that of the one before turned clockwise by a pitch angle. The energy counts from the places
-    that ``work`` holds in its rows of where the solve began.
+    The trial places of ``work`` are each in the frame of its own gap, which is that of the one before
+    turned clockwise by a pitch angle. The energy counts from the places where the solve began.
 
     Equation physics.md (W3).
     """
@@ -211,13 +209,14 @@ def wrap_balance(
             int(work[_LOW, i]),
             int(work[_HIGH, i]),
             radius,
-            work[row, i],
-            work[row + 1, i],
+            work[_TRIAL_X, i],
+            work[_TRIAL_Y, i],
             pressures[event + i],
             holds,
             cells,
             out,
         )
+        work[_LOAD_X, i], work[_LOAD_Y, i] = out[0], out[1]
         drag_x, drag_y = seats[DRAG_X, event + i], seats[DRAG_Y, event + i]
         work[_RIGHT_X, i] = face_width * out[0] + drag_x
         work[_RIGHT_Y, i] = face_width * out[1] + drag_y
@@ -228,25 +227,29 @@ def wrap_balance(
         )
         work[_PRESSED, i] = out[6]
         energy += face_width * out[5]
-        energy -= drag_x * (work[row, i] - work[_FROM_X, i]) + drag_y * (work[row + 1, i] - work[_FROM_Y, i])
+        energy -= drag_x * (work[_TRIAL_X, i] - work[_FROM_X, i]) + drag_y * (
+            work[_TRIAL_Y, i] - work[_FROM_Y, i]
+        )
     last, turn = rollers - 1, constants[PITCH_ANGLE]
     pull_x, pull_y = -math.cos(tight_angle), -math.sin(tight_angle)
     pull_x, pull_y = constants[TIGHT_TENSION] * pull_x, constants[TIGHT_TENSION] * pull_y
     work[_RIGHT_X, 0] += pull_x
     work[_RIGHT_Y, 0] += pull_y
-    energy -= pull_x * (work[row, 0] - work[_FROM_X, 0]) + pull_y * (work[row + 1, 0] - work[_FROM_Y, 0])
+    energy -= pull_x * (work[_TRIAL_X, 0] - work[_FROM_X, 0]) + pull_y * (
+        work[_TRIAL_Y, 0] - work[_FROM_Y, 0]
+    )
     # The slack strand goes off at slack_angle below the tangent of the last gap's own frame.
     pull_x = constants[SLACK_TENSION] * math.cos(slack_angle)
     pull_y = -constants[SLACK_TENSION] * math.sin(slack_angle)
     work[_RIGHT_X, last] += pull_x
     work[_RIGHT_Y, last] += pull_y
-    energy -= pull_x * (work[row, last] - work[_FROM_X, last])
-    energy -= pull_y * (work[row + 1, last] - work[_FROM_Y, last])
+    energy -= pull_x * (work[_TRIAL_X, last] - work[_FROM_X, last])
+    energy -= pull_y * (work[_TRIAL_Y, last] - work[_FROM_Y, last])
     c, s = math.cos(turn), math.sin(turn)
     for i in range(rollers - 1):
         natural = constants[PITCH_EVEN] if (i + kind) % 2 == 0 else constants[PITCH_ODD]
-        ex = c * work[row, i + 1] + s * work[row + 1, i + 1] - work[row, i]
-        ey = c * work[row + 1, i + 1] - s * work[row, i + 1] - work[row + 1, i]
+        ex = c * work[_TRIAL_X, i + 1] + s * work[_TRIAL_Y, i + 1] - work[_TRIAL_X, i]
+        ey = c * work[_TRIAL_Y, i + 1] - s * work[_TRIAL_X, i + 1] - work[_TRIAL_Y, i]
         length = math.sqrt(ex * ex + ey * ey)
         pull = spring * (length - natural)
         if not pull > 0.0:
@@ -396,7 +399,7 @@ def balance_rollers(
     from comes back to it at once.
     """
     found = cells[CELL_ROWS + 1]
-    bodies, longest, shift = x.shape[0], _MARGIN * radius, 0.0
+    bodies, longest = x.shape[0], _MARGIN * radius
     for i in range(rollers):
         work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
         work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
@@ -423,7 +426,6 @@ def balance_rollers(
             radius,
             face_width,
             seats,
-            _TRIAL_X,
             work,
             cells,
         )
@@ -452,7 +454,6 @@ def balance_rollers(
         radius,
         face_width,
         seats,
-        _TRIAL_X,
         work,
         cells,
     )
@@ -460,8 +461,7 @@ def balance_rollers(
     for _ in range(_MAX_ITERATIONS):
         if error <= tolerance:
             return SEATED
-        step = 0.0
-        shift = 0.0
+        step, shift = 0.0, 0.0
         while True:
             if wrap_step(rollers, shift, work) == 0:
                 step = largest_of(rollers, _STEP_X, work)
@@ -503,7 +503,6 @@ def balance_rollers(
             radius,
             face_width,
             seats,
-            _TRIAL_X,
             work,
             cells,
         )
@@ -538,7 +537,6 @@ def balance_rollers(
                 radius,
                 face_width,
                 seats,
-                _TRIAL_X,
                 work,
                 cells,
             )
@@ -624,26 +622,7 @@ def seat_rollers(
         )
         change, holds = 0.0, 0
         for i in range(rollers):
-            body = (i + kind) % bodies
-            first, last = int(work[_LOW, i]), int(work[_HIGH, i])
-            out = cells[CELL_ROWS]
-            foundation_force(
-                x[body],
-                y[body],
-                width[body],
-                compliance[i],
-                recess[i],
-                first,
-                last,
-                radius,
-                seats[SEAT_X, event + i],
-                seats[SEAT_Y, event + i],
-                pressures[event + i],
-                0,
-                cells,
-                out,
-            )
-            load_x, load_y = out[0], out[1]
+            load_x, load_y = work[_LOAD_X, i], work[_LOAD_Y, i]
             seats[LOAD_X, event + i], seats[LOAD_Y, event + i] = load_x, load_y
             drag_x, drag_y = -friction * face_width * load_y, friction * face_width * load_x
             change = max(

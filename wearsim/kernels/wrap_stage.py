@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
-from wearsim.kernels.wrap_equilibrium import CONSTANTS, FRICTION, PITCH_ANGLE, SEATED, TIGHT_TENSION, engaged
+from wearsim.kernels.wrap_equilibrium import (
+    CONSTANTS,
+    FRICTION,
+    PITCH_ANGLE,
+    SEATED,
+    TIGHT_TENSION,
+    engaged,
+    same_roller,
+)
 from wearsim.kernels.wrap_seats import (
     AFTER,
     BEFORE,
@@ -137,48 +145,79 @@ def shape_outlines(works: Vector, numbers: Vector, unworn: Vector, outlines: Vec
         worn_width(depth, unworn, 0, n, outlines[OUTLINE_WIDTH * bodies + body])
 
 
-@kernel(void(int64, int64, int64, float64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, VECTOR))
-def yields(
-    event: int,
-    body: int,
-    bodies: int,
-    count: float,
-    seats: Vector,
-    pressures: Vector,
-    works: Vector,
-    numbers: Vector,
-    unworn: Vector,
-    outlines: Vector,
-    sums: Vector,
-    masses: Vector,
-) -> None:
-    """Add what a roller wears off, and how fast that grows by its pressure, to its outline's tables."""
-    first, last = int(seats[FIRST, event]), int(seats[LAST, event])
-    seats[OWN_YIELD, event] = 0.0
-    slip, exponent = seats[SLIP, event], numbers[EXPONENT]
-    worn = numbers[RATE_FACTOR] * count * slip
+@kernel(float64(int64, int64, TABLE, TABLE, VECTOR))
+def worn_by_unit_pressure(event: int, events: int, blocks: Vector, seats: Vector, numbers: Vector) -> float:
+    """Return the depth that a roller wears off in the cycles of a stage under 1 MPa."""
+    worn: float = numbers[RATE_FACTOR] * blocks[event // events, COUNT] * seats[SLIP, event]
     if numbers[SPEED_POWER] != 0.0:
         speed = seats[SPEED, event]
         worn *= speed ** numbers[SPEED_POWER] if speed > 0.0 else 0.0
-    if not worn > 0.0 or last <= first:
-        return
-    width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
-    before, after = seats[BEFORE, event], seats[AFTER, event]
-    for j in range(first, last):
-        p = pressure[j]
-        masses[j] = worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
-    spread(masses, first, last, before, after, unworn, works[body], sums)
-    least = 0.0
-    if exponent != 1.0:
+    return worn
+
+
+@kernel(void(int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE))
+def add_work(
+    kinds: int,
+    most: int,
+    blocks: Vector,
+    seats: Vector,
+    numbers: Vector,
+    unworn: Vector,
+    pressures: Vector,
+    outlines: Vector,
+    works: Vector,
+    sums: Vector,
+) -> None:
+    """Add what the pressures of all rollers wear off."""
+    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[2]
+    events = seats.shape[1] // blocks.shape[0]
+    for event in range(seats.shape[1]):
+        body = (event % most + event // (events // kinds) % kinds) % bodies
+        first, last = int(seats[FIRST, event]), int(seats[LAST, event])
+        worn = worn_by_unit_pressure(event, events, blocks, seats, numbers)
+        if not worn > 0.0:
+            continue
+        width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
         for j in range(first, last):
-            least = max(least, 0.05 * pressure[j])
-    for j in range(first, last):
-        p = pressure[j]
-        grows = 1.0 if exponent == 1.0 else exponent * max(p, least) ** (exponent - 1.0)
-        masses[j] = worn * grows * unworn[SPACING, j] if p > 0.0 else 0.0
-        own = masses[j] / (unworn[SPACING, j] * (1.0 + before + after))
-        seats[OWN_YIELD, event] = max(seats[OWN_YIELD, event], own)
-    spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
+            p = pressure[j]
+            masses[j] = worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
+        spread(masses, first, last, seats[BEFORE, event], seats[AFTER, event], unworn, works[body], sums)
+
+
+@kernel(void(int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE))
+def add_yields(
+    kinds: int,
+    most: int,
+    blocks: Vector,
+    seats: Vector,
+    numbers: Vector,
+    unworn: Vector,
+    pressures: Vector,
+    outlines: Vector,
+    sums: Vector,
+) -> None:
+    """Add how fast the wear of all rollers grows by their pressures; write how fast that of each does."""
+    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[2]
+    events = seats.shape[1] // blocks.shape[0]
+    for event in range(seats.shape[1]):
+        body = (event % most + event // (events // kinds) % kinds) % bodies
+        first, last = int(seats[FIRST, event]), int(seats[LAST, event])
+        seats[OWN_YIELD, event] = 0.0
+        worn = worn_by_unit_pressure(event, events, blocks, seats, numbers)
+        if not worn > 0.0:
+            continue
+        pressure, before, after = pressures[event], seats[BEFORE, event], seats[AFTER, event]
+        least = 0.0
+        if exponent != 1.0:
+            for j in range(first, last):
+                least = max(least, 0.05 * pressure[j])
+        for j in range(first, last):
+            p = pressure[j]
+            grows = 1.0 if exponent == 1.0 else exponent * max(p, least) ** (exponent - 1.0)
+            masses[j] = worn * grows * unworn[SPACING, j] if p > 0.0 else 0.0
+            own = masses[j] / (unworn[SPACING, j] * (1.0 + before + after))
+            seats[OWN_YIELD, event] = max(seats[OWN_YIELD, event], own)
+        spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
 
 
 @kernel(void(float64, float64, float64, float64, int64, int64, VECTOR))
@@ -232,17 +271,12 @@ def slips(
                 ends = (1.0 if i == 0 else 0.0) + (1.0 if i == rollers - 1 else 0.0)
                 way = 0.0
                 for side in range(2):
-                    # In the next pitch a roller counts one more from the tight end.
-                    other, row, rotated = step + 2 * side - 1, i, kind
-                    if other < 0 or other >= count:
-                        row = i + (1 if side == 1 else -1)
-                        rotated = (kind + 1) % kinds
-                        other = 0 if side == 1 else count - 1
-                    if row < 0 or row >= most:
+                    place = same_roller(kind, step, i, side, kinds, count, most)
+                    if place < 0:
                         continue
-                    there = start + (rotated * count + other) * most + row
-                    rollers_there = engaged(numbers[WRAP_ANGLE], angle, phases[0, other])
-                    if row < rollers_there and seats[PLACE, there] >= 0.0:
+                    there = start + place
+                    rollers_there = engaged(numbers[WRAP_ANGLE], angle, phases[0, place // most % count])
+                    if place % most < rollers_there and seats[PLACE, there] >= 0.0:
                         dx = seats[SEAT_X, there] - seats[SEAT_X, here]
                         dy = seats[SEAT_Y, there] - seats[SEAT_Y, here]
                         moved = math.sqrt(dx * dx + dy * dy)
@@ -413,27 +447,14 @@ def implicit_stage(
             for body in range(bodies):
                 for j in range(n):
                     sums[3 + body, j] = base[body, j]
-            for event in range(seats.shape[1]):
-                block, kind = event // (kinds * count * most), event // (count * most) % kinds
-                yields(
-                    event,
-                    (event % most + kind) % bodies,
-                    bodies,
-                    blocks[block, COUNT],
-                    seats,
-                    pressures,
-                    sums[3:],
-                    numbers,
-                    unworn,
-                    outlines,
-                    sums,
-                    sums[2],
-                )
+            known = sums[3:]
+            add_work(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, known, sums)
+            add_yields(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, sums)
             for body in range(bodies):
                 rest, fast = outlines[REST * bodies + body], outlines[YIELD * bodies + body]
                 for j in range(n):
-                    curvature, known = unworn[UNWORN_CURVATURE, j], sums[3 + body, j]
-                    area = area_of_work(known, curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
+                    curvature = unworn[UNWORN_CURVATURE, j]
+                    area = area_of_work(known[body, j], curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
                     rest[j] = outlines[OUTLINE_AREA * bodies + body, j] - area
                     soft = outlines[OUTLINE_DEPTH * bodies + body, j] > numbers[HARD_DEPTH]
                     fast[j] *= numbers[SOFTNESS] if soft else 1.0
@@ -475,20 +496,5 @@ def implicit_stage(
         for body in range(bodies):
             for j in range(n):
                 works[body, j] = base[body, j]
-        for event in range(seats.shape[1]):
-            block, kind = event // (kinds * count * most), event // (count * most) % kinds
-            yields(
-                event,
-                (event % most + kind) % bodies,
-                bodies,
-                blocks[block, COUNT],
-                seats,
-                pressures,
-                works,
-                numbers,
-                unworn,
-                outlines,
-                sums,
-                sums[2],
-            )
+        add_work(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums)
     return SEATED

@@ -86,14 +86,15 @@ class _Snapshots:
         age = before.cycles - bodies.chain_new_at
         count = int(whole / (_PART_OF_AGE * max(age, bodies.running_in.cycles)))
         for place in range(1, min(count, SNAPSHOTS // 4) + 1):
-            bodies.go_back(before, after, place / (count + 1))
-            self.add(bodies)
-        bodies.go_back(before, after, 1.0)
+            self._add(before.on_the_way_to(after, place / (count + 1)))
 
     def add(self, bodies: WornBodies, last: bool = False) -> None:
-        repeated = bool(self.states) and self.states[-1].cycles == bodies.cycles
+        self._add(bodies.state(), last)
+
+    def _add(self, state: WornState, last: bool = False) -> None:
+        repeated = bool(self.states) and self.states[-1].cycles == state.cycles
         if (last or self.count % self.stride == 0) and not repeated:
-            self.states.append(bodies.state())
+            self.states.append(state)
         self.count += 1
         if len(self.states) > 2 * SNAPSHOTS + len(self.ends):
             stay = {id(state) for state in (*self.ends, self.states[-1])}
@@ -282,6 +283,6 @@ def _cut(bodies: WornBodies, before: WornState, allowed: Callable[[], bool]) -> 
         middle = 0.5 * (low + high)
         if not low < middle < high:
             break
-        bodies.go_back(before, after, middle)
+        bodies.go_back(before.on_the_way_to(after, middle))
         low, high = (middle, high) if allowed() else (low, middle)
-    bodies.go_back(before, after, high)
+    bodies.go_back(before.on_the_way_to(after, high))

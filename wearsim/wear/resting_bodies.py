@@ -1,7 +1,7 @@
 """Worn outlines and a chain, and one step of their wear."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +59,24 @@ class WornState:
     chain: int
     pressure: float
     speed: float
+
+    def on_the_way_to(self, after: "WornState", part: float) -> "WornState":
+        """Return where a part of a step leads from here, in a straight line."""
+
+        def between(first: Rows, last: Rows) -> Rows:
+            return first + part * (last - first)
+
+        return replace(
+            after,
+            x=between(self.x, after.x),
+            y=between(self.y, after.y),
+            depth=between(self.depth, after.depth),
+            removed=self.removed + part * (after.removed - self.removed),
+            wear=ChainWear(
+                *(old + part * (new - old) for old, new in zip(self.wear, after.wear, strict=True))
+            ),
+            cycles=self.cycles + part * (after.cycles - self.cycles),
+        )
 
 
 class WornBodies:
@@ -128,18 +146,10 @@ class WornBodies:
             self.speed,
         )
 
-    def go_back(self, before: "WornState", after: "WornState", part: float) -> None:
-        """Go to where a part of a step leads, in a straight line."""
-
-        def between(first: Rows, last: Rows) -> Rows:
-            return first + part * (last - first)
-
-        self.x, self.y = between(before.x, after.x), between(before.y, after.y)
-        self.depth = between(before.depth, after.depth)
-        self.removed = before.removed + part * (after.removed - before.removed)
-        pairs = zip(before.wear, after.wear, strict=True)
-        self.wear = ChainWear(*(old + part * (new - old) for old, new in pairs))
-        self.cycles = before.cycles + part * (after.cycles - before.cycles)
+    def go_back(self, state: WornState) -> None:
+        """Go to a state of the last step."""
+        self.x, self.y, self.depth, self.removed = state.x, state.y, state.depth, state.removed
+        self.wear, self.cycles = state.wear, state.cycles
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles at once."""

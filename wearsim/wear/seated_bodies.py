@@ -51,9 +51,9 @@ class SeatedBodies(WornBodies):
         self.law = law
         numbers = law.pressure_exponent, law.speed_exponent, law.case_depth, law.core_factor
         self.seating = contact.seating(np.array([law.coefficient, *numbers]), self.unworn)
-        hard = self._hard_area()
-        soft = np.maximum(self.area - hard, 0.0)
-        self.works = np.where(soft > 0.0, hard + soft / law.core_factor, self.area)
+        self.hard = self._hard_area()
+        soft = np.maximum(self.area - self.hard, 0.0)
+        self.works = np.where(soft > 0.0, self.hard + soft / law.core_factor, self.area)
         self.hard_rate = 0.0
         self.growth: Rows | None = None
         self.drift = np.zeros_like(self.seating.places)
@@ -110,10 +110,11 @@ class SeatedBodies(WornBodies):
             "are not: use other nodes or phases"
         )
 
-    def _chain(self, cycles: float) -> ChainWear:
-        """Return what the chain will have lost, with what the rollers gave off in the last step."""
+    def _chain(self, cycles: float, hard_area: float | None = None) -> ChainWear:
+        """Return what the chain will have lost, by default to gaps that wear as fast as in the last step."""
         joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
-        return self.contact.chain_after(self.wear, joints, self.hard_rate * cycles)
+        worn = self.hard_rate * cycles if hard_area is None else hard_area
+        return self.contact.chain_after(self.wear, joints, worn)
 
     def _stages(self, cycles: float) -> Rows | None:
         """Return the work done after a step, None where a stage is not found."""
@@ -143,12 +144,11 @@ class SeatedBodies(WornBodies):
         self.seating.places[:] += np.clip(way, -farthest, farthest)
 
     def _accept(self, works: Rows, cycles: float) -> None:
-        hard, spacing = self._hard_area(), self.unworn[SPACING]
-        area = np.minimum(works, hard) + self.law.core_factor * np.maximum(works - hard, 0.0)
+        spacing = self.unworn[SPACING]
+        area = np.minimum(works, self.hard) + self.law.core_factor * np.maximum(works - self.hard, 0.0)
         worn = float(((area - self.area) * spacing).sum())
         hard_area = float(((works - self.works) * spacing).sum()) / self.contact.bodies
-        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
-        self.wear = self.contact.chain_after(self.wear, joints, hard_area)
+        self.wear = self._chain(cycles, hard_area)
         self.hard_rate = hard_area / cycles
         self.works, self.area = works, area
         for body in range(self.contact.bodies):
