@@ -12,6 +12,7 @@ import pytest
 
 from wearsim.contact.hertz import contact_modulus
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
+from wearsim.kernels.per_cycle_loop import CYCLES_ROWS
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import archard
 
@@ -54,7 +55,7 @@ def start():
     def build(contact):
         x, y = contact.profile.x.copy(), contact.profile.y.copy()
         return SimpleNamespace(
-            x=x, y=y, depth=np.zeros(x.size), work=np.zeros((10, x.size)), done=np.zeros(1)
+            x=x, y=y, depth=np.zeros(x.size), work=np.zeros((CYCLES_ROWS, x.size)), done=np.zeros(1)
         )
 
     return build
@@ -92,6 +93,6 @@ def c_run_cycles(c_function):
 
     def build(kind):
         source = "strand_fissioned" if kind == "fissioned" else "strand_plain"
-        return c_function(source, kind, "run_cycles", "vvvlvvddddlv")
+        return c_function(source, kind, "run_cycles", "vvvlvvdddlv")
 
     return build

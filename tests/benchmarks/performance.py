@@ -71,7 +71,7 @@ def strand_lines(results):
         yield (
             f"- {nodes} nodes, fastest of nine runs taken in turn: {to_c:.3f} of plain C -O3 "
             f"(goal 0.3: {reached(to_c, 0.3)}), {split:.2f} of the split loops in C (goal 1.25: "
-            f"{reached(split, 1.25)}), {floor:.2f} of its 3 square roots and 5 divisions alone (goal 1.5: "
+            f"{reached(split, 1.25)}), {floor:.2f} of its 2 square roots and 5 divisions alone (goal 1.5: "
             f"{reached(floor, 1.5)}), {to_numpy:.0f} times as fast as NumPy"
             + (f" (goal 20: {reached(20.0, to_numpy)})" if nodes == 201 else "")
         )

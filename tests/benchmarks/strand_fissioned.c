@@ -74,27 +74,23 @@ static void contact(const double *restrict x, const double *restrict y,
 }
 
 /* constants: line height, roller radius, pull per width, end and start of the load, 1/overlap,
-   slip fraction, angular speed. work: normal_x, normal_y, step, pressure, sliding speed and what
-   else is needed, 10 rows. */
+   slip fraction, angular speed. work: normal_x, normal_y, step, sliding speed and what else is
+   needed, 9 rows. */
 long run_cycles(double *restrict x, double *restrict y, double *restrict depth, long n,
-                const double *constants, double *restrict work, double modulus, double factor,
+                const double *constants, double *restrict work, double factor,
                 double diffusion, double critical_depth, long updates, double *done)
 {
     double *restrict normal_x = work, *restrict normal_y = work + n, *restrict step = work + 2 * n;
-    double *restrict pressure = work + 3 * n, *restrict speed = work + 4 * n;
-    double *restrict curvature = work + 5 * n, *restrict spacing_squared = work + 6 * n;
-    double *restrict load = work + 7 * n, *restrict slip = work + 8 * n;
-    double *restrict relative = work + 9 * n;
+    double *restrict speed = work + 3 * n, *restrict curvature = work + 4 * n;
+    double *restrict spacing_squared = work + 5 * n, *restrict load = work + 6 * n;
+    double *restrict slip = work + 7 * n, *restrict relative = work + 8 * n;
     *done = 0.0;
     for (long update = 0; update < updates; update++) {
         long worn = 0, unstable = 0, conforming = 0, reached = 0;
         flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared, n);
         contact(x, y, normal_x, normal_y, curvature, constants, load, slip, speed, relative, n);
-        for (long j = 0; j < n; j++) {
-            double product = load[j] * relative[j] * (modulus / M_PI);
-            pressure[j] = sqrt(product > 0.0 ? product : 0.0);
+        for (long j = 0; j < n; j++)
             step[j] = load[j] > 0.0 ? factor * load[j] * slip[j] : 0.0;
-        }
         for (long j = 0; j < n; j++) {
             conforming += (load[j] > 0.0) & !(relative[j] > 0.0);
             worn += step[j] > 0.0;

@@ -42,16 +42,16 @@ static frame end_frame(const double *x, const double *y, long end, long inward)
 }
 
 /* constants: line height, roller radius, pull per width, end and start of the load, 1/overlap,
-   slip fraction, angular speed. work: normal_x, normal_y, step, pressure, sliding speed. */
+   slip fraction, angular speed. work: normal_x, normal_y, step, sliding speed. */
 long run_cycles(double *x, double *y, double *depth, long n, const double *constants, double *work,
-                double modulus, double factor, double diffusion, double critical_depth,
+                double factor, double diffusion, double critical_depth,
                 long updates, double *done)
 {
     double height = constants[0], radius = constants[1], pull = constants[2];
     double x_min = constants[3], x_max = constants[4], per_overlap = constants[5];
     double fraction = constants[6], omega = constants[7];
     double *normal_x = work, *normal_y = work + n, *step = work + 2 * n;
-    double *pressure = work + 3 * n, *speed = work + 4 * n;
+    double *speed = work + 3 * n;
     *done = 0.0;
     for (long update = 0; update < updates; update++) {
         long worn = 0, unstable = 0, conforming = 0, reached = 0;
@@ -63,7 +63,7 @@ long run_cycles(double *x, double *y, double *depth, long n, const double *const
             double square = cx * cx + cy * cy;
             normal_x[j] = f.normal_x;
             normal_y[j] = f.normal_y;
-            step[j] = pressure[j] = speed[j] = 0.0;
+            step[j] = speed[j] = 0.0;
             if (square <= height * height)
                 continue;
             double distance = sqrt(square - height * height);
@@ -78,7 +78,6 @@ long run_cycles(double *x, double *y, double *depth, long n, const double *const
             double slip = fraction * (1.0 + radius * cosine / distance)
                           * (1.0 + radius * f.curvature);
             speed[j] = fraction * omega * (distance / cosine + radius);
-            pressure[j] = sqrt(load * relative * (modulus / M_PI));
             step[j] = factor * load * slip;
             conforming += !(relative > 0.0);
             worn += step[j] > 0.0;

@@ -1,6 +1,7 @@
 """The cycle loop of the strand (reference run of docs/physics.md, m = 1) against C and NumPy.
 
-C and NumPy do the same arithmetic; both must give the kernel's flank before they are timed.
+C and NumPy do the same arithmetic, without the pressure, which linear wear does not depend on; both
+must give the kernel's flank before they are timed.
 Goals: at most 0.3 of plain C -O3, 1.25 of the same split loops in C, 1.5 of its square roots and
 divisions alone; at least 20 times as fast as NumPy at 201 nodes.
 """
@@ -14,7 +15,7 @@ import pytest
 from wearsim.kernels.per_cycle_loop import run_cycles
 
 CYCLES = 2000
-ROOTS, DIVISIONS = 3, 5
+ROOTS, DIVISIONS = 2, 5
 """Square roots and divisions of a point and cycle that cannot be shared."""
 
 CHECKED = ("x", "y", "depth")
@@ -48,8 +49,8 @@ def frame(x, y):
     return values
 
 
-def numpy_cycles(x, y, depth, constants, modulus, factor, diffusion, critical_depth, updates):
-    """The loop as one writes it with whole arrays; also the pressure and speed of every cycle."""
+def numpy_cycles(x, y, depth, constants, factor, diffusion, critical_depth, updates):
+    """The loop as one writes it with whole arrays; also the sliding speed of every cycle."""
     height, radius, pull, x_min, x_max, per_overlap, fraction, omega = constants
     for _ in range(updates):
         normal_x, normal_y, curvature, spacing_squared = frame(x, y)
@@ -64,7 +65,6 @@ def numpy_cycles(x, y, depth, constants, modulus, factor, diffusion, critical_de
         relative = 1.0 / radius + curvature
         slip = fraction * (1.0 + radius * cosine / distance) * (1.0 + radius * curvature)
         speed = fraction * omega * (distance / cosine + radius) * (load > 0.0)
-        pressure = np.sqrt(load * relative * (modulus / np.pi))
         step = factor * load * slip
         if (relative[load > 0.0] <= 0.0).any() or not step.any():
             raise ValueError("conforming or no contact")
@@ -75,7 +75,7 @@ def numpy_cycles(x, y, depth, constants, modulus, factor, diffusion, critical_de
         depth += step
         if depth.max() >= critical_depth:
             break
-    return pressure, speed
+    return speed
 
 
 @pytest.fixture
@@ -105,7 +105,7 @@ def runs(reference_contact, start, c_run_cycles):
                 CYCLES,
                 state.done,
             )
-            state.pressure, state.speed = state.work[8], state.work[6]
+            state.speed = state.work[6]
             return state
 
         def c(function):
@@ -117,28 +117,19 @@ def runs(reference_contact, start, c_run_cycles):
                 nodes,
                 contact.constants,
                 state.work,
-                contact.modulus,
                 numbers[0],
                 diffusion,
                 1.0,
                 CYCLES,
                 state.done,
             )
-            state.pressure, state.speed = state.work[3], state.work[4]
+            state.speed = state.work[3]
             return state
 
         def arrays():
             state = start(contact)
-            state.pressure, state.speed = numpy_cycles(
-                state.x,
-                state.y,
-                state.depth,
-                contact.constants,
-                contact.modulus,
-                numbers[0],
-                diffusion,
-                1.0,
-                CYCLES,
+            state.speed = numpy_cycles(
+                state.x, state.y, state.depth, contact.constants, numbers[0], diffusion, 1.0, CYCLES
             )
             return state
 
@@ -156,10 +147,7 @@ def runs(reference_contact, start, c_run_cycles):
                 assert getattr(state, column) == pytest.approx(
                     getattr(expected, column), rel=1e-10, abs=1e-12
                 ), (name, column)
-            # The pressure at an edge of the load, where it tends to zero, magnifies rounding.
-            for column in ("pressure", "speed"):
-                wanted = getattr(expected, column)
-                assert np.abs(getattr(state, column) - wanted).max() < 1e-9 * wanted.max(), name
+            assert np.abs(state.speed - expected.speed).max() < 1e-9 * expected.speed.max(), name
         return found
 
     return build

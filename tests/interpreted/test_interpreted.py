@@ -20,7 +20,7 @@ from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
-from wearsim.kernels.per_cycle_loop import run_cycles
+from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
 from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
@@ -131,7 +131,7 @@ def numbers():
     law = np.array([1e-7, 0.5, 1.0, 0.0, np.inf, 1.0])
     for name, contact, flank, constants, columns in contacts():
         x, y, depth = flank.x.copy(), flank.y.copy(), np.zeros(11)
-        work, done = np.zeros((10, 11)), np.zeros(1)
+        work, done = np.zeros((CYCLES_ROWS, 11)), np.zeros(1)
         status = run_cycles(
             contact, x, y, depth, constants, columns, work, 1e5, law, 0.75, 1.0, 1.0, 20, done
         )

@@ -80,16 +80,16 @@ def test_matrix_is_the_derivative_of_the_rate() -> None:
     given = contact.constants, contact.columns, contact.modulus, numbers
     state = np.array([flank.x, flank.y, np.zeros(points)])
     flank_rate(contact.kernel, state, state[2], *given, work)
-    start = np.array([*state, work[9], work[0], work[1], work[7], work[2]])
+    start = np.array([*state, work[8], work[0], work[1], work[7], work[2]])
     slope_rate(contact.kernel, start, *given, work)
     rows = np.zeros((4, points))
     diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
-    wear_rows(start, work[10], diffusion, 1, rows)
+    wear_rows(start, work[9], diffusion, 1, rows)
 
     def rate(way: np.ndarray) -> np.ndarray:
         moved = np.array([flank.x - way * start[4], flank.y - way * start[5], way])
         flank_rate(contact.kernel, moved, moved[2], *given, work)
-        found: np.ndarray = work[9] * (work[0] * start[4] + work[1] * start[5])
+        found: np.ndarray = work[8] * (work[0] * start[4] + work[1] * start[5])
         return found
 
     moves = 1e-7 * np.eye(points)
@@ -97,7 +97,7 @@ def test_matrix_is_the_derivative_of_the_rate() -> None:
     # The place itself, which is left out, changes the load on the steep ramp at the root.
     greatest = np.abs(true).max()
     np.testing.assert_allclose(dense(rows[:3]), true, rtol=0.0, atol=5e-3 * greatest)
-    wear_rows(start, 0.0 * work[10], diffusion, 1, rows)
+    wear_rows(start, 0.0 * work[9], diffusion, 1, rows)
     assert np.abs(dense(rows[:3]) - true).max() > 0.05 * greatest
 
 

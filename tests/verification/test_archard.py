@@ -29,10 +29,8 @@ def archard_law(rate: float) -> dict[str, object]:
 
 def depth_per_cycle(load: np.ndarray, slip: np.ndarray, relative: np.ndarray, rate: float) -> np.ndarray:
     """Depth of one passage of a travelling contact, from the engine's kernel."""
-    speed, pressure, depth = np.zeros(load.size), np.empty(load.size), np.empty(load.size)
-    wear_depth(
-        load, slip, speed, relative, MODULUS, archard(rate).numbers(ContactKind.TRAVELLING), pressure, depth
-    )
+    speed, depth = np.zeros(load.size), np.empty(load.size)
+    wear_depth(load, slip, speed, relative, MODULUS, archard(rate).numbers(ContactKind.TRAVELLING), depth)
     return depth
 
 

@@ -122,7 +122,7 @@ def write_state(state: Vector, work: Vector, clock: Vector, times: Vector, path:
     here = path[place]
     for j in range(state.shape[1]):
         here[0, j], here[1, j], here[2, j] = state[0, j], state[1, j], state[2, j]
-        here[3, j], here[4, j], here[5, j] = work[9, j], work[0, j], work[1, j]
+        here[3, j], here[4, j], here[5, j] = work[8, j], work[0, j], work[1, j]
         here[6, j], here[7, j] = work[7, j], work[2, j]
     times[place] = clock[TIME]
     clock[WRITTEN] += 1.0
@@ -234,7 +234,7 @@ def wear_in_steps(
     if clock[TIME] == 0.0:
         fastest = 0.0
         for j in range(state.shape[1]):
-            fastest = max(fastest, work[9, j])
+            fastest = max(fastest, work[8, j])
         clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * depth_limit / fastest
     while True:
         place = write_state(state, work, clock, times, path)

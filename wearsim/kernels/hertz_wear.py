@@ -17,39 +17,34 @@ if TYPE_CHECKING:
 RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN, HORIZON, SAWTOOTH = range(8)
 
 
-@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR))
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR))
 def wear_depth(
-    load: Vector,
-    slip: Vector,
-    speed: Vector,
-    relative: Vector,
-    modulus: float,
-    law: Vector,
-    pressure: Vector,
-    depth: Vector,
+    load: Vector, slip: Vector, speed: Vector, relative: Vector, modulus: float, law: Vector, depth: Vector
 ) -> None:
-    """Write the Hertz pressure and the depth worn off in one cycle at every point.
+    """Write the depth worn off in one cycle at every point.
 
     ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
-    depth = factor pressure^a load^b slip speed^n, zero where the load is zero.
+    depth = factor pressure^a load^b slip speed^n, zero where the load is zero. The Hertz pressure,
+    a root, is found in the place of the depth, and only where the law asks for it.
 
     Equations physics.md (C2) and (L1) or (L3).
     """
     n, factor, exponent = load.size, law[0], law[1]
-    for j in range(n):
-        pressure[j] = math.sqrt(load[j] * relative[j] * (modulus / math.pi))
     if exponent == 0.0:
         for j in range(n):
             depth[j] = factor
-    elif exponent == 0.5:
-        for j in range(n):
-            depth[j] = math.sqrt(pressure[j]) * factor
-    elif exponent == 1.0:
-        for j in range(n):
-            depth[j] = pressure[j] * factor
     else:
         for j in range(n):
-            depth[j] = pressure[j] ** exponent * factor
+            depth[j] = math.sqrt(load[j] * relative[j] * (modulus / math.pi))
+    if exponent == 0.5:
+        for j in range(n):
+            depth[j] = math.sqrt(depth[j]) * factor
+    elif exponent == 1.0:
+        for j in range(n):
+            depth[j] *= factor
+    elif exponent != 0.0:
+        for j in range(n):
+            depth[j] = depth[j] ** exponent * factor
     if law[3] != 0.0:
         for j in range(n):
             depth[j] *= speed[j] ** law[3] if speed[j] > 0.0 else 0.0
@@ -112,8 +107,8 @@ def flank_rate(
     """Write the depth that each point of a state (x, y, depth) loses in a cycle; tell its status.
 
     ``layer``: the depths that tell whether a point is below the hardened layer.
-    ``work``, 10 rows: normals, curvature, squared spacing, load, slip, speed, relative
-    curvature, pressure, depth per cycle.
+    ``work``, 9 rows: normals, curvature, squared spacing, load, slip, speed, relative
+    curvature, depth per cycle.
     """
     flank_frame(state[0], state[1], work[0], work[1], work[2], work[3])
     contact(
@@ -130,9 +125,9 @@ def flank_rate(
         work[6],
         work[7],
     )
-    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
-    soften_edges(layer, law, work[9])
-    return update_status(work[4], work[7], work[9], work[3], 0.0)
+    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8])
+    soften_edges(layer, law, work[8])
+    return update_status(work[4], work[7], work[8], work[3], 0.0)
 
 
 @kernel(int64(VECTOR, float64))

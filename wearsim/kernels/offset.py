@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""
 
-OFFSET_ROWS = 17
+OFFSET_ROWS = 16
 """Of the table to work in; those of ``run_cycles`` and the weights of the second difference and
 what does not change of a step."""
 
-BEFORE, AFTER, BASE, STRESS, AMOUNT, ALLOWED, START = range(10, 17)
+BEFORE, AFTER, BASE, STRESS, AMOUNT, ALLOWED, START = range(9, 16)
 
 
 @kernel(void(VECTOR, VECTOR, TABLE, float64, VECTOR, float64, float64, TABLE))
@@ -57,9 +57,9 @@ def prepare_offset(
 
 @kernel(void(VECTOR, float64, TABLE))
 def offset_step(depth: Vector, exponent: float, work: Vector) -> None:
-    """Write relative curvature (row 7) and depth of an update (row 9); the pressure is not kept."""
+    """Write relative curvature (row 7) and depth of an update (row 8)."""
     before, after, base = work[BEFORE], work[AFTER], work[BASE]
-    stress, amount, relative, step = work[STRESS], work[AMOUNT], work[7], work[9]
+    stress, amount, relative, step = work[STRESS], work[AMOUNT], work[7], work[8]
     n = depth.size
     relative[0], relative[n - 1] = base[0], base[n - 1]
     for j in range(1, n - 1):
@@ -79,7 +79,7 @@ def offset_step(depth: Vector, exponent: float, work: Vector) -> None:
 @kernel(int64(TABLE))
 def offset_failures(work: Vector) -> int:
     """Count the points at which an update may not be made, or is none at all."""
-    relative, step, allowed = work[7], work[9], work[ALLOWED]
+    relative, step, allowed = work[7], work[8], work[ALLOWED]
     failures = 0
     for j in range(work.shape[1]):
         failures += 0 if step[j] <= allowed[j] * relative[j] else 1
@@ -125,7 +125,7 @@ def run_offset_cycles(
     ``work``: `OFFSET_ROWS` rows.
     """
     prepare_offset(depth, constants, columns, modulus, law, diffusion, cycles_per_update, work)
-    step, n, made = work[9], depth.size, 0
+    step, n, made = work[8], depth.size, 0
     offset_step(depth, law[1], work)
     soften_edges(depth, law, step)
     status = update_status(columns[LOAD], work[7], step, work[3], diffusion)

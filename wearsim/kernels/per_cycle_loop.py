@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from wearsim.geometry.profile_points import Vector
 
 
-CYCLES_ROWS = 10
+CYCLES_ROWS = 9
 """Of the table to work in."""
 
 
@@ -55,22 +55,21 @@ def run_cycles(
 ) -> int:
     """Wear the flank update by update in place: physics.md (10) to (12), the source's, as they stand.
 
-    Every update recomputes normals, curvature, load, sliding and Hertz pressure on the
-    worn points and moves each along its normal. It stops before an update that the
+    Every update recomputes normals, curvature, load, sliding and, where the law asks for it, the
+    Hertz pressure on the worn points and moves each along its normal. It stops before an update that the
     stability limit forbids or that Hertz cannot describe, and after the update that
     reaches the critical depth. ``done[0]`` counts the updates made; ``work`` holds
-    normals, curvature, squared spacing, load, slip, speed, relative curvature,
-    pressure and the depth of the last update.
+    normals, curvature, squared spacing, load, slip, speed, relative curvature
+    and the depth of the last update.
     """
     normal_x, normal_y, curvature, spacing_squared = work[0], work[1], work[2], work[3]
     load, slip, speed, relative = work[4], work[5], work[6], work[7]
-    pressure, step = work[8], work[9]
-    n = x.size
+    step, n = work[8], x.size
     done[0] = 0.0
     for update in range(updates):
         flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared)
         contact(x, y, normal_x, normal_y, curvature, depth, constants, columns, load, slip, speed, relative)
-        wear_depth(load, slip, speed, relative, modulus, law, pressure, step)
+        wear_depth(load, slip, speed, relative, modulus, law, step)
         soften_edges(depth, law, step)
         if cycles_per_update != 1.0:
             for j in range(n):

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from wearsim.geometry.profile_points import Vector
 
-WORK_ROWS = 19
-"""Of the table to work in; its first ten are those of ``flank_rate``."""
+WORK_ROWS = 18
+"""Of the table to work in; its first nine are those of ``flank_rate``."""
 
 GAMMA = 4.3586652150845900e-01
 """Diagonal of the method, the root of x^3 - 3 x^2 + 3 x/2 - 1/6 that makes it L-stable."""
@@ -82,7 +82,7 @@ def slope_rate(
     law: Vector,
     work: Vector,
 ) -> None:
-    """Write d(rate)/d(slope of the depth) of every point to ``work[10]``: the normals turn by the slope.
+    """Write d(rate)/d(slope of the depth) of every point to ``work[9]``: the normals turn by the slope.
 
     The contact is asked with all normals of a state of the path turned towards the tip.
     """
@@ -105,11 +105,11 @@ def slope_rate(
         work[6],
         work[7],
     )
-    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8], work[9])
-    soften_edges(start[2], law, work[9])
+    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8])
+    soften_edges(start[2], law, work[8])
     for j in range(n):
-        moved = (work[9, j] - start[3, j]) / TURN
-        work[10, j] = moved if start[3, j] > 0.0 and abs(moved) < math.inf else 0.0
+        moved = (work[8, j] - start[3, j]) / TURN
+        work[9, j] = moved if start[3, j] > 0.0 and abs(moved) < math.inf else 0.0
 
 
 @kernel(void(TABLE, VECTOR, float64, int64, TABLE))
@@ -175,13 +175,13 @@ def stage_increment(
     """Write the increment of a stage from the rate there.
 
     The matrix acts along the normals at the start of the step (``start``: a state of the
-    path), on the depth along them; ``work[10]`` takes that part of the increment.
+    path), on the depth along them; ``work[9]`` takes that part of the increment.
     """
-    normal_x, normal_y, part = start[4], start[5], work[10]
+    normal_x, normal_y, part = start[4], start[5], work[9]
     n, own = normal_x.size, increments[stage]
     x, y, depth = own[:n], own[n : 2 * n], own[2 * n :]
     for j in range(n):
-        depth[j] = GAMMA * step * work[9, j]
+        depth[j] = GAMMA * step * work[8, j]
         x[j] = -depth[j] * work[0, j]
         y[j] = -depth[j] * work[1, j]
     for s in range(stage):
@@ -232,13 +232,13 @@ def rosenbrock_step(
 
     Points are hard or soft all the step long, as they are at its start.
     """
-    rows, factors = work[11:15], work[15:19]
+    rows, factors = work[10:14], work[14:18]
     begin, to = start[:3].ravel(), trial.ravel()
     slope_rate(contact, start, constants, columns, modulus, law, work)
-    wear_rows(start, work[10], diffusion, ends, rows)
+    wear_rows(start, work[9], diffusion, ends, rows)
     factorise(rows, GAMMA * step, factors)
     for j in range(start.shape[1]):
-        work[9, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]
+        work[8, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]
     for stage in range(STAGES):
         if stage > 0:
             stage_state(begin, increments, stage, to)

@@ -205,7 +205,7 @@ class _Solve:
             raise no_sliding(cycles)
         if status == SAWTOOTH:
             check_sawtooth(contact, depth, cycles, self.problem.stop_limits[0].limit)
-        broken = ~np.isfinite(self.work[9])
+        broken = ~np.isfinite(self.work[8])
         place = contact.arc_length[int((broken if broken.any() else path[-1, 3]).argmax())]
         kind = _TooManyStepsError if status == RUNNING else ConvergenceError
         raise kind(

@@ -90,7 +90,7 @@ class _CycleRun:
 
     @property
     def last_step(self) -> Vector:
-        return np.asarray(self.work[9])
+        return np.asarray(self.work[8])
 
     def wear(self, depth: float, updates: int) -> None:
         """Update until a depth is reached, at most so often; raise what the kernel found."""

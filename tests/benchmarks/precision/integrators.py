@@ -45,7 +45,7 @@ from wearsim.kernels.signatures import (
 )
 from wearsim.kernels.tridiagonal import factorise, solve
 
-WORK_ROWS, REPORT = 20, 19
+WORK_ROWS, REPORT = 19, 18
 """Of ``work``; the last row holds the evaluations of a step."""
 
 POWER, ERROR_POWER, BEFORE_POWER, PREVIOUS, CONTROL = 0, 1, 2, 3, 4
@@ -60,9 +60,9 @@ def write_rate(work, rate):
     """Write what x, y and depth lose and gain in a cycle, after ``flank_rate``."""
     n = rate.size // 3
     for j in range(n):
-        rate[j] = -work[9, j] * work[0, j]
-        rate[n + j] = -work[9, j] * work[1, j]
-        rate[2 * n + j] = work[9, j]
+        rate[j] = -work[8, j] * work[0, j]
+        rate[n + j] = -work[8, j] * work[1, j]
+        rate[2 * n + j] = work[8, j]
 
 
 @kernel(void(TABLE, VECTOR))
@@ -97,13 +97,13 @@ def ros2_step(
     contact, start, constants, columns, modulus, law, diffusion, ends, step, work, trial, increments
 ):
     """Verwer's two-stage W-method of order 2; error against linearly implicit Euler."""
-    rows, factors, begin, to = work[11:15], work[15:19], start[:3].ravel(), trial.ravel()
+    rows, factors, begin, to = work[10:14], work[14:18], start[:3].ravel(), trial.ravel()
     first, second = increments[0], increments[1]
     slope_rate(contact, start, constants, columns, modulus, law, work)
-    wear_rows(start, work[10], diffusion, ends, rows)
+    wear_rows(start, work[9], diffusion, ends, rows)
     factorise(rows, ROS2_GAMMA * step, factors)
     write_start_rate(start, first)
-    solve_along(start, factors, work[10], first)
+    solve_along(start, factors, work[9], first)
     for j in range(to.size):
         to[j] = begin[j] + step * first[j]
     work[REPORT, 0] = 2.0
@@ -112,7 +112,7 @@ def ros2_step(
     write_rate(work, second)
     for j in range(to.size):
         second[j] -= 2.0 * first[j]
-    solve_along(start, factors, work[10], second)
+    solve_along(start, factors, work[9], second)
     greatest, total = 0.0, 0.0
     for j in range(to.size):
         to[j] = begin[j] + step * (1.5 * first[j] + 0.5 * second[j])
@@ -127,18 +127,18 @@ def euler_step(
     contact, start, constants, columns, modulus, law, diffusion, ends, step, work, trial, increments
 ):
     """Linearly implicit Euler, one step against two halves, extrapolated to order 2."""
-    rows, factors, begin, to = work[11:15], work[15:19], start[:3].ravel(), trial.ravel()
+    rows, factors, begin, to = work[10:14], work[14:18], start[:3].ravel(), trial.ravel()
     whole, half, other = increments[0], increments[1], increments[2]
     slope_rate(contact, start, constants, columns, modulus, law, work)
-    wear_rows(start, work[10], diffusion, ends, rows)
+    wear_rows(start, work[9], diffusion, ends, rows)
     factorise(rows, step, factors)
     write_start_rate(start, whole)
     for j in range(to.size):
         whole[j] *= step
         half[j] = 0.5 * whole[j]
-    solve_along(start, factors, work[10], whole)
+    solve_along(start, factors, work[9], whole)
     factorise(rows, 0.5 * step, factors)
-    solve_along(start, factors, work[10], half)
+    solve_along(start, factors, work[9], half)
     for j in range(to.size):
         to[j] = begin[j] + half[j]
     work[REPORT, 0] = 2.0
@@ -147,7 +147,7 @@ def euler_step(
     write_rate(work, other)
     for j in range(to.size):
         other[j] *= 0.5 * step
-    solve_along(start, factors, work[10], other)
+    solve_along(start, factors, work[9], other)
     greatest, total = 0.0, 0.0
     for j in range(to.size):
         to[j] = begin[j] + 2.0 * (half[j] + other[j]) - whole[j]
@@ -175,8 +175,8 @@ def chebyshev_step(
     begin, to = start[:3].ravel(), trial.ravel()
     older, old, first, rate = increments[0], increments[1], increments[2], increments[3]
     slope_rate(contact, start, constants, columns, modulus, law, work)
-    wear_rows(start, work[10], diffusion, ends, work[11:15])
-    stages = max(2, 1 + int(math.sqrt(1.0 + 1.54 * step * spectral_radius(start, work[11:15]))))
+    wear_rows(start, work[9], diffusion, ends, work[10:14])
+    stages = max(2, 1 + int(math.sqrt(1.0 + 1.54 * step * spectral_radius(start, work[10:14]))))
     w = 1.0 + 2.0 / 13.0 / (stages * stages)
     root, angle = math.sqrt(w * w - 1.0), stages * math.acosh(w)
     shift = math.sinh(angle) * (w * w - 1.0) / (math.cosh(angle) * stages * root - w * math.sinh(angle))
@@ -265,7 +265,7 @@ def wear_under_control(
     clock[RATES] += 1.0
     fastest, power = 0.0, control[POWER]
     for j in range(state.shape[1]):
-        fastest = max(fastest, work[9, j])
+        fastest = max(fastest, work[8, j])
     clock[NEXT_STEP] = FIRST_STEP * tolerance**power * depth_limit / fastest
     control[PREVIOUS] = 1.0
     while True:

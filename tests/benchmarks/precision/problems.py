@@ -18,7 +18,7 @@ from wearsim.contact.stop_limits import depth_limit
 from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften_edges, wear_depth
-from wearsim.kernels.per_cycle_loop import run_cycles
+from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import WearLaw, archard, power
@@ -151,7 +151,7 @@ class Rate:
         self.problem, points = problem, problem.contact.profile.x.size
         self.numbers, self.calls = problem.numbers, 0
         self.frame, self.touch = np.empty((4, points)), np.empty((4, points))
-        self.pressure, self.step = np.empty(points), np.empty(points)
+        self.step = np.empty(points)
 
     def __call__(self, time, state):
         self.calls += 1
@@ -166,7 +166,7 @@ class Rate:
         load, slip, speed, relative = self.touch
         # A trial of the solver may conform where the solution does not.
         np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
-        wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.pressure, self.step)
+        wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.step)
         soften_edges(depth, self.numbers, self.step)
         rate = np.empty((self.step.size, 3))
         rate[:, 0], rate[:, 1], rate[:, 2] = -self.step * normal_x, -self.step * normal_y, self.step
@@ -222,7 +222,7 @@ def every_cycle(problem):
 def by_updates(problem, cycles):
     """Explicit updates of so many cycles by the general loop; the last is interpolated."""
     contact, (x, y, depth) = problem.contact, problem.start()
-    work, done = np.zeros((10, x.size)), np.zeros(1)
+    work, done = np.zeros((CYCLES_ROWS, x.size)), np.zeros(1)
     begin = perf_counter()
     status = run_cycles(
         contact.kernel,
@@ -243,5 +243,5 @@ def by_updates(problem, cycles):
     seconds = perf_counter() - begin
     if status != DEPTH_REACHED:
         return Run(math.nan, int(done[0]), seconds)
-    beyond = float(((depth - problem.limit) / work[9])[depth >= problem.limit].max())
+    beyond = float(((depth - problem.limit) / work[8])[depth >= problem.limit].max())
     return Run((done[0] - beyond) * cycles, int(done[0]), seconds)
