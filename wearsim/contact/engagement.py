@@ -66,17 +66,11 @@ class FlankContact:
 
     def coarsened(self) -> "FlankContact":
         """Return the same contact on about every second point."""
-        points = self.profile.x.size
-        keep = np.unique(np.linspace(0, points - 1, max(3, (points + 1) // 2)).round().astype(int))
+        profile, keep = self.profile.thinned()
         columns = self.columns
-        if columns.shape[1] == points:
+        if columns.shape[1] == self.profile.x.size:
             columns = np.ascontiguousarray(columns[:, keep])
-        return replace(
-            self,
-            profile=Profile(self.profile.x[keep], self.profile.y[keep]),
-            arc_length=self.arc_length[keep],
-            columns=columns,
-        )
+        return replace(self, profile=profile, arc_length=self.arc_length[keep], columns=columns)
 
     def engage(self, x: Vector, y: Vector, depth: Vector) -> Engagement:
         """Return the engagement of a worn flank."""

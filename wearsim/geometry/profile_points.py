@@ -11,6 +11,7 @@ from wearsim.errors import GeometryError
 from wearsim.kernels.flank_geometry import flank_frame
 
 Vector = NDArray[np.float64]
+Places = NDArray[np.int64]
 
 _END_PIECES, _END_PARTS = 8, 40
 """Pieces of the first and the last interval of a flank with fine ends, and 1 over the part of the
@@ -161,6 +162,17 @@ class Profile:
         """
         return _with_fine_ends(self, intervals)
 
+    def thinned(self) -> tuple["Profile", Places]:
+        """Return about every second point, with both ends, and which of the points these are.
+
+        Examples
+        --------
+        >>> thin, places = Profile(np.arange(5.0), np.zeros(5)).thinned()
+        >>> thin.x.tolist(), places.tolist()
+        ([0.0, 2.0, 4.0], [0, 2, 4])
+        """
+        return _thinned(self)
+
     @property
     def is_simple(self) -> bool:
         """Whether the line through the points neither crosses nor touches itself."""
@@ -181,6 +193,15 @@ class Profile:
         parts = shapely.node(shapely.LineString(np.column_stack([self.x, self.y])))
         where = parts.geoms[0].coords[-1]
         return int(np.hypot(self.x - where[0], self.y - where[1]).argmin())
+
+
+@lru_cache(maxsize=64)
+def _thinned(flank: Profile) -> tuple[Profile, Places]:
+    """Take about every second point; cases of a study share their flank."""
+    points = flank.x.size
+    keep = np.unique(np.linspace(0, points - 1, max(3, (points + 1) // 2)).round().astype(int))
+    keep.setflags(write=False)
+    return Profile(flank.x[keep], flank.y[keep]), keep
 
 
 @lru_cache(maxsize=64)

@@ -15,7 +15,7 @@ from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
-from wearsim.simulation.wear_task import WearTask, wear_task
+from wearsim.simulation.wear_task import WearTask, wear_tasks
 from wearsim.wear.accuracy import depth_missed
 from wearsim.wear.flank_batch import BatchFlank, BatchResult, advance_batch
 
@@ -126,7 +126,7 @@ class _CaseJob:
         self.wanted = self._wanted(next(self._search))
 
     def _wanted(self, contacts: list[FlankContact]) -> list[_FlankJob]:
-        return [_FlankJob(wear_task(self._case, contact)) for contact in contacts]
+        return [_FlankJob(task) for task in wear_tasks(self._case, contacts)]
 
     def send(self, flanks: Sequence[BatchResult | None]) -> None:
         """Go on with what came of the flanks, if that tells all of the case's own life."""

@@ -1,7 +1,7 @@
 """What a case asks of the wear engine: its law, its limits, and a flank to wear."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,12 +40,23 @@ class WearTask:
 
 
 def wear_task(case: Case, contact: FlankContact) -> WearTask:
-    """Return what a case asks of the wear engine."""
+    """Return what a case asks of the wear engine on one flank."""
+    [task] = wear_tasks(case, [contact])
+    return task
+
+
+def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask]:
+    """Return what a case asks of the wear engine on each of some flanks."""
+    law = _law(case)
+    return [_task(case, law, contact) for contact in contacts]
+
+
+def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
     runs_in = case.wear.running_in_factor != 1.0
     running_in = case_running_in(case.wear, _sliding_per_cycle(case, contact) if runs_in else 0.0)
     return WearTask(
         contact,
-        replace(_law(case), running_in=running_in),
+        replace(law, running_in=running_in),
         case.drive.stop_limits(case, contact),
         running_in,
         running_in.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
