@@ -43,7 +43,7 @@ CELL_ROWS = 3
 _MARGIN = 0.002
 """Distance within which cells are looked at, in radii of the roller; the first longest step too."""
 
-_MAX_ITERATIONS = 400
+_MAX_ITERATIONS = 4000
 _MAX_DRAGS = 60
 _STIFFEST = 1e14
 _ROUNDING = 1e-11
@@ -113,7 +113,8 @@ def foundation_force(
     """Write force per width on a roller, its stiffness, energy and the width that presses.
 
     A cell presses along the line to the roller's centre with (overlap + recess)/compliance.
-    ``holds`` 1: the cells that have a pressure in ``held`` press or pull, no others.
+    ``holds`` 1: the cells that have a pressure in ``held`` press or pull, no others; 0: what presses is
+    written there.
 
     Equation physics.md (W15).
     """
@@ -130,6 +131,8 @@ def foundation_force(
             distance = math.sqrt(dx * dx + dy * dy)
             cells[_FORCE, j] = max(radius - distance + recess[j], 0.0) / compliance[j] * width[j]
             cells[_ACROSS, j], cells[_UP, j] = dx / distance, dy / distance
+        for j in range(first, last):
+            held[j] = cells[_FORCE, j]
     fx, fy, xx, xy, yy, stored, pressed = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(first, last):
         force = cells[_FORCE, j]
@@ -180,7 +183,7 @@ def wrap_balance(
     width: Vector,
     compliance: Vector,
     recess: Vector,
-    pressures: Vector,
+    held: Vector,
     holds: int,
     radius: float,
     face_width: float,
@@ -211,7 +214,7 @@ def wrap_balance(
             radius,
             work[_TRIAL_X, i],
             work[_TRIAL_Y, i],
-            pressures[event + i],
+            held[i],
             holds,
             cells,
             out,
@@ -398,8 +401,8 @@ def balance_rollers(
     that pressed last are held in the first step, so that a roller which the tooth has receded
     from comes back to it at once.
     """
-    found = cells[CELL_ROWS + 1]
-    bodies, longest = x.shape[0], _MARGIN * radius
+    found, tried = cells[CELL_ROWS + 1], cells[CELL_ROWS + 2 :]
+    bodies, longest, came_upon = x.shape[0], _MARGIN * radius, 0
     for i in range(rollers):
         work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
         work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
@@ -421,7 +424,7 @@ def balance_rollers(
             width,
             compliance,
             recess,
-            pressures,
+            pressures[event : event + rollers],
             1,
             radius,
             face_width,
@@ -449,7 +452,7 @@ def balance_rollers(
         width,
         compliance,
         recess,
-        pressures,
+        tried,
         0,
         radius,
         face_width,
@@ -498,7 +501,7 @@ def balance_rollers(
             width,
             compliance,
             recess,
-            pressures,
+            tried,
             0,
             radius,
             face_width,
@@ -508,19 +511,22 @@ def balance_rollers(
         )
         left = largest_of(rollers, _RIGHT_X, work)
         level = abs(after - energy) <= _ROUNDING * abs(energy)
-        if after <= energy + 1e-4 * slope or (level and left < error):
-            gain = 1.0 if level else (after - energy) / slope
+        falls = after < energy if came_upon == 1 else after <= energy + 1e-4 * slope
+        if falls or (level and left < error):
+            gain = 1.0 if level or came_upon == 1 else (after - energy) / slope
+            came_upon = 0
             longest *= 3.0 if gain > 0.75 else (0.5 if gain < 0.25 else 1.0)
             for i in range(rollers):
                 seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
             energy, error = after, left
         else:
-            longest = 0.25 * step
+            # The cells that the step came upon press or pull in the next one.
+            longest, came_upon = 0.25 * step, 1
             if longest < 1e-13 * radius:
                 return STALLED
             for i in range(rollers):
                 work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
-            energy = wrap_balance(
+            wrap_balance(
                 event,
                 rollers,
                 kind,
@@ -532,8 +538,8 @@ def balance_rollers(
                 width,
                 compliance,
                 recess,
-                pressures,
-                0,
+                tried,
+                1,
                 radius,
                 face_width,
                 seats,

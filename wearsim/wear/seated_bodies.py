@@ -95,20 +95,24 @@ class SeatedBodies(WornBodies):
             if works is not None:
                 self._accept(works, cycles)
                 return float((self.depth - before).max())
-            if halving == 0:
-                # Where they rested may be far from where they will: all are seated anew.
-                self.seating.seat(self.works, self.x, self.y, self.wear)
-                kept = self.seating.kept()
-            else:
+            if halving > 0 or not self._seated_anew():
                 self.seating.restore(kept)
                 cycles *= 0.5
-            self.growth = None
+            kept, self.growth = self.seating.kept(), None
         if self.seating.jumps(self.x, self.y, self._chain(cycles)):
             raise JumpError(f"contact at cycle {self.cycles:.6g}: the chain jumps on the worn teeth")
         raise ConvergenceError(
             f"wear at cycle {self.cycles:.6g}: the places and pressures of all rollers must be found, but "
             "are not: use other nodes or phases"
         )
+
+    def _seated_anew(self) -> bool:
+        """Seat the mates where they rest, which may be far from where they rested; whether they are found."""
+        try:
+            self.seating.seat(self.works, self.x, self.y, self.wear)
+        except ConvergenceError:
+            return False
+        return True
 
     def _chain(self, cycles: float, hard_area: float | None = None) -> ChainWear:
         """Return what the chain will have lost, by default to gaps that wear as fast as in the last step."""

@@ -132,7 +132,7 @@ class WrapSeating(PressedPlaces):
         self.outlines = np.zeros((OUTLINES * contact.bodies, points))
         self.compliance, self.recess = np.ones((most, points)), np.zeros((most, points))
         self.work = np.zeros((SEAT_WORK_ROWS, most))
-        self.cells = np.zeros((CELL_ROWS + 2, max(points, 8)))
+        self.cells = np.zeros((CELL_ROWS + 2 + most, max(points, 8)))
         self.sums = np.zeros((3 + contact.bodies, points + 1))
         self.blocks = np.zeros((len(contact.blocks), BLOCK_ROWS))
         self.numbers = self._numbers(law)
