@@ -464,18 +464,17 @@ def balance_rollers(
     for _ in range(_MAX_ITERATIONS):
         if error <= tolerance:
             return SEATED
-        step, shift = 0.0, 0.0
-        while True:
-            if wrap_step(rollers, shift, work) == 0:
-                step = largest_of(rollers, _STEP_X, work)
-                if step <= longest:
-                    break
-                shift *= 4.0 if step < 8.0 * longest else 16.0
-            else:
-                shift *= 16.0
-            shift = max(shift, 1e-4 * constants[STIFFNESS])
+        shift = 0.0
+        while wrap_step(rollers, shift, work) != 0:
+            shift = max(16.0 * shift, 1e-4 * constants[STIFFNESS])
             if shift > _STIFFEST:
                 return STALLED
+        whole = largest_of(rollers, _STEP_X, work)
+        step = min(whole, longest)
+        if step < whole:
+            for i in range(rollers):
+                work[_STEP_X, i] *= step / whole
+                work[_STEP_Y, i] *= step / whole
         slope = 0.0
         for i in range(rollers):
             body = (i + kind) % bodies
