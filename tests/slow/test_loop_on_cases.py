@@ -16,6 +16,11 @@ pytestmark = pytest.mark.slow
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 
+HALF_SPACE = 0.025
+"""What a life of a wrap moves by, relative, as the loop presses its rollers on a half-space and the steps
+press them on an elastic foundation: 2.2 % at most, on a40-19t-rating, where loops of 2500 to 20 000 cycles
+agree to 0.3 %."""
+
 CYCLES = 1e4
 MORE_CYCLES = dict.fromkeys(
     (
@@ -52,5 +57,6 @@ def test_both_methods_agree_within_the_stated_error(path, monkeypatch):
     stepped, loop = (wearsim.simulate(raised(case, method, factor)) for method in ("advance", "per_cycle"))
     assert loop.updates == pytest.approx(cycles, rel=0.1)
     assert loop.stop == stepped.stop
+    allowed = stepped.numerical_error + (HALF_SPACE if case.drive.rests else 0.0)
     # Half a cycle is what the loop can tell.
-    assert stepped.cycles_run == pytest.approx(loop.cycles_run, rel=stepped.numerical_error, abs=0.5)
+    assert stepped.cycles_run == pytest.approx(loop.cycles_run, rel=allowed, abs=0.5)
