@@ -26,7 +26,8 @@ from wearsim.cli.profile import profile
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
-from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
+from wearsim.cli.warm import warm
+from wearsim.command.options import BAD_INPUT, announce_compiling, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 from wearsim.handbook.convex_concave.command import convex_concave
 from wearsim.handbook.face_load.command import face_load
@@ -69,6 +70,7 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 @common_options
 def wearsim_command() -> None:
     """Group of all commands."""
+    announce_compiling()
 
 
 for _command in (
@@ -100,6 +102,7 @@ for _command in (
     list_table,
     cite,
     doctor,
+    warm,
     completion,
 ):
     wearsim_command.add_command(_command)

@@ -63,7 +63,13 @@ def warn(text: str) -> None:
 
 @contextmanager
 def working(text: str) -> Iterator[Callable[[float], None]]:
-    """Show on a terminal's stderr that something is under way, and the time left once that is known."""
+    """Show on a terminal's stderr that something is under way, and the time left once that is known.
+
+    What it is going to call is compiled before, which has a bar of its own.
+    """
+    from wearsim.kernels.compiled import compile_expected
+
+    compile_expected()
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
         yield lambda part: None
@@ -86,6 +92,20 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
             bar.update(task, completed=part, total=1.0)
 
         yield report_progress
+
+
+def announce_compiling() -> None:
+    """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
+    from wearsim.kernels.compiled import Calls, compile_by
+
+    context = click.get_current_context()
+
+    def compile_together(calls: Calls) -> None:
+        from wearsim.command.compile_ahead import compile_ahead
+
+        compile_ahead(context, calls)
+
+    compile_by(compile_together)
 
 
 def worn(case: "Case") -> "WearResult":
