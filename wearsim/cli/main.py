@@ -27,7 +27,7 @@ from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
 from wearsim.cli.warm import warm
-from wearsim.command.options import BAD_INPUT, announce_compiling, common_options, exit_code, show_error
+from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 from wearsim.handbook.convex_concave.command import convex_concave
 from wearsim.handbook.face_load.command import face_load
@@ -63,6 +63,20 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 4 --require-hours or --strict not met, 5 some of several cases failed,
 130 interrupted, 141 closed pipe.
 """
+
+
+def announce_compiling() -> None:
+    """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
+    from wearsim.kernels.compiled import Calls, compile_by
+
+    context = click.get_current_context()
+
+    def compile_together(calls: Calls) -> None:
+        from wearsim.command.compile_ahead import compile_ahead
+
+        compile_ahead(context, calls)
+
+    compile_by(compile_together)
 
 
 @click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})

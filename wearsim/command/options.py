@@ -94,20 +94,6 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
         yield report_progress
 
 
-def announce_compiling() -> None:
-    """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
-    from wearsim.kernels.compiled import Calls, compile_by
-
-    context = click.get_current_context()
-
-    def compile_together(calls: Calls) -> None:
-        from wearsim.command.compile_ahead import compile_ahead
-
-        compile_ahead(context, calls)
-
-    compile_by(compile_together)
-
-
 def worn(case: "Case") -> "WearResult":
     """Run a case and show on a terminal how far it is."""
     from wearsim.simulation import simulate

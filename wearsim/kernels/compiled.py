@@ -20,7 +20,7 @@ import sys
 import tempfile
 import threading
 from collections.abc import Callable, Iterable
-from functools import cached_property, update_wrapper
+from functools import cache, cached_property, update_wrapper
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
@@ -82,6 +82,12 @@ def _temporary_folder() -> Path | None:
     except (AttributeError, OSError):  # no user numbers on this system; no temporary folder at all
         return None
     return folder if _private(folder) else None
+
+
+@cache
+def _folder() -> Path | None:
+    """Return the folder of this process, which stays where it is."""
+    return cache_folder()
 
 
 _COMPILING = threading.RLock()
@@ -169,7 +175,7 @@ def not_in_cache(kernels: Iterable[Kernel]) -> Calls:
     import numba
 
     config: Any = numba.config
-    folder = cache_folder()
+    folder = _folder()
     if folder is None or config.DISABLE_JIT:
         return {}
     kept = {path.name.partition("-")[0] for path in folder.rglob("*.nbi")}
@@ -223,7 +229,7 @@ def _compile(of: Kernel) -> Callable[..., Any]:
     # Where a kernel calls another one numba finds that one's compiled form.
     typeof_impl.register(Kernel, lambda other, context: typeof_impl(other.compiled, context))
     config: Any = numba.config
-    before, folder = config.CACHE_DIR, cache_folder()
+    before, folder = config.CACHE_DIR, _folder()
     config.CACHE_DIR = str(folder) if folder else before
     collecting = gc.isenabled()
     # A tenth of the time would go into looking through objects that all are still needed.
