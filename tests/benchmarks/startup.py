@@ -96,7 +96,7 @@ def page(roots: list[Path]) -> Iterator[str]:
     yield ""
     yield "## Kernels"
     yield ""
-    yield "Seconds of a processor to compile each, without those that it calls; all others below 0.3 s."
+    yield "Seconds of a processor to compile each, without those that it calls; the others take less than 0.3 s each."
     yield ""
     yield "| kernel | s |"
     yield "|---|---|"
