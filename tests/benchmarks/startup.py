@@ -79,6 +79,7 @@ def page(roots: list[Path]) -> Iterator[str]:
     yield "## Commands"
     yield ""
     yield "Seconds of a processor, of all processes together, and in brackets those on a clock (medians)."
+    yield "With an empty cache two processes compile: where both times agree they shared one core."
     yield ""
     before = len(roots) > 1
     yield "| command | before | now |" if before else "| command | now |"
@@ -96,7 +97,7 @@ def page(roots: list[Path]) -> Iterator[str]:
     yield ""
     yield "## Kernels"
     yield ""
-    yield "Seconds of a processor to compile each, without those that it calls; the others take less than 0.3 s each."
+    yield "Seconds of a processor to compile each, without those that it calls; others take less than 0.3 s."
     yield ""
     yield "| kernel | s |"
     yield "|---|---|"

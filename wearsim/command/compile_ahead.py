@@ -1,10 +1,11 @@
 """Kernels that the cache does not hold, compiled side by side before a run, and what is said of it."""
 
+import contextlib
 import math
 import os
 import sys
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from graphlib import TopologicalSorter
 
 import click
@@ -45,7 +46,7 @@ def seconds_to_compile(calls: Calls) -> float:
 
 
 def compile_side_by_side(calls: Calls, report_progress: Callable[[float], None]) -> None:
-    """Compile kernels in several processes, so that the cache holds them.
+    """Compile kernels in this process and in others, so that the cache holds them.
 
     Parameters
     ----------
@@ -54,27 +55,55 @@ def compile_side_by_side(calls: Calls, report_progress: Callable[[float], None])
     report_progress : callable
         Takes the part that is done, from 0 to 1.
     """
-    order, waits = TopologicalSorter(calls), _waits(calls)
-    order.prepare()
-    total, done = sum(_seconds(one) for one in calls), 0.0
-    ready: list[Kernel] = []
-    running: dict[Future[None], Kernel] = {}
-    with Processes(_processes()).open() as (executor, count):
+    others = _processes() - 1
+    if not others:
+        _Schedule(calls, report_progress).compile_here()
+        return
+    # Where a process dies what is missing is compiled when it is called.
+    with contextlib.suppress(BrokenExecutor), Processes(others).open() as (executor, _):
+        _Schedule(calls, report_progress).compile_with(executor, others)
+
+
+class _Schedule:
+    """Kernels in an order in which each comes after those that it calls."""
+
+    def __init__(self, calls: Calls, report_progress: Callable[[float], None]) -> None:
+        self._waits, self._report_progress = _waits(calls), report_progress
+        self._order, self._ready = TopologicalSorter(calls), list[Kernel]()
+        self._done, self._total = 0.0, sum(map(_seconds, calls))
+        self._order.prepare()
+
+    def _next(self) -> Kernel | None:
+        """Return the kernel that others wait for longest, of those that can be compiled now."""
+        self._ready = sorted([*self._ready, *self._order.get_ready()], key=self._waits.__getitem__)
+        return self._ready.pop() if self._ready else None
+
+    def _finish(self, one: Kernel) -> None:
+        self._order.done(one)
+        self._done += _seconds(one)
+        self._report_progress(self._done / self._total)
+
+    def compile_here(self) -> None:
+        """Compile one after the other."""
+        while one := self._next():
+            _compile(one)
+            self._finish(one)
+
+    def compile_with(self, executor: Executor, others: int) -> None:
+        """Compile here what the processes of an executor do not; each of these has one that waits."""
+        running: dict[Future[None], Kernel] = {}
         try:
-            while order.is_active():
-                ready = sorted([*ready, *order.get_ready()], key=waits.__getitem__)
-                while ready and len(running) < count:
-                    one = ready.pop()
+            while self._order.is_active():
+                one = self._next()
+                if one and len(running) < 2 * others:
                     running[executor.submit(_compile, one)] = one
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    one = running.pop(future)
+                    continue
+                if one:
+                    _compile(one)
+                    self._finish(one)
+                for future in wait(running, 0.0 if one else None, FIRST_COMPLETED).done:
                     future.result()
-                    order.done(one)
-                    done += _seconds(one)
-                    report_progress(done / total)
-        except BrokenExecutor:
-            # What is missing is compiled when it is called.
-            return
+                    self._finish(running.pop(future))
         finally:
             for future in running:
                 future.cancel()
