@@ -37,6 +37,10 @@ def test_tables_load_nothing_heavy():
     assert loaded("list", "chains") == set()
 
 
+def test_check_of_a_strand_compiles_nothing(drive):
+    assert loaded("check", drive()) == {"numpy", "shapely"}
+
+
 def test_life_loads_neither_pandas_nor_matplotlib_nor_pint(drive):
     assert loaded("life", drive()) & {"pandas", "matplotlib", "pint"} == set()
     assert loaded("life", "--json", drive()) & {"pandas", "matplotlib", "pint"} == set()

@@ -116,7 +116,7 @@ def wraps():
 
 def numbers():
     """All numbers of this mode by name of the run."""
-    found = {"interpreted": [float(isinstance(run_cycles, FunctionType))]}
+    found = {"interpreted": [float(isinstance(run_cycles.compiled, FunctionType))]}
     with tempfile.TemporaryDirectory() as folder:
         for name, tables in lives(Path(folder)):
             result = wearsim.simulate(wearsim.load_case(tables))

@@ -193,10 +193,32 @@ def test_users_own_cache_folder_is_left_alone(tmp_path, monkeypatch):
     assert doubled(21.0) == 42.0
     assert str(tmp_path) == numba.config.CACHE_DIR
     assert not list(tmp_path.iterdir())
-    monkeypatch.setattr(compiled.numba, "njit", lambda *args, **kwargs: 1 / 0)
+    monkeypatch.setattr(numba, "njit", lambda *args, **kwargs: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        kernel(float64(float64))(lambda value: value)
+        kernel(float64(float64))(lambda value: value)(1.0)
     assert str(tmp_path) == numba.config.CACHE_DIR
+
+
+FRAMES = """
+import sys
+import numpy as np
+from wearsim.kernels.flank_geometry import flank_frame
+
+angle = np.linspace(0.0, 2.0, 37) ** 2
+x, y = 50.0 * np.cos(angle) + 0.01 * np.sin(90.0 * angle), 49.0 * np.sin(angle)
+quick, compiled = np.empty((2, 4, 37))
+flank_frame(x, y, *quick)
+assert "numba" not in sys.modules
+# Points that turn back on themselves have no circle: Python raises, compiled code goes on.
+flank_frame(np.array([0.0, 1.0, 0.0]), np.zeros(3), *np.empty((4, 3)))
+assert "numba" in sys.modules
+flank_frame(x, y, *compiled)
+print(float(quick.tobytes() == compiled.tobytes()), None, sep="\\n")
+"""
+
+
+def test_quick_kernels_give_the_same_bits_before_numba_is_loaded():
+    assert life(Path(wearsim.__file__).parents[1], script=FRAMES) == (1.0, None)
 
 
 def test_hash_is_of_every_kernel_source_and_of_the_versions(package, monkeypatch):

@@ -6,6 +6,7 @@ from wearsim.case.model import Case
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.other_files import check_command
+from wearsim.kernels.compiled import expect
 
 
 def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
@@ -44,5 +45,7 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     document = read_document(source, overrides)
     check_command(document.data, document.faults.file, "life")
     # Models of tables and of geometry take time to import: only those of one mechanism are.
-    read: Callable[[Document], Case] = mechanism_of(document.data).load("read")
+    mechanism = mechanism_of(document.data)
+    read: Callable[[Document], Case] = mechanism.load("read")
+    expect(mechanism.kernels)
     return read(document)

@@ -26,6 +26,7 @@ from wearsim.cli.profile import profile
 from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
+from wearsim.cli.warm import warm
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 from wearsim.handbook.convex_concave.command import convex_concave
@@ -64,11 +65,26 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 """
 
 
+def announce_compiling() -> None:
+    """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
+    from wearsim.kernels.compiled import Calls, compile_by
+
+    context = click.get_current_context()
+
+    def compile_together(calls: Calls) -> None:
+        from wearsim.command.compile_ahead import compile_ahead
+
+        compile_ahead(context, calls)
+
+    compile_by(compile_together)
+
+
 @click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="wearsim")
 @common_options
 def wearsim_command() -> None:
     """Group of all commands."""
+    announce_compiling()
 
 
 for _command in (
@@ -100,6 +116,7 @@ for _command in (
     list_table,
     cite,
     doctor,
+    warm,
     completion,
 ):
     wearsim_command.add_command(_command)

@@ -63,7 +63,13 @@ def warn(text: str) -> None:
 
 @contextmanager
 def working(text: str) -> Iterator[Callable[[float], None]]:
-    """Show on a terminal's stderr that something is under way, and the time left once that is known."""
+    """Show on a terminal's stderr that something is under way, and the time left once that is known.
+
+    What it is going to call is compiled before, which has a bar of its own.
+    """
+    from wearsim.kernels.compiled import compile_expected
+
+    compile_expected()
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
     if quiet or not sys.stderr.isatty():
         yield lambda part: None

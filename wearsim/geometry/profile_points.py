@@ -1,7 +1,7 @@
 """A flank as a row of points, with its normals and signed curvature."""
 
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
@@ -95,11 +95,6 @@ class Profile:
     # gap lies to the right of the direction of travel
     x: Vector
     y: Vector
-    # normal_x, normal_y: unit normal into the gap, of the circle through a point and its neighbours (at the
-    # ends of the parabola through the three end points)
-    normal_x: Vector = field(init=False)
-    normal_y: Vector = field(init=False)
-    curvature: Vector = field(init=False)  # signed curvature [1/mm], positive where the flank is convex
 
     def __post_init__(self) -> None:
         x, y = _vector(self.x), _vector(self.y)
@@ -116,11 +111,33 @@ class Profile:
                 f"profile: successive points must differ, points {gaps.argmin() + 1} and "
                 f"{gaps.argmin() + 2} coincide: remove one"
             )
-        frame = np.empty((4, x.size))
-        flank_frame(x.copy(), y.copy(), *frame)
-        values = (x, y, *(_vector(row) for row in frame[:3]))
-        for name, value in zip(("x", "y", "normal_x", "normal_y", "curvature"), values, strict=True):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "x", x)
+        object.__setattr__(self, "y", y)
+
+    @cached_property
+    def _frame(self) -> tuple[Vector, ...]:
+        frame = np.empty((4, self.x.size))
+        with np.errstate(all="raise"):
+            flank_frame(self.x.copy(), self.y.copy(), *frame)
+        return tuple(_vector(row) for row in frame[:3])
+
+    @property
+    def normal_x(self) -> Vector:
+        """Unit normal into the gap, of the circle through a point and its neighbours.
+
+        At the ends it is that of the parabola through the three end points.
+        """
+        return self._frame[0]
+
+    @property
+    def normal_y(self) -> Vector:
+        """Component of the normal along y."""
+        return self._frame[1]
+
+    @property
+    def curvature(self) -> Vector:
+        """Signed curvature [1/mm], positive where the flank is convex."""
+        return self._frame[2]
 
     @property
     def arc_length(self) -> Vector:

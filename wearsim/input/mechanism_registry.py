@@ -44,6 +44,8 @@ class MechanismEntry:
     read: str  # `module:function` from a document to a complete case
     history: tuple[str, ...] = HISTORY  # columns of history.csv
     flank: tuple[str, ...] = FLANK  # columns of flank.csv
+    # kernels that a life takes, which are compiled together: `module.function` of wearsim.kernels
+    kernels: tuple[str, ...] = ()
 
     def load(self, name: str) -> Any:
         """Return the object behind one of these fields."""
@@ -51,11 +53,23 @@ class MechanismEntry:
         return getattr(import_module(module), attribute)
 
 
+_FLANK_KERNELS = (
+    "flank_geometry.flank_frame",
+    "rosenbrock.rosenbrock_step",
+    "controlled_steps.wear_in_steps",
+    "controlled_steps.states_between",
+)
 _CHAIN = "wearsim.input.schema:CaseTables"
 
 MECHANISMS = {
-    "strand": MechanismEntry(_CHAIN, "wearsim.mechanisms.strand.build:read"),
-    "prescribed": MechanismEntry(_CHAIN, "wearsim.mechanisms.prescribed.build:read"),
+    "strand": MechanismEntry(
+        _CHAIN, "wearsim.mechanisms.strand.build:read", kernels=(*_FLANK_KERNELS, "strand.strand_contact")
+    ),
+    "prescribed": MechanismEntry(
+        _CHAIN,
+        "wearsim.mechanisms.prescribed.build:read",
+        kernels=(*_FLANK_KERNELS, "prescribed.prescribed_contact"),
+    ),
     "wrap": MechanismEntry(
         _CHAIN,
         "wearsim.mechanisms.wrap.build:read",
@@ -69,11 +83,22 @@ MECHANISMS = {
             "over_pins_mm",
         ),
         ("cycles", "gap_kind", *FLANK[1:6]),
+        kernels=(
+            "flank_geometry.flank_frame",
+            "roller_locus.roller_locus",
+            "wrap_equilibrium.solve_wrap",
+            "wrap_cycle.wrap_events",
+            "half_space.influence_coefficients",
+            "wrap_stage.implicit_stage",
+            "wrap_wear.recede",
+            "wrap_wear.wear_events",
+        ),
     ),
     "gear_pair": MechanismEntry(
         "wearsim.mechanisms.gear_pair.keys:GearTables",
         "wearsim.mechanisms.gear_pair.build:read",
         flank=(*FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
+        kernels=(*_FLANK_KERNELS, "gear_pair.gear_pair_contact"),
     ),
 }
 """The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""

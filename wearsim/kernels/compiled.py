@@ -1,30 +1,40 @@
-"""The one decorator of every kernel, with a disk cache that cannot go stale.
+"""The one decorator of every kernel: compiled at its first call, with a disk cache that cannot go stale.
 
 numba's own cache looks only at the file that holds a function: an edited helper
 in another file leaves the old machine code in use, and a read-only install
 without a writable home fails at import. Here the cache folder carries a hash of
 all kernel sources, and a private temporary folder stands in where no cache
 folder can be written.
+
+Nothing here or in the modules of the kernels imports numba before a kernel is called, which is how a
+command that calls none starts at once. A program may have the kernels that a run is going to call compiled
+together, before the first of them is called: `expect` names them, `compile_by` says how.
 """
 
+import contextlib
+import gc
 import hashlib
 import os
 import platform
+import sys
 import tempfile
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterable
+from functools import cache, cached_property, update_wrapper
+from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar
+from pkgutil import iter_modules
+from typing import Any, ClassVar, TypeVar, cast
 
-import numba
 import platformdirs
-
-_CONFIG: Any = numba.config
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def source_hash() -> str:
     """Return the hash of every kernel source, numba and Python that the machine code depends on."""
+    import numba
+
     digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode())
@@ -74,21 +84,161 @@ def _temporary_folder() -> Path | None:
     return folder if _private(folder) else None
 
 
-_FOLDER = cache_folder()
+@cache
+def _folder() -> Path | None:
+    """Return the folder of this process, which stays where it is."""
+    return cache_folder()
 
 
-def kernel(signature: Any) -> Callable[[Function], Function]:
-    """Compile a function for one signature: strict arithmetic, no exceptions, safe cache."""
+_COMPILING = threading.RLock()
 
-    def compile_function(function: Function) -> Function:
-        before = _CONFIG.CACHE_DIR
-        _CONFIG.CACHE_DIR = str(_FOLDER) if _FOLDER else before
-        try:
-            compiled: Function = numba.njit(
-                signature, cache=_FOLDER is not None, error_model="numpy", nogil=True
-            )(function)
-        finally:
-            _CONFIG.CACHE_DIR = before
-        return compiled
 
-    return compile_function
+class Kernel:
+    """A function that is compiled, or read from the cache, when it is first called.
+
+    One that is quick runs in Python until something else has loaded numba: to the same bits, in a
+    hundredth of the time that loading takes.
+    """
+
+    def __init__(self, function: Callable[..., Any], signature: Any, quick: bool) -> None:
+        update_wrapper(self, function)
+        self.function, self.signature, self._quick = function, signature, quick
+        self._takes_kernels = "FunctionType" in str(signature)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Return what the function does."""
+        if self._quick and "numba" not in sys.modules:
+            # Compiled code goes on with inf and nan where Python, and numpy where it is asked to, raise.
+            with contextlib.suppress(ArithmeticError):
+                return self.function(*arguments)
+        if "compiled" not in self.__dict__:
+            compile_expected(self)
+        if self._takes_kernels:
+            arguments = tuple(one.compiled if isinstance(one, Kernel) else one for one in arguments)
+        return self.compiled(*arguments)
+
+    def __reduce__(self) -> str:
+        return self.function.__qualname__
+
+    @cached_property
+    def compiled(self) -> Callable[..., Any]:
+        """What numba makes of the function: strict arithmetic, no exceptions, safe cache."""
+        with _COMPILING:
+            return _compile(self)
+
+    @property
+    def name(self) -> str:
+        """Module and name, as in the files of the cache."""
+        return f"{Path(self.function.__code__.co_filename).stem}.{self.function.__qualname__}"
+
+    @property
+    def called(self) -> list["Kernel"]:
+        """The kernels that it calls."""
+        code, known = self.function.__code__, self.function.__globals__
+        return [known[name] for name in code.co_names if isinstance(known.get(name), Kernel)]
+
+
+def kernel(signature: Any, quick: bool = False) -> Callable[[Function], Function]:
+    """Make a function a kernel of one signature."""
+
+    def make_kernel(function: Function) -> Function:
+        return cast("Function", Kernel(function, signature, quick))
+
+    return make_kernel
+
+
+def kernel_of(name: str) -> Kernel:
+    """Return the kernel of a name such as ``strand.strand_contact``."""
+    module, _, function = name.partition(".")
+    found: Kernel = getattr(import_module(f"{__package__}.{module}"), function)
+    return found
+
+
+def all_kernels() -> list[Kernel]:
+    """Return every kernel of wearsim."""
+    places = iter_modules([str(Path(__file__).parent)], f"{__package__}.")
+    modules = [import_module(place.name) for place in places]
+    found = {one for module in modules for one in vars(module).values() if isinstance(one, Kernel)}
+    return sorted(found, key=lambda one: one.name)
+
+
+Calls = dict[Kernel, list[Kernel]]
+"""Kernels with those of them that each calls, and that must be compiled before it."""
+
+
+def not_in_cache(kernels: Iterable[Kernel]) -> Calls:
+    """Return the kernels that have to be compiled so that some can be called.
+
+    There are none where nothing is compiled at all or nothing can be kept. Kernels of other packages
+    are left out.
+    """
+    import numba
+
+    config: Any = numba.config
+    folder = _folder()
+    if folder is None or config.DISABLE_JIT:
+        return {}
+    kept = {path.name.partition("-")[0] for path in folder.rglob("*.nbi")}
+
+    def missing(some: Iterable[Kernel]) -> list[Kernel]:
+        ours = [one for one in some if one.function.__module__.startswith(f"{__package__}.")]
+        return [one for one in ours if one.name not in kept]
+
+    found: Calls = {}
+    waiting = missing(kernels)
+    while waiting:
+        one = waiting.pop()
+        if one not in found:
+            found[one] = missing(one.called)
+            waiting += found[one]
+    return found
+
+
+class _Ahead:
+    """What is compiled together before the first kernel is called, and by what."""
+
+    expected: ClassVar[set[str]] = set()
+    compile_together: Callable[[Calls], None] | None = None
+
+
+def expect(names: Iterable[str]) -> None:
+    """Name kernels that are going to be called."""
+    _Ahead.expected.update(names)
+
+
+def compile_by(compile_together: Callable[[Calls], None] | None) -> None:
+    """Say what compiles kernels that the cache does not hold; without it each is at its first call."""
+    _Ahead.compile_together = compile_together
+
+
+def compile_expected(*others: Kernel) -> None:
+    """Compile the kernels that are expected, and others, unless the cache holds them."""
+    if _Ahead.compile_together is None or threading.current_thread() is not threading.main_thread():
+        return
+    names = sorted(_Ahead.expected)
+    _Ahead.expected.clear()
+    missing = not_in_cache([*map(kernel_of, names), *others]) if names or others else {}
+    if missing:
+        _Ahead.compile_together(missing)
+
+
+def _compile(of: Kernel) -> Callable[..., Any]:
+    import numba
+    from numba.extending import typeof_impl
+
+    # Where a kernel calls another one numba finds that one's compiled form.
+    typeof_impl.register(Kernel, lambda other, context: typeof_impl(other.compiled, context))
+    config: Any = numba.config
+    before, folder = config.CACHE_DIR, _folder()
+    config.CACHE_DIR = str(folder) if folder else before
+    collecting = gc.isenabled()
+    # A tenth of the time would go into looking through objects that all are still needed.
+    gc.disable()
+    try:
+        compile_function = numba.njit(of.signature, cache=folder is not None, error_model="numpy", nogil=True)
+        compiled: Callable[..., Any] = compile_function(of.function)
+    finally:
+        config.CACHE_DIR = before
+        if collecting:
+            gc.enable()
+    return compiled

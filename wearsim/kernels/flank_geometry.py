@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from wearsim.geometry.profile_points import Vector
 
 
-@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64))
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64), quick=True)
 def _end_frame(
     x: Vector,
     y: Vector,
@@ -37,7 +37,7 @@ def _end_frame(
     spacing_squared[end] = a * a
 
 
-@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR), quick=True)
 def flank_frame(
     x: Vector, y: Vector, normal_x: Vector, normal_y: Vector, curvature: Vector, spacing_squared: Vector
 ) -> None:

@@ -2,30 +2,42 @@
 
 from typing import TYPE_CHECKING
 
-from numba import float64, int64, types, void
-
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     Vector = NDArray[np.float64]
 
-VECTOR = float64[::1]
-TABLE = float64[:, ::1]
-CUBE = float64[:, :, ::1]
+
+class Signature(str):
+    """A type by numba's name; called with those of arguments, a function that returns it."""
+
+    __slots__ = ()
+
+    def __call__(self, *arguments: str) -> "Signature":
+        """Return the type of a function."""
+        return Signature(f"{self}({', '.join(arguments)})")
+
+
+float64, int64, void = Signature("float64"), Signature("int64"), Signature("void")
+
+VECTOR = Signature("float64[::1]")
+TABLE = Signature("float64[:, ::1]")
+CUBE = Signature("float64[:, :, ::1]")
+_FUNCTION = Signature("FunctionType")
 
 # x, y, normal_x, normal_y, curvature, depth, constants, columns
 #   -> load_per_width, slip, sliding_speed, relative_curvature
 # A mechanism may also overwrite the normals: they are the direction a point recedes in.
 CONTACT = void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, TABLE, VECTOR, VECTOR, VECTOR, VECTOR)
-CONTACT_FUNCTION = types.FunctionType(CONTACT)
+CONTACT_FUNCTION = _FUNCTION(CONTACT)
 
 # contact, state of the path, constants, columns, modulus, law, diffusion, whether the ends bend,
 # length of the step, work -> state after it, with the greatest error of a depth; work
 STEP = float64(
     CONTACT_FUNCTION, TABLE, VECTOR, TABLE, float64, VECTOR, float64, int64, float64, TABLE, TABLE, TABLE
 )
-STEP_FUNCTION = types.FunctionType(STEP)
+STEP_FUNCTION = _FUNCTION(STEP)
 
 __all__ = [
     "CONTACT",

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from numba import types
-
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
@@ -20,7 +18,7 @@ from wearsim.kernels.event_rows import (
     EVENT_SPEED,
     EVENT_TOUCHED,
 )
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64
+from wearsim.kernels.signatures import CUBE, TABLE, VECTOR, float64, int64
 from wearsim.kernels.wrap_equilibrium import (
     CENTRE_X,
     CENTRE_Y,
@@ -40,7 +38,6 @@ from wearsim.kernels.wrap_equilibrium import (
 if TYPE_CHECKING:
     from wearsim.geometry.profile_points import Vector
 
-_TABLES = types.Array(float64, 3, "C")
 _TOLERANCE = 1e-9
 LOOSEST = 1e-2
 
@@ -51,20 +48,7 @@ CYCLE_NUMBERS = 8
 
 @kernel(
     int64(
-        _TABLES,
-        TABLE,
-        int64,
-        int64,
-        int64,
-        float64,
-        VECTOR,
-        VECTOR,
-        _TABLES,
-        TABLE,
-        TABLE,
-        VECTOR,
-        VECTOR,
-        TABLE,
+        CUBE, TABLE, int64, int64, int64, float64, VECTOR, VECTOR, CUBE, TABLE, TABLE, VECTOR, VECTOR, TABLE
     )
 )
 def wrap_events(

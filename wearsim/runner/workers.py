@@ -14,7 +14,6 @@ from typing import Any, Protocol
 
 from wearsim.errors import StudyError
 from wearsim.extras import library
-from wearsim.runner.design import engine
 
 _PATIENCE = 30.0
 """Seconds in which the first worker of a cluster must show up."""
@@ -214,6 +213,8 @@ def _checked(client: Any, dask: Any, place: str) -> int:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except (dask.TimeoutError, TimeoutError):
         raise StudyError(f"{place}: must have a worker, but has none: start some") from None
+    from wearsim.runner.design import engine  # takes 0.3 s, which processes that only compile do without
+
     mine = engine()
     for worker, found in client.run(engine, on_error="return").items():
         if isinstance(found, BaseException):

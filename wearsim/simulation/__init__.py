@@ -54,7 +54,6 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     >>> result.life.hours == result.life.cycles / (60 * 100)
     True
     """
-    # Kernels compile where their module is imported for the first time: only those needed.
     case.drive.check(case)
     if case.drive.rests:
         from wearsim.simulation.wrap_life import simulate_wrap

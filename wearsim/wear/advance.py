@@ -232,7 +232,7 @@ def run_advance(
     the tightest solve meets it too.
     """
     if not isinstance(contact, FlankContact):
-        # Its kernels compile where it is imported for the first time.
+        # Not imported for contacts that pass.
         from wearsim.wear.settled_run import advance_resting
 
         return advance_resting(contact, law, stop_limits, horizon, life_tolerance)

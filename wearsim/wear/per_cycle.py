@@ -52,7 +52,7 @@ def _interrupts_held() -> Iterator[None]:
 
 
 def _compiled_loop(contact: FlankContact) -> tuple[int, Callable[..., int]]:
-    """Return the rows to work in and the loop, which compiles where it is imported first."""
+    """Return the rows to work in and the loop."""
     if contact.offset_form:
         from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
 
@@ -186,7 +186,7 @@ def run_per_cycle(
 ) -> Trajectory:
     """Wear a flank update by update until a stop limit is met or the horizon is reached."""
     if not isinstance(contact, FlankContact):
-        # Its kernels compile where it is imported for the first time.
+        # Not imported for contacts that pass.
         from wearsim.wear.implicit_steps import run_resting
 
         return run_resting(contact, law, stop_limits, horizon, 0, float(cycles_per_update))

@@ -132,7 +132,6 @@ class StrandDrive(Drive):
 
     def mechanism(self, case: Case) -> Mechanism:
         """Return the rollers of the heaviest block on the flank."""
-        # Kernels compile where they are imported for the first time: each drive imports its own.
         from wearsim.mechanisms.strand.contact import StrandMechanism
 
         return StrandMechanism(

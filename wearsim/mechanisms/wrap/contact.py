@@ -132,7 +132,7 @@ class WrapContact(RestingContact):
 
     def seating(self, law: Rows, unworn: Rows) -> PressedPlaces:
         """Return the rollers on gaps that yield like an elastic foundation, for implicit stages."""
-        # Its kernels compile where it is imported for the first time.
+        # A run cycle by cycle does without.
         from wearsim.mechanisms.wrap.seating import WrapSeating
 
         return WrapSeating(self, law, unworn)

@@ -175,7 +175,6 @@ class WrapDrive(Drive):
     @cached_property
     def rollers(self) -> "WrapMechanism":
         """The rollers of the chain on the gaps that they wrap, without what wears them."""
-        # Kernels compile where they are imported for the first time: each drive imports its own.
         from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
 
         radius = 0.5 * self.chain.roller_diameter

@@ -1,0 +1,28 @@
+"""``wearsim warm``: every kernel compiled ahead, so that no run waits for it."""
+
+import click
+
+from wearsim.command.options import common_options
+from wearsim.errors import OutputError
+
+
+@click.command(short_help="Compile everything now, so that no later run waits for it.")
+@common_options
+def warm() -> None:
+    """Compile all that the cache does not hold yet: after an installation, or as an image is built.
+
+    The cache is that of this version of wearsim, of numba and of Python, and holds the machine code of each
+    kind of processor on its own. Without this command each run compiles what it needs for the first time.
+    """
+    from wearsim.command.compile_ahead import compile_with_bar
+    from wearsim.kernels.compiled import all_kernels, cache_folder, not_in_cache
+
+    folder, kernels = cache_folder(), all_kernels()
+    if folder is None:
+        raise OutputError(
+            "cache of kernels: must have a folder that can be written, but has none: set NUMBA_CACHE_DIR"
+        )
+    missing = not_in_cache(kernels)
+    if missing:
+        compile_with_bar(click.get_current_context(), missing)
+    click.echo(f"{len(missing)} of {len(kernels)} kernels compiled, all are in {folder}")
