@@ -100,8 +100,12 @@ def run_once(
     path: Vector,
 ) -> int:
     """Wear a flank with one tolerance; leave ``state`` where it ends."""
-    clock[:] = 0.0
-    state[:] = start
+    # In loops: assigned as a whole, numba would compile all of its messages on shapes too.
+    for i in range(clock.size):
+        clock[i] = 0.0
+    for row in range(state.shape[0]):
+        for j in range(state.shape[1]):
+            state[row, j] = start[row, j]
     status = wear_in_steps(
         make_step,
         contact,
