@@ -1,0 +1,1 @@
+"""How long every sprocket of a drive and its one chain live."""

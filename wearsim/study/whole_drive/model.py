@@ -1,0 +1,110 @@
+"""Lives of all parts of a drive on one clock."""
+
+import math
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from wearsim.chain.selection import RatingFinding
+from wearsim.result import Life, LowerBound, WearResult
+from wearsim.simulation import simulate
+from wearsim.study.whole_drive.keys import DriveCase
+
+CHAIN = "chain"
+
+
+@dataclass(frozen=True)
+class DriveLife:
+    """How long the chain and every sprocket of a drive live."""
+
+    drive: DriveCase
+    results: dict[str, WearResult]  # of every sprocket by its name, the driver's first
+
+    @property
+    def chain(self) -> Life | LowerBound:
+        """Life of the chain, in cycles of the driver."""
+        return self.results[self.drive.driver.name].parts[CHAIN]
+
+    @property
+    def sprockets(self) -> dict[str, Life | LowerBound]:
+        """Life of every sprocket by its name, each in its own cycles."""
+        return {name: result.parts["sprocket"] for name, result in self.results.items()}
+
+    @property
+    def parts(self) -> dict[str, Life | LowerBound]:
+        """Life of the chain and of every sprocket."""
+        return {CHAIN: self.chain, **self.sprockets}
+
+    @property
+    def first(self) -> str:
+        """The part that ends first; empty where none ends within the horizon."""
+        ended = {name: life.hours for name, life in self.parts.items() if isinstance(life, Life)}
+        return min(ended, key=ended.__getitem__, default="")
+
+    @property
+    def life(self) -> Life | LowerBound:
+        """Life of the part that ends first, or how long all live at least."""
+        parts = self.parts
+        return parts[self.first] if self.first else min(parts.values(), key=lambda life: life.hours_run)
+
+    def chains_with(self, name: str) -> int:
+        """Return how many chains run on a sprocket in its life."""
+        return int(self.results[name].history_columns["chain"][-1])
+
+    @property
+    def overloaded(self) -> tuple[RatingFinding, ...]:
+        """Ratings that the drive does not meet; both sprockets have the same."""
+        return self.results[self.drive.driver.name].overloaded
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful, each once, with the sprocket where it is about one."""
+        found: dict[str, list[str]] = {}
+        for name, result in self.results.items():
+            for text in result.warnings:
+                found.setdefault(text, []).append(name)
+        return tuple(
+            text if len(names) == len(self.results) else f"{', '.join(names)}: {text}"
+            for text, names in found.items()
+        )
+
+
+def drive_life(drive: DriveCase, progress: Callable[[float], None] = lambda part: None) -> DriveLife:
+    """Wear all sprockets of a drive, each with the chains that run on it.
+
+    The chain grows by its joints alone, at all sprockets: every sprocket meets the same chains at the
+    same times, and each is worn on its own.
+
+    Parameters
+    ----------
+    drive : DriveCase
+        Sprockets and chain.
+    progress : callable, optional
+        Told how much of the runs is done, from 0 to 1.
+
+    Returns
+    -------
+    DriveLife
+        Results of all sprockets.
+
+    Raises
+    ------
+    WearsimError
+        As `wearsim.simulate` does for the case of a sprocket.
+    """
+    done = dict.fromkeys((one.name for one in drive.sprockets), 0.0)
+    lock = threading.Lock()
+
+    def _watch(name: str) -> Callable[[float], None]:
+        def _report(part: float) -> None:
+            with lock:
+                done[name] = part
+                progress(math.fsum(done.values()) / len(done))
+
+        return _report
+
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        runs = {one.name: pool.submit(simulate, one.case, _watch(one.name)) for one in drive.sprockets}
+        return DriveLife(drive, {name: run.result() for name, run in runs.items()})

@@ -1,0 +1,136 @@
+"""The answer for a whole drive, as text of a dozen lines and as JSON."""
+
+from typing import Any
+
+from wearsim.quantities import grouped
+from wearsim.report.answer import ending, hours, overload_text, service_text
+from wearsim.report.service import service_keys
+from wearsim.report.text_lines import numbered_assumptions, row, stated_and_defaults
+from wearsim.result import Life, LowerBound, WearResult, life_keys
+from wearsim.study.whole_drive.model import CHAIN, DriveLife
+
+_MAX_WARNINGS = 3
+
+
+def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
+    """Return what ``wearsim life`` prints of a whole drive."""
+    inputs, first = found.drive.inputs, found.first
+    driver = found.results[found.drive.driver.name]
+    rows = [
+        (CHAIN.capitalize(), _part(found, CHAIN)),
+        *((name, _part(found, name)) for name in found.results),
+        ("First", _first(found)),
+        ("Band", _band(found)),
+        ("Ratings", overload_text(driver) and f"OVERLOADED: {overload_text(driver)}" or _within(driver)),
+        ("Worn most", "; ".join(f"{name} {_worn(result)}" for name, result in found.results.items())),
+        ("Warnings", _warnings(found, explain)),
+        ("Assumes", _assumes(found, source, explain)),
+    ]
+    del inputs, first
+    return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
+
+
+def _part(found: DriveLife, name: str) -> str:
+    life = found.parts[name]
+    text = hours(life)
+    service = service_text(found.drive.inputs, life)
+    if service:
+        text += f"   ({service})"
+    if name == CHAIN:
+        limit = 100.0 * found.drive.driver.case.drive.joint.elongation_limit
+        return f"{text}   until it has grown by {limit:.3g} %"
+    chains = found.chains_with(name)
+    result = found.results[name]
+    teeth = result.inputs["sprocket"]["teeth"]
+    worn = sprocket_ending(result) if isinstance(life, Life) else f"{result.max_depth:.3g} mm worn off by then"
+    with_chains = f", with {chains} chains" if chains > 1 else ""
+    return f"{text}   {teeth} teeth, {worn}{with_chains}"
+
+
+def sprocket_ending(result: WearResult) -> str:
+    """Return in words what ends the life of a sprocket."""
+    state = next((one for one in result.limits if one.name == "critical_depth_mm"), None)
+    if result.stop == "elongation_percent" and state is not None:
+        return f"until {state.limit:.3g} mm is worn off"
+    return ending(result)
+
+
+def _first(found: DriveLife) -> str:
+    if not found.first:
+        return f"nothing is to be replaced within {hours(found.life).lstrip('> ')}"
+    after = sorted(
+        (life.hours, name)
+        for name, life in found.parts.items()
+        if isinstance(life, Life) and name != found.first
+    )
+    text = f"replace the {_of(found.first)} at {hours(found.life)}"
+    if found.first == CHAIN:
+        text += " and again after each such time"
+    then = ", ".join(f"the {_of(name)} at {grouped(life)} h" for life, name in after)
+    return f"{text}; then {then}" if then else text
+
+
+def _of(name: str) -> str:
+    return name if name == CHAIN else f"sprocket {name!r}"
+
+
+def _band(found: DriveLife) -> str:
+    low: Life | LowerBound
+    whose = found.first or next(iter(found.results))
+    result = found.results[found.drive.driver.name if whose == CHAIN else whose]
+    low, high = result.life_low, result.life_high
+    return f"{hours(low)} to {hours(high)} for what ends first   ({result.band})"
+
+
+def _within(result: WearResult) -> str:
+    used = [finding for finding in result.ratings if not finding.at_least and finding.limit]
+    if not used:
+        return "no rating applies"
+    most = max(used, key=lambda finding: finding.used)
+    return f"within all of them; most used is {most.name}, {grouped(100.0 * most.used)} %"
+
+
+def _worn(result: WearResult) -> str:
+    length = float(result.flank_columns["arc_length_mm"][-1])
+    pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
+    return (
+        f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm from the "
+        f"gap's right tip, {pressures}"
+    )
+
+
+def _warnings(found: DriveLife, explain: bool) -> str:
+    warnings = found.warnings
+    if not warnings:
+        return "none"
+    shown = warnings if explain else warnings[:_MAX_WARNINGS]
+    more = len(warnings) - len(shown)
+    return "; ".join(shown) + (f"; and {more} more (--explain)" if more else "")
+
+
+def _assumes(found: DriveLife, source: str, explain: bool) -> str:
+    each = tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
+    if explain:
+        return numbered_assumptions(each)
+    stated, defaults = stated_and_defaults(each)
+    return f"{len(stated)} assumptions and {len(defaults)} defaults: wearsim life {source} --explain"
+
+
+def drive_json(found: DriveLife) -> dict[str, Any]:
+    """Return what ``wearsim life --json`` prints of a whole drive."""
+    drive = found.drive
+    return {
+        "schema_version": 1,
+        "case": drive.name,
+        "title": drive.title,
+        **life_keys("life_hours", found.life),
+        "first": found.first or None,
+        **life_keys("chain_life_hours", found.chain),
+        **service_keys(drive.inputs, found.life),
+        "overloaded": bool(found.overloaded),
+        "sprockets": [
+            {"name": name, **result.summary(), "chains": found.chains_with(name)}
+            for name, result in found.results.items()
+        ],
+        "warnings": list(found.warnings),
+    }
