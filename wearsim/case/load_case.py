@@ -44,6 +44,10 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     """
     document = read_document(source, overrides)
     check_command(document.data, document.faults.file, "life")
+    if isinstance(document.data.get("sprocket"), list):
+        text = "must be one [sprocket] here: a drive with [[sprocket]] is for wearsim life and check only"
+        document.faults.add("sprocket", text)
+        document.faults.check()
     # Models of tables and of geometry take time to import: only those of one mechanism are.
     mechanism = mechanism_of(document.data)
     read: Callable[[Document], Case] = mechanism.load("read")

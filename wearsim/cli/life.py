@@ -79,11 +79,22 @@ def life(
 ) -> int:
     """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
 
+    A CASE with [[sprocket]] twice is a whole drive: chain and both sprockets on one clock.
+
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
     flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases.
     """
     if method is not None:
         settings = (*settings, f"run.method={method}")
+    if _is_drive(cases):
+        if out or parquet or xlsx or key or verify_grid:
+            raise click.UsageError(
+                "a drive with [[sprocket]] takes neither --out, --parquet, --xlsx, --solve-for nor "
+                "--verify-grid"
+            )
+        from wearsim.study.whole_drive.command import live
+
+        return live(cases[0], settings, as_json, require_hours, strict)
     if key is not None:
         if verify_grid or strict or parquet or xlsx:
             raise click.UsageError("--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx")
@@ -117,6 +128,12 @@ def life(
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
     return NOT_MET if missed else 0
+
+
+def _is_drive(cases: tuple[Path, ...]) -> bool:
+    from wearsim.study.whole_drive.command import alone
+
+    return alone(cases)
 
 
 def _solve(

@@ -169,6 +169,17 @@ def _bare(raw: str) -> float | str:
         return raw
 
 
+def _inner(place: Any, table: str, typed: str) -> Any:
+    """Return a table of a table, made where it is missing, or one of several by its number from 1."""
+    if isinstance(place, dict):
+        return place.setdefault(table, {})
+    if not table.isdecimal() or not 1 <= int(table) <= len(place):
+        raise CaseError(
+            [Fault(f"must name one of {len(place)} tables by its number from 1", "", f"--set {typed}")]
+        )
+    return place[int(table) - 1]
+
+
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
     typed, raw = key.strip(), raw.strip()
@@ -182,8 +193,12 @@ def _override(data: dict[str, Any], item: str) -> None:
     *tables, last = key.split(".")
     place: Any = data
     for table in tables:
-        place = place.setdefault(table, {})
-        if not isinstance(place, dict):
+        place = _inner(place, table, typed)
+        if not isinstance(place, dict | list):
             raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {typed}")])
+    if isinstance(place, list):
+        raise CaseError(
+            [Fault(f"{tables[-1]!r} holds several tables: give a number and a key", "", f"--set {typed}")]
+        )
     place[last] = value
     _check_depth(data, f"--set {tables[0] if tables else last}")

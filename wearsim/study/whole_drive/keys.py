@@ -109,8 +109,7 @@ def _wheels(document: Document) -> list[dict[str, Any]]:
         return []
     if len(wheels) != 2:
         faults.add(
-            "sprocket",
-            f"a drive must have two sprockets, a driver and a driven one (got {len(wheels)})",
+            "sprocket", f"a drive must have two sprockets, a driver and a driven one (got {len(wheels)})"
         )
         return []
     found = []
@@ -142,9 +141,7 @@ def _case(
     document: Document, wheels: Sequence[Mapping[str, Any]], number: int, seen: set[tuple[str, str]]
 ) -> Case | None:
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
-    own = Document(
-        document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ())
-    )
+    own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
     read: Callable[[Document], Case] = mechanism_of(own.data).load("read")
     try:
         return read(own)
@@ -167,9 +164,7 @@ def _key(key: str, wheels: Sequence[Mapping[str, Any]], number: int) -> str:
     return key
 
 
-def _tables(
-    data: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]], number: int
-) -> dict[str, Any]:
+def _tables(data: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]], number: int) -> dict[str, Any]:
     """Return the tables of the case of one sprocket: its teeth, its speed and its torque."""
     wheel = wheels[number]
     mate = wheels[1 - number]

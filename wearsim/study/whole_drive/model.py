@@ -71,7 +71,11 @@ class DriveLife:
         )
 
 
-def drive_life(drive: DriveCase, progress: Callable[[float], None] = lambda part: None) -> DriveLife:
+def drive_life(
+    drive: DriveCase,
+    least_horizon: float | None = None,
+    progress: Callable[[float], None] = lambda part: None,
+) -> DriveLife:
     """Wear all sprockets of a drive, each with the chains that run on it.
 
     The chain grows by its joints alone, at all sprockets: every sprocket meets the same chains at the
@@ -81,6 +85,8 @@ def drive_life(drive: DriveCase, progress: Callable[[float], None] = lambda part
     ----------
     drive : DriveCase
         Sprockets and chain.
+    least_horizon : float, optional
+        Hours that the runs cover at least if nothing ends before; above 0.
     progress : callable, optional
         Told how much of the runs is done, from 0 to 1.
 
@@ -106,5 +112,8 @@ def drive_life(drive: DriveCase, progress: Callable[[float], None] = lambda part
         return _report
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        runs = {one.name: pool.submit(simulate, one.case, _watch(one.name)) for one in drive.sprockets}
+        runs = {
+            one.name: pool.submit(simulate, one.case.with_horizon(least_horizon or 0.0), _watch(one.name))
+            for one in drive.sprockets
+        }
         return DriveLife(drive, {name: run.result() for name, run in runs.items()})

@@ -5,28 +5,26 @@ from typing import Any
 from wearsim.quantities import grouped
 from wearsim.report.answer import ending, hours, overload_text, service_text
 from wearsim.report.service import service_keys
-from wearsim.report.text_lines import numbered_assumptions, row, stated_and_defaults
-from wearsim.result import Life, LowerBound, WearResult, life_keys
+from wearsim.report.text_lines import row, stated_and_defaults
+from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 
-_MAX_WARNINGS = 3
+_MAX_WARNINGS = 1
 
 
-def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
+def drive_text(found: DriveLife, source: str) -> str:
     """Return what ``wearsim life`` prints of a whole drive."""
-    inputs, first = found.drive.inputs, found.first
     driver = found.results[found.drive.driver.name]
     rows = [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *((name, _part(found, name)) for name in found.results),
         ("First", _first(found)),
         ("Band", _band(found)),
-        ("Ratings", overload_text(driver) and f"OVERLOADED: {overload_text(driver)}" or _within(driver)),
-        ("Worn most", "; ".join(f"{name} {_worn(result)}" for name, result in found.results.items())),
-        ("Warnings", _warnings(found, explain)),
-        ("Assumes", _assumes(found, source, explain)),
+        ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else _within(driver)),
+        ("Worn most", _worn_most(found)),
+        ("Warnings", _warnings(found)),
+        ("Assumes", _assumes(found, source)),
     ]
-    del inputs, first
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
 
 
@@ -37,21 +35,24 @@ def _part(found: DriveLife, name: str) -> str:
     if service:
         text += f"   ({service})"
     if name == CHAIN:
-        limit = 100.0 * found.drive.driver.case.drive.joint.elongation_limit
-        return f"{text}   until it has grown by {limit:.3g} %"
+        return f"{text}   grown by {_elongation_limit(found):.3g} %"
     chains = found.chains_with(name)
     result = found.results[name]
     teeth = result.inputs["sprocket"]["teeth"]
-    worn = sprocket_ending(result) if isinstance(life, Life) else f"{result.max_depth:.3g} mm worn off by then"
-    with_chains = f", with {chains} chains" if chains > 1 else ""
-    return f"{text}   {teeth} teeth, {worn}{with_chains}"
+    worn = sprocket_ending(result) if isinstance(life, Life) else f"{result.max_depth:.3g} mm worn by then"
+    return f"{text}   {teeth} teeth, {worn}" + (f", chain {chains}" if chains > 1 else "")
+
+
+def _elongation_limit(found: DriveLife) -> float:
+    limits = found.results[found.drive.driver.name].limits
+    return next(state.limit for state in limits if state.name == "elongation_percent")
 
 
 def sprocket_ending(result: WearResult) -> str:
     """Return in words what ends the life of a sprocket."""
     state = next((one for one in result.limits if one.name == "critical_depth_mm"), None)
     if result.stop == "elongation_percent" and state is not None:
-        return f"until {state.limit:.3g} mm is worn off"
+        return f"worn by {state.limit:.3g} mm"
     return ending(result)
 
 
@@ -75,45 +76,44 @@ def _of(name: str) -> str:
 
 
 def _band(found: DriveLife) -> str:
-    low: Life | LowerBound
     whose = found.first or next(iter(found.results))
     result = found.results[found.drive.driver.name if whose == CHAIN else whose]
-    low, high = result.life_low, result.life_high
-    return f"{hours(low)} to {hours(high)} for what ends first   ({result.band})"
+    low, high = hours(result.life_low), hours(result.life_high)
+    return f"{low} to {high} for the {_of(whose)}, over the band of the wear coefficients"
 
 
 def _within(result: WearResult) -> str:
-    used = [finding for finding in result.ratings if not finding.at_least and finding.limit]
+    used = [one for one in result.ratings if not one.at_least and not one.name.startswith("elongation")]
     if not used:
         return "no rating applies"
     most = max(used, key=lambda finding: finding.used)
     return f"within all of them; most used is {most.name}, {grouped(100.0 * most.used)} %"
 
 
+def _worn_most(found: DriveLife) -> str:
+    places = "; ".join(f"{name} {_worn(result)}" for name, result in found.results.items())
+    return f"{places} from the gap's right tip"
+
+
 def _worn(result: WearResult) -> str:
     length = float(result.flank_columns["arc_length_mm"][-1])
-    pressures = f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f} MPa"
-    return (
-        f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm from the "
-        f"gap's right tip, {pressures}"
-    )
+    return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
-def _warnings(found: DriveLife, explain: bool) -> str:
-    warnings = found.warnings
+def _warnings(found: DriveLife) -> str:
+    # What is outside of a rating stands beside the ratings.
+    warnings = [text for text in found.warnings if not text.startswith("outside a rating")]
     if not warnings:
         return "none"
-    shown = warnings if explain else warnings[:_MAX_WARNINGS]
+    shown = warnings[:_MAX_WARNINGS]
     more = len(warnings) - len(shown)
-    return "; ".join(shown) + (f"; and {more} more (--explain)" if more else "")
+    return "; ".join(shown) + (f"; and {more} more (--json)" if more else "")
 
 
-def _assumes(found: DriveLife, source: str, explain: bool) -> str:
+def _assumes(found: DriveLife, source: str) -> str:
     each = tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
-    if explain:
-        return numbered_assumptions(each)
     stated, defaults = stated_and_defaults(each)
-    return f"{len(stated)} assumptions and {len(defaults)} defaults: wearsim life {source} --explain"
+    return f"{len(stated)} assumptions and {len(defaults)} defaults: wearsim check {source}"
 
 
 def drive_json(found: DriveLife) -> dict[str, Any]:

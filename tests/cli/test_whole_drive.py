@@ -1,0 +1,183 @@
+"""A drive with both sprockets: ``wearsim life`` and ``wearsim check`` of [[sprocket]]."""
+
+import json
+
+import pytest
+
+import wearsim
+
+DRIVE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+teeth = 17
+profile = "iso606"
+nodes = 101
+[[sprocket]]
+name = "roll"
+teeth = 20
+profile = "iso606"
+nodes = 101
+[drive]
+links = 110
+[load]
+power_kW = 1.3
+speed_rpm = 300
+[joint]
+specific_wear_rate_mm2_per_N = 1e-8
+[wear]
+specific_wear_rate_mm2_per_N = 5e-9
+[run]
+life_tolerance = 0.1
+[service]
+hours_per_day = 16
+start_date = "2027-01-04"
+"""
+
+
+@pytest.fixture
+def drive(tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(DRIVE)
+    return path
+
+
+def own_case(teeth, mate, role, rpm):
+    """The case of one of both sprockets as one writes it today."""
+    return {
+        "format_version": 1,
+        "chain": {"designation": "08B-1"},
+        "sprocket": {"teeth": teeth, "profile": "iso606", "nodes": 101, "role": role},
+        "drive": {"links": 110, "mate_teeth": mate},
+        "load": {"power_kW": 1.3, "speed_rpm": rpm},
+        "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
+        "wear": {"specific_wear_rate_mm2_per_N": 5e-9},
+        "run": {"life_tolerance": 0.1},
+    }
+
+
+def lives(cli, path, *settings):
+    """Hours of every part as the command prints them in JSON."""
+    args = [word for setting in settings for word in ("--set", setting)]
+    done = cli("life", path, "--json", *args)
+    assert done.code == 0, done.err
+    content = json.loads(done.out)
+    found = {one["name"]: one["sprocket_life_hours"] for one in content["sprockets"]}
+    return {"chain": content["chain_life_hours"], **found}
+
+
+def test_each_part_lives_as_in_its_own_case(cli, drive):
+    found = lives(cli, drive)
+    for name, tables in (
+        ("driver", own_case(17, 20, "driver", 300)),
+        ("roll", own_case(20, 17, "driven", 300 * (17 / 20))),
+    ):
+        own = wearsim.simulate(wearsim.load_case(tables))
+        assert found[name] == own.parts["sprocket"].hours
+        # One chain, counted in turns of either sprocket.
+        assert found["chain"] == pytest.approx(own.parts["chain"].hours, rel=1e-12)
+
+
+def test_answer_says_what_is_replaced_first_and_on_which_day(cli, drive):
+    done = cli("life", drive)
+    lines = done.out.splitlines()
+    first_warning = next(place for place, line in enumerate(lines) if line.startswith("  Warnings"))
+    assert first_warning <= 10
+    assert lines[0] == "08B-1, 17 to 20 teeth"
+    assert [line.split()[0] for line in lines[1:4]] == ["Chain", "driver", "roll"]
+    assert "until 20" in lines[1]
+    assert "  First      replace the chain at " in done.out
+    assert "  Ratings    within all of them" in done.out
+
+
+def test_overload_stands_beside_the_hours(cli, drive):
+    text = cli("life", drive, "--set", "load.power_kW=15").out
+    assert "OVERLOADED: " in text
+    assert "the hours are for wear only" in text
+
+
+def test_keys_of_one_sprocket_change_its_life_alone(cli, drive):
+    before = lives(cli, drive)
+    harder = lives(cli, drive, "sprocket.2.wear={specific_wear_rate_mm2_per_N = 4e-9}")
+    assert harder["roll"] > before["roll"]
+    assert (harder["driver"], harder["chain"]) == (before["driver"], before["chain"])
+    softer = lives(cli, drive, "sprocket.1.material={youngs_modulus_MPa = 1e5, poissons_ratio = 0.3}")
+    assert softer["driver"] != before["driver"]
+    assert (softer["roll"], softer["chain"]) == (before["roll"], before["chain"])
+
+
+def test_torque_is_that_of_the_driver(cli, drive, tmp_path):
+    power = lives(cli, drive)
+    text = DRIVE.replace("power_kW = 1.3", 'torque_N_m = "41.380285203892786 Nm"')
+    (tmp_path / "torque.toml").write_text(text)
+    torque = lives(cli, tmp_path / "torque.toml")
+    assert torque == pytest.approx(power, rel=1e-3)
+
+
+def test_blocks_of_the_duty_are_those_of_the_driver(cli, tmp_path):
+    duty = """
+[[duty]]
+share_of_time = 1.0
+power_kW = 1.3
+speed_rpm = 300
+"""
+    (tmp_path / "drive.toml").write_text(DRIVE)
+    (tmp_path / "duty.toml").write_text(DRIVE.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    assert lives(cli, tmp_path / "duty.toml") == pytest.approx(lives(cli, tmp_path / "drive.toml"), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "line", "message"),
+    [
+        (("teeth = 20", "teeth = 3"), 10, "must be a whole number of at least 5"),
+        (
+            ('profile = "iso606"\nnodes = 101\n[drive]', 'profile = "evolvent"\n[drive]'),
+            11,
+            "(got 'evolvent')",
+        ),
+        (('name = "roll"', 'role = "driver"'), 9, "one sprocket drives, the other is driven"),
+        (('name = "roll"', 'name = "driver"'), 9, "different names"),
+        (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
+        (("links = 110", "links = 12"), 14, "drive layout: "),
+        (("teeth = 20", "teeth = 20\nposition = 3"), 11, "unknown key"),
+        (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "two sprockets"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, wrong, line, message):
+    path = tmp_path / "drive.toml"
+    path.write_text(DRIVE.replace(*wrong))
+    done = cli("life", path)
+    assert done.code == 2
+    assert f"drive.toml:{line}: " in done.err
+    assert message in done.err
+    assert done.err.count(message) == 1
+
+
+def test_check_names_both_sprockets_and_every_assumption_once(cli, drive):
+    done = cli("check", drive)
+    assert done.out.startswith(f"{drive}: ok, sprockets driver, roll\n")
+    lines = done.out.splitlines()
+    assert len(lines) == len(set(lines))
+    found = json.loads(cli("check", drive, "--json").out)
+    assert found["sprockets"] == ["driver", "roll"]
+
+
+def test_required_hours_are_those_of_every_part(cli, drive):
+    shortest = min(lives(cli, drive).values())
+    assert cli("life", drive, "--require-hours", str(0.9 * shortest)).code == 0
+    done = cli("life", drive, "--require-hours", str(1.1 * shortest))
+    assert done.code == 4
+    assert "life of the chain" in done.err
+
+
+@pytest.mark.parametrize("option", [["--out", "run"], ["--xlsx", "run.xlsx"], ["--verify-grid"]])
+def test_options_of_one_sprocket_are_refused(cli, drive, option):
+    done = cli("life", drive, *option)
+    assert done.code == 2
+    assert "a drive with [[sprocket]]" in done.err
+
+
+def test_other_commands_and_other_cases_beside_are_refused(cli, drive):
+    assert "must be one [sprocket] here" in cli("loads", drive).err
+    assert "is a whole drive: give it alone" in cli("life", drive, drive).err

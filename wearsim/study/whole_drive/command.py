@@ -1,0 +1,87 @@
+"""``wearsim life`` and ``wearsim check`` of a drive with all of its sprockets."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from wearsim.command.options import NOT_MET, error_json, print_json, warn, working
+from wearsim.errors import CaseError, WearsimError
+from wearsim.input.document import read_document
+from wearsim.result import Life
+from wearsim.study.whole_drive.keys import DriveCase, holds_sprockets, load_drive
+
+
+def is_drive(path: Path) -> bool:
+    """Tell whether an input names the sprockets of a whole drive; one that cannot be read does not."""
+    try:
+        return holds_sprockets(read_document(path, ()).data)
+    except CaseError:
+        return False
+
+
+def alone(cases: Sequence[Path]) -> bool:
+    """Tell whether the inputs are one whole drive; one among others is refused."""
+    drives = [path for path in cases if is_drive(path)]
+    if drives and len(cases) > 1:
+        raise click.UsageError(f"{drives[0]} is a whole drive: give it alone")
+    return bool(drives)
+
+
+def live(path: Path, settings: Sequence[str], as_json: bool, hours: float | None, strict: bool) -> int:
+    """Print how long every part of a drive lives; return the exit code."""
+    from wearsim.study.whole_drive.model import drive_life
+    from wearsim.study.whole_drive.sheet import drive_json, drive_text
+
+    drive = _loaded(path, settings, as_json)
+    try:
+        with working(f"wearing {drive.title}") as report_progress:
+            found = drive_life(drive, hours, report_progress)
+    except WearsimError as error:
+        if as_json:
+            click.echo(error_json(path.stem, error))
+        raise
+    if as_json:
+        print_json(drive_json(found), path, found.warnings)
+    else:
+        click.echo(drive_text(found, str(path)))
+    missed = False
+    for name, life in found.parts.items():
+        if hours is not None and isinstance(life, Life) and life.hours < hours:
+            warn(f"{drive.name}: life of the {name} {life.hours:.6g} h is below {hours:g} h")
+            missed = True
+    if strict and found.warnings:
+        warn(f"{drive.name}: {len(found.warnings)} warning(s) and --strict")
+        missed = True
+    return NOT_MET if missed else 0
+
+
+def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
+    """Print that a drive is complete, and what it assumes."""
+    drive = _loaded(path, settings, as_json)
+    warnings = tuple(dict.fromkeys(text for one in drive.sprockets for text in one.case.warnings))
+    if as_json:
+        content = {
+            "schema_version": 1,
+            "case": drive.name,
+            "sprockets": [one.name for one in drive.sprockets],
+            "assumptions": list(drive.assumptions),
+            "warnings": list(warnings),
+        }
+        click.echo(json.dumps(content, ensure_ascii=False))
+        return
+    click.echo(f"{path}: ok, sprockets {', '.join(one.name for one in drive.sprockets)}")
+    for text in drive.assumptions:
+        click.echo(f"  assumes  {text}")
+    for text in warnings:
+        click.echo(f"  warning  {text}")
+
+
+def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> DriveCase:
+    try:
+        return load_drive(path, settings)
+    except CaseError as error:
+        if as_json:
+            click.echo(error_json(path.stem, error))
+        raise
