@@ -115,6 +115,23 @@ def test_torque_is_that_of_the_driver(cli, drive, tmp_path):
     assert torque == pytest.approx(power, rel=1e-3)
 
 
+def test_a_sprocket_with_twice_the_gaps_turns_as_often(cli, tmp_path):
+    """Every second of 40 gaps carries a roller: the drive is that of 20 teeth."""
+    chain = """\
+pitch_mm = 25.4
+roller_diameter_mm = 8.51
+inner_width_mm = 7.75
+pin_diameter_mm = 4.45
+bearing_area_mm2 = 50
+mass_kg_per_m = 0.45
+"""
+    text = DRIVE.replace('designation = "08B-1"\n', chain)
+    (tmp_path / "drive.toml").write_text(text)
+    (tmp_path / "double.toml").write_text(text.replace("teeth = 20", "teeth = 40\nengaged_every = 2"))
+    single, double = lives(cli, tmp_path / "drive.toml"), lives(cli, tmp_path / "double.toml")
+    assert (double["chain"], double["driver"]) == (single["chain"], single["driver"])
+
+
 def test_blocks_of_the_duty_are_those_of_the_driver(cli, tmp_path):
     duty = """
 [[duty]]
@@ -141,6 +158,7 @@ speed_rpm = 300
         (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
         (("links = 110", "links = 12"), 14, "drive layout: "),
         (("teeth = 20", "teeth = 20\nposition = 3"), 11, "unknown key"),
+        (("teeth = 20", "teeth = 21\nengaged_every = 2"), 11, "must divide the number of teeth"),
         (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "two sprockets"),
     ],
 )

@@ -123,6 +123,11 @@ def _wheels(document: Document) -> list[dict[str, Any]]:
         teeth = wheel.get("teeth")
         if not isinstance(teeth, int) or isinstance(teeth, bool) or teeth < 5:
             faults.add(f"sprocket.{number}.teeth", f"must be a whole number of at least 5 (got {teeth!r})")
+        elif _every(wheel) > 1 and teeth % _every(wheel):
+            faults.add(
+                f"sprocket.{number}.engaged_every",
+                f"must divide the number of teeth of a whole drive, {teeth} (got {_every(wheel)})",
+            )
         found.append({**wheel, "role": role, "name": name})
     if len({wheel["role"] for wheel in found}) < len(found):
         faults.add("sprocket.2.role", f"one sprocket drives, the other is driven (both {found[1]['role']!r})")
@@ -135,6 +140,16 @@ def _wheels(document: Document) -> list[dict[str, Any]]:
     if isinstance(load, dict) and "duty_file" in load:
         faults.add("load.duty_file", "a drive with [[sprocket]] takes no log of loads: use [[duty]]")
     return found
+
+
+def _every(wheel: Mapping[str, Any]) -> int:
+    every = wheel.get("engaged_every", 1)
+    return every if type(every) is int and every >= 1 else 1
+
+
+def _rollers(wheel: Mapping[str, Any]) -> int:
+    """Return how many rollers a sprocket takes along in a turn."""
+    return int(wheel["teeth"]) // _every(wheel)
 
 
 def _case(
@@ -173,14 +188,14 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]], number
     tables: dict[str, Any] = {
         **{key: value for key, value in data.items() if key != "title"},
         "sprocket": own,
-        "drive": {**_table(data, "drive"), _GIVEN_BY_WHEELS: mate["teeth"]},
+        "drive": {**_table(data, "drive"), _GIVEN_BY_WHEELS: _rollers(mate)},
         "mechanism": {"kind": "wrap", **_table(data, "mechanism")},
     }
     if "wear" in wheel:
         tables["wear"] = wheel["wear"]
     if "material" in wheel:
         tables["material"] = {**_table(data, "material"), "sprocket": wheel["material"]}
-    ratio = driver["teeth"] / wheel["teeth"]
+    ratio = _rollers(driver) / _rollers(wheel)
     if wheel is not driver:
         if isinstance(data.get("load"), dict):
             tables["load"] = _turned(data["load"], ratio)
