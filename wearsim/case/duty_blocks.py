@@ -1,8 +1,8 @@
 """How hard and how fast the drive runs: blocks of constant load, one for a constant drive."""
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 
 from wearsim.catalogue.catalogues import Chain, regimes
 from wearsim.input.case_record import ChainRecord
@@ -33,6 +33,8 @@ class GivenLoad:
     key: str  # of the case, for faults
     part: float = 1.0  # of the useful pull, for typical regimes
     measured: bool = False  # whether it comes from a log, which may hold idling
+    # shares of the power that driven sprockets take in this block, by their names; none for those of the drive
+    power_share: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -137,6 +139,7 @@ def _load_block(block: DutyBlock, number: int, share: float) -> GivenLoad:
         wear_factor=1.0 if block.applies_to == "joints" else block.wear_factor,
         joint_factor=1.0 if block.applies_to == "teeth" else block.wear_factor,
         key=f"duty.{number}.{kind}",
+        power_share=block.power_share or {},
     )
 
 
@@ -152,9 +155,10 @@ def _shares_of_cycles(shares: list[float], speeds: list[float], of_time: bool) -
 
 def _joined(blocks: Iterable[GivenLoad]) -> tuple[GivenLoad, ...]:
     """Join blocks of the same load and speed: shares add up, the factors on wear are their means."""
-    found: dict[tuple[str, float, float], GivenLoad] = {}
+    found: dict[tuple[object, ...], GivenLoad] = {}
     for block in blocks:
-        same = found.get((block.kind, block.value, block.speed_rpm))
+        alike = block.kind, block.value, block.speed_rpm, *sorted(block.power_share.items())
+        same = found.get(alike)
         if same is not None:
             block = replace(
                 same,
@@ -162,7 +166,7 @@ def _joined(blocks: Iterable[GivenLoad]) -> tuple[GivenLoad, ...]:
                 wear_factor=_mean(same, block, same.wear_factor, block.wear_factor),
                 joint_factor=_mean(same, block, same.joint_factor, block.joint_factor),
             )
-        found[block.kind, block.value, block.speed_rpm] = block
+        found[alike] = block
     return tuple(found.values())
 
 

@@ -2,7 +2,7 @@
 
 Wheels stand in the order in which the chain reaches them, and span i leads from wheel i to the next
 one. The chain turns counter-clockwise round wheels inside of the loop and clockwise round those
-outside, where its joints bend the other way.
+outside, where its joints bend the other way; the reverse where the whole loop runs clockwise.
 
 Spans are tangents of the pitch circles. On a wheel the chain counts z pitches a turn, as in
 `belt_links`: its links are chords of the pitch circle, which along the arc would be longer by the factor
@@ -28,19 +28,14 @@ class Wheel:
 
     Examples
     --------
-    >>> Wheel("idler", (120.0, 40.0), teeth=13, outside=True).sense
-    -1.0
+    >>> Wheel("idler", (120.0, 40.0), teeth=13, outside=True).name
+    'idler'
     """
 
     name: str  # unlike that of any other wheel of the loop
     centre: tuple[float, float]  # x, y [mm]; y points upwards
     teeth: int  # gaps, at least 5
     outside: bool = False  # whether the chain runs round it with its back
-
-    @property
-    def sense(self) -> float:
-        """1 where the chain turns counter-clockwise round the wheel, -1 where clockwise."""
-        return -1.0 if self.outside else 1.0
 
 
 @dataclass(frozen=True)
@@ -66,6 +61,7 @@ class ChainLoop:
     plate_height: float = 0.0  # of the links [mm]; half of it stands out on both sides of a span
     # by how much the pitch of the chain has grown; its rollers ride as much higher on the wheels
     elongation: float = 0.0
+    clockwise: bool = False  # whether the chain runs round the whole loop clockwise
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "wheels", tuple(self.wheels))
@@ -95,7 +91,12 @@ class ChainLoop:
     @cached_property
     def senses(self) -> Floats:
         """1 where the chain turns counter-clockwise, -1 where clockwise, shape (n,)."""
-        return np.array([wheel.sense for wheel in self.wheels])
+        return self.turn * np.array([-1.0 if wheel.outside else 1.0 for wheel in self.wheels])
+
+    @property
+    def turn(self) -> float:
+        """1 where the loop as a whole turns counter-clockwise, -1 where clockwise."""
+        return -1.0 if self.clockwise else 1.0
 
     @cached_property
     def centres(self) -> Floats:
@@ -160,7 +161,7 @@ class ChainLoop:
     @property
     def reversals(self) -> NDArray[np.bool_]:
         """Whether the joints bend the other way on a wheel, as it lies outside, shape (n,)."""
-        return self.senses < 0.0
+        return np.array([wheel.outside for wheel in self.wheels])
 
     @property
     def links(self) -> float:

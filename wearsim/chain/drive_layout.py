@@ -106,6 +106,16 @@ class DriveLayout:
             )
 
     @property
+    def all_teeth(self) -> tuple[int, ...]:
+        """Teeth of both sprockets."""
+        return self.teeth_1, self.teeth_2
+
+    @property
+    def rated_teeth(self) -> tuple[int, ...]:
+        """Teeth of the sprockets by which a chain is rated."""
+        return self.all_teeth
+
+    @property
     def ratio(self) -> float:
         """Speed of sprocket 1 over that of sprocket 2, z2/z1."""
         return self.teeth_2 / self.teeth_1

@@ -65,15 +65,16 @@ def turning_faults(loop: "ChainLoop") -> Iterator[str]:
         What must hold, what it is, and what to do.
     """
     missed, turning = _passed_by(loop.span_angles, loop.span_lengths, loop.senses, loop.pitch_radii)
-    once = abs(turning - FULL_TURN) < 1e-6
+    once = abs(turning - loop.turn * FULL_TURN) < 1e-6
     if once and not missed.size:
         return
     signed = (loop.senses * loop.pitch_radii)[::-1]
     backwards = span_tangents(loop.centres[::-1], signed)
     other_way = _passed_by(*backwards, loop.senses[::-1], loop.pitch_radii[::-1])
-    if not other_way[0].size and abs(other_way[1] - FULL_TURN) < 1e-6:
+    if not other_way[0].size and abs(other_way[1] - loop.turn * FULL_TURN) < 1e-6:
         order = ", ".join(wheel.name for wheel in reversed(loop.wheels))
-        yield f"the chain must run counter-clockwise, runs clockwise: give the wheels in the order {order}"
+        must, does = ("clockwise", "counter-clockwise")[:: int(-loop.turn)]
+        yield f"the chain must run {must}, runs {does}: give the wheels in the order {order}"
         return
     for i in missed:
         wrap = math.degrees((loop.wrap_angles[i] + math.pi) % FULL_TURN - math.pi)

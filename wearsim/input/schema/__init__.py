@@ -9,6 +9,7 @@ from wearsim.input.schema.drive_tables import (
     JointTable,
     LoadTable,
     MechanismTable,
+    PlaceTable,
     SprocketTable,
 )
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
@@ -33,6 +34,7 @@ __all__ = [
     "MaterialTable",
     "MaterialsTable",
     "MechanismTable",
+    "PlaceTable",
     "RunTable",
     "ServiceTable",
     "SprocketTable",

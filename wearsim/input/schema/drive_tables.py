@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
 from wearsim.input.schema.table import Table
-from wearsim.input.units import NotNegative, Positive, PositiveNumber, Speed
+from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
 
 class MechanismTable(Table):
@@ -40,6 +40,7 @@ class DriveTable(Table):
     link_stiffness_N_per_mm: Positive | None = None
     service_factor: Annotated[PositiveNumber, Field(ge=1.0, le=10.0)] | None = None
     joint_application_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
+    joint_friction: Annotated[NotNegative, Field(le=1.0)] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -190,6 +191,58 @@ class SprocketTable(Table):
 Share = Annotated[PositiveNumber, Field(le=1.0)]
 
 
+class TakeUpTable(Table):
+    """How a sprocket of a drive takes up the slack of the chain."""
+
+    guide_deg: Signed | None = None
+    travel_mm: Series | None = None
+    tensioner_force_N: Positive | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.travel_mm is None or (len(self.travel_mm) == 2 and self.travel_mm[0] < self.travel_mm[1]):
+            return []
+        message = f"must be the two ends of the travel, the lesser one first (got {list(self.travel_mm)})"
+        return [("travel_mm", message)]
+
+
+class CogTable(Table):
+    """A cog of a cassette: its teeth and the part of the time in which the chain runs on it."""
+
+    teeth: Annotated[int, Field(ge=5, le=1000)]
+    share_of_time: Share
+
+
+class PlaceTable(Table):
+    """What a sprocket of a drive has beside the keys of the only one of a case: its place in the loop."""
+
+    name: Annotated[str, Field(min_length=1, max_length=60)] | None = None
+    role: Literal["driver", "driven", "idler"] | None = None
+    position_mm: Series | None = None
+    outside: bool | None = None
+    power_share: Share | None = None
+    torque_N_m: Positive | None = None
+    take_up: TakeUpTable | None = None
+    cog: Annotated[list[CogTable], Field(min_length=2, max_length=20)] | None = None
+    wear: dict[str, Any] | None = None
+    material: dict[str, Any] | None = None
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = []
+        if self.position_mm is not None and len(self.position_mm) != 2:
+            found.append(("position_mm", f"must be x and y of the centre (got {list(self.position_mm)})"))
+        for key in ("power_share", "torque_N_m"):
+            if self.role == "idler" and getattr(self, key) is not None:
+                found.append((key, "an idler takes no power: remove this, or give it another role"))
+        if self.power_share is not None and self.torque_N_m is not None:
+            found.append(("torque_N_m", "power_share gives this already: remove one of both"))
+        if self.cog and abs(sum(cog.share_of_time for cog in self.cog) - 1.0) > 1e-6:
+            total = sum(cog.share_of_time for cog in self.cog)
+            found.append(("cog", f"share_of_time of all cogs must sum to 1 (got {total:.9g})"))
+        return found
+
+
 class DutyBlock(Table):
     """A part of the duty in which load and speed are constant."""
 
@@ -201,6 +254,7 @@ class DutyBlock(Table):
     speed_rpm: Speed
     wear_factor: PositiveNumber = 1.0
     applies_to: Literal["all", "teeth", "joints"] = "all"
+    power_share: dict[str, PositiveNumber] | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -1,21 +1,24 @@
 """From the tables of a chain around a sprocket to its drive: gap, layout, tensions, joints."""
 
 import math
+from functools import partial
 
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block
+from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.case.table_inputs import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable, JointTable
-from wearsim.mechanisms.wrap.drive import JOINT_COEFFICIENT, JointInput, WrapDrive
+from wearsim.mechanisms.wrap.drive import JOINT_COEFFICIENT, JointInput, WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
+from wearsim.mechanisms.wrap.place_in_loop import PlaceInLoop, check_travel, laid_out, loop_loads
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
@@ -30,13 +33,13 @@ TOLERANCE = 5e-2
 """Relative tolerance of a life by default, as it costs more than on a strand."""
 
 
-def read(document: Document) -> Case:
-    """Return the case of a chain around a sprocket."""
-    return read_chain_case(document, wrapped_drive, TOLERANCE)
+def read(document: Document, place: PlaceInLoop | None = None) -> Case:
+    """Return the case of a chain around a sprocket, of two or in its place in a loop."""
+    return read_chain_case(document, partial(wrapped_drive, place=place), TOLERANCE)
 
 
 def wrapped_drive(
-    case: ChainRecord, wear: WearInput, chain: Chain, duty: GivenDuty | None
+    case: ChainRecord, wear: WearInput, chain: Chain, duty: GivenDuty | None, place: PlaceInLoop | None = None
 ) -> WrapDrive | None:
     """Complete a chain around a sprocket."""
     tables, faults = case.tables, case.faults
@@ -48,16 +51,24 @@ def wrapped_drive(
     _check_chain(case, chain)
     if table.role is None:
         case.take("sprocket.role", "driver", "default")
-    layout = _layout(case, chain, tables.drive or DriveTable())
+    given = tables.drive or DriveTable()
+    layout = laid_out(case, chain, given, place) if place else _layout(case, chain, given)
     shape = gap_shape(case, table, chain)
     if layout is None or shape is None or duty is None or faults.count > before:
         return None
     driver = table.role != "driven"
-    tensions = _tensions(case, chain, layout, duty)
-    if tensions is None:
+    if isinstance(layout, LoopLayout):
+        loads = loop_loads(case, chain, layout, duty)
+    else:
+        loads = _tensions(case, chain, layout, duty)
+    if loads is None:
         return None
-    blocks, rated, slack = tensions
+    blocks, rated = loads
+    slack = heaviest_block(rated).slack
     width = face_width(case, table, chain)
+    joint = _joint(case, chain, layout)
+    if isinstance(layout, LoopLayout):
+        check_travel(case, layout, joint.elongation_limit)
     mechanism = tables.mechanism
     if mechanism.phases is None:
         case.take("mechanism.phases", PHASES, "default")
@@ -78,24 +89,46 @@ def wrapped_drive(
         pitch_angle=2.0 * math.pi * table.engaged_every / table.teeth,
         layout=layout,
         driver=driver,
-        wrap_angle=layout.wrap_angle_1 if driver else layout.wrap_angle_2,
+        mates=_mates(layout, driver),
+        wrap_angle=_wrap_angle(layout, driver),
         face_width=width,
         blocks=blocks,
         rated=rated,
-        slack=slack,
         link_stiffness=_link_stiffness(case, chain),
         bush_radius=0.5 * _bush_diameter(case, chain),
         phases=mechanism.phases or PHASES,
         slip_fraction=slip_fraction(case, SLIP_FRACTION),
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
-        joint=_joint(case, chain, layout),
+        joint=joint,
         service_factor=_factor(case, "service", "smooth load", "power"),
         joint_application_factor=_factor(
             case, "joint_application", "steady, drip oil, one shift", "joint pressure"
         ),
         chain=chain,
+        joint_friction=_joint_friction(case),
     )
+
+
+def _joint_friction(case: ChainRecord) -> float | None:
+    given = (case.tables.drive or DriveTable()).joint_friction
+    if given is not None:
+        case.assumptions.append(
+            f"coefficient of friction of the joints {given:g}: it makes heat of power, and moves no life"
+        )
+    return given
+
+
+def _mates(layout: DriveLayout | LoopLayout, driver: bool) -> tuple[int, ...]:
+    if isinstance(layout, LoopLayout):
+        return layout.mates
+    return (layout.teeth_2 if driver else layout.teeth_1,)
+
+
+def _wrap_angle(layout: DriveLayout | LoopLayout, driver: bool) -> float:
+    if isinstance(layout, LoopLayout):
+        return layout.wrap_angle
+    return layout.wrap_angle_1 if driver else layout.wrap_angle_2
 
 
 def _factor(case: ChainRecord, name: str, why: str, what: str) -> float:
@@ -170,8 +203,11 @@ def _alternating(case: ChainRecord) -> bool:
 
 def _tensions(
     case: ChainRecord, chain: Chain, layout: DriveLayout, duty: GivenDuty
-) -> tuple[tuple[LoadBlock, ...], tuple[LoadBlock, ...], float] | None:
-    """Return the blocks of the duty and the rated loads with their tensions, and the slack strand's."""
+) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
+    """Return the blocks of the duty and the rated loads with their tensions."""
+    for load in duty.blocks:
+        if load.power_share:
+            case.faults.add(load.key, "a case of one sprocket has no others to share its power with")
     slack = _slack(case, chain, layout, max(_pull(case, chain, load) for load in duty.rated))
     if slack is None:
         return None
@@ -200,7 +236,7 @@ def _tensions(
     strained = max(rated, key=lambda block: block.tension + block.centrifugal)
     key = duty.rated[rated.index(strained)].key
     holds = within_strength(case, strained.tension + strained.centrifugal, chain, key)
-    return (tuple(found), tuple(rated), slack) if holds else None
+    return (tuple(found), tuple(rated)) if holds else None
 
 
 def _range(values: list[float], digits: int) -> str:
@@ -208,7 +244,7 @@ def _range(values: list[float], digits: int) -> str:
     return high if low == high else f"{low} to {high}"
 
 
-def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> LoadBlock:
+def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> WrapLoad:
     """Return a load with its tensions; that of a log is at least the slack one."""
     pull = _pull(case, chain, load)
     whole = pull if load.kind == "tension_N" else pull + slack
@@ -216,7 +252,18 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> Lo
     if load.measured:
         tight = max(tight, slack)
     centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
-    return LoadBlock(load.share, load.speed_rpm, tight, centrifugal, load.wear_factor, load.joint_factor)
+    return WrapLoad(
+        share=load.share,
+        speed_rpm=load.speed_rpm,
+        tension=tight,
+        centrifugal=centrifugal,
+        wear_factor=load.wear_factor,
+        joint_factor=load.joint_factor,
+        slack=slack,
+        pull=tight - slack,
+        base=slack,
+        turns=((tight, slack),) * 2,
+    )
 
 
 def _fault_slack(case: ChainRecord, key: str, tight: float, slack: float) -> None:
@@ -278,15 +325,17 @@ def _bush_diameter(case: ChainRecord, chain: Chain) -> float:
     return mean
 
 
-def _joint(case: ChainRecord, chain: Chain, layout: DriveLayout) -> JointInput:
+def _joint(case: ChainRecord, chain: Chain, layout: DriveLayout | LoopLayout) -> JointInput:
     table = case.tables.joint or JointTable()
     if table.pitch is None:
         case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
     limit = case.tables.stop.elongation_percent
     if limit is None:
-        limit = min(3.0, 200.0 / max(layout.teeth_1, layout.teeth_2))
-        limit = float(f"{limit:.4g}")
-        case.take("stop.elongation_percent", limit, "3 %, or 200 % over the larger number of teeth")
+        fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
+        most = 1.5 if fixed else 3.0
+        limit = float(f"{min(most, 200.0 / max(layout.all_teeth)):.4g}")
+        why = f"{most:g} %{' as nothing takes up' if fixed else ''}, or 200 % over the larger number of teeth"
+        case.take("stop.elongation_percent", limit, why)
     return JointInput(
         coefficient=_joint_rate(case, table.specific_wear_rate_mm2_per_N),
         bearing_area=chain.bearing_area,

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
+from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.selection import RULES, RatedDrive, RatingFinding, assess, elongation_limit
 
 RatedLoad = tuple[str, RatedDrive]
@@ -37,9 +38,9 @@ def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str
     return tuple(name for name in RULES if not all(name in names for names in found))
 
 
-def elongation_finding(layout: DriveLayout, limit: float) -> RatingFinding:
+def elongation_finding(all_teeth: Sequence[int], limit: float) -> RatingFinding:
     """Return how the elongation at which a chain is replaced stands to the rule for it."""
-    allowed = elongation_limit(max(layout.teeth_1, layout.teeth_2))
+    allowed = elongation_limit(max(all_teeth))
     # Both to the four digits of the limit that a case takes by default.
     value, allowed = (float(f"{100.0 * part:.4g}") for part in (limit, allowed))
     return RatingFinding(
@@ -47,23 +48,35 @@ def elongation_finding(layout: DriveLayout, limit: float) -> RatingFinding:
     )
 
 
-def drive_notes(layout: DriveLayout, rated: RatedDrive, silent: Sequence[str], meetings: str) -> list[str]:
+def drive_notes(layout: DriveLayout | LoopLayout, rated: RatedDrive, silent: Sequence[str], meetings: str) -> list[str]:
     """Return what a designer asks of a chain drive that no rule limits."""
-    small = min(layout.teeth_1, layout.teeth_2)
+    small = min(layout.rated_teeth)
     speed = rated.teeth * rated.pitch * rated.speed / 6e4
     return [
-        f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
-        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
-        f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
-        f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket",
+        _laid_out(layout),
         f"{rated.power:.4g} kW at {speed:.4g} m/s: pull {rated.pull:.5g} N; small sprocket "
         f"{rated.teeth:g} teeth at {rated.speed:.5g} rpm, ratio "
-        f"{max(layout.teeth_1, layout.teeth_2) / small:.4g}",
+        f"{max(layout.rated_teeth) / small:.4g}",
         f"polygon effect: the speed of the chain varies by {100.0 * polygon_effect(small):.2f} % "
         f"over a tooth of the small sprocket",
         meetings,
         *([f"no limit known, so not judged: {', '.join(silent)}"] if silent else []),
     ]
+
+
+def _laid_out(layout: DriveLayout | LoopLayout) -> str:
+    if isinstance(layout, LoopLayout):
+        wraps = ", ".join(
+            f"{math.degrees(angle):.1f} degrees on {wheel.name!r}"
+            for wheel, angle in zip(layout.loop.wheels, layout.loop.wrap_angles, strict=True)
+        )
+        return f"{layout.links} links; wrap {wraps}"
+    return (
+        f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
+        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
+        f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
+        f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket"
+    )
 
 
 def meetings_note(loaded: int, links: int, alternating: bool) -> str:

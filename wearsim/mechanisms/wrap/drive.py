@@ -1,7 +1,7 @@
 """A chain around a sprocket: gap, layout and loads, and what the rest of wearsim asks of them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,7 +10,10 @@ import numpy as np
 
 from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
 from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
+from wearsim.chain.loop_forces import LoopForces
+from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.selection import RatedDrive, RatingFinding
 from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
@@ -51,6 +54,18 @@ class JointInput:
     elongation_limit: float  # relative elongation at which the chain's life ends
 
 
+@dataclass(frozen=True)
+class WrapLoad(LoadBlock):
+    """A part of the duty of a wrap."""
+
+    slack: float  # tension of the slack strand without the centrifugal part [N]
+    pull: float  # power over speed in the chain [N], on a loop that of all drivers
+    base: float  # what the tightest span of the chain bears beside the pull and the centrifugal part [N]
+    # tensions of the spans on both sides of every wheel on which joints turn, this sprocket first, then
+    # `WrapDrive.mates` [N]
+    turns: tuple[tuple[float, float], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class WrapDrive(Drive):
     """A chain around a sprocket."""
@@ -59,13 +74,14 @@ class WrapDrive(Drive):
     gap: Gap | None  # the exact arcs of a standard form
     gaps: int  # of the worn sprocket
     pitch_angle: float  # between successive rollers on it [rad]
-    layout: DriveLayout  # both sprockets and the chain
-    driver: bool  # whether the worn sprocket drives the chain; it is number 1 of the layout then
+    layout: DriveLayout | LoopLayout  # all sprockets and the chain
+    driver: bool  # whether the worn sprocket drives the chain; of two it is number 1 of the layout then
+    # rollers in a turn of the other wheels on which the chain bends, over the part of time in which it does
+    mates: tuple[float, ...]
     wrap_angle: float  # of the worn sprocket [rad]
     face_width: float  # b [mm]
-    blocks: tuple[LoadBlock, ...]  # the duty
-    rated: tuple[LoadBlock, ...]  # loads that strength, ratings and the grip of the chain are judged by
-    slack: float  # tension of the slack strand without the centrifugal part [N]
+    blocks: tuple[WrapLoad, ...]  # the duty
+    rated: tuple[WrapLoad, ...]  # loads that strength, ratings and the grip of the chain are judged by
     link_stiffness: float  # of one link [N/mm]
     bush_radius: float  # outer radius of the bush [mm]
     phases: int  # of one pitch
@@ -76,6 +92,8 @@ class WrapDrive(Drive):
     service_factor: float  # f1 on the power in the ratings
     joint_application_factor: float  # K_e on the joint pressure in the ratings
     chain: Chain
+    joint_friction: float | None = None  # coefficient of friction of pin and bush, where the case has one
+    time_share: float = 1.0  # part of the time in which the chain runs on this sprocket, of several cogs
 
     rests = True
     has_tooth = True
@@ -91,9 +109,14 @@ class WrapDrive(Drive):
         return {JOINT_COEFFICIENT: self.joint.coefficient}
 
     @property
-    def heaviest(self) -> LoadBlock:
+    def heaviest(self) -> WrapLoad:
         """The rated load of the largest tension."""
         return heaviest_block(self.rated)
+
+    @property
+    def slack(self) -> float:
+        """Tension of the slack strand under that load without the centrifugal part [N]."""
+        return self.heaviest.slack
 
     @property
     def profile(self) -> Profile:
@@ -207,29 +230,28 @@ class WrapDrive(Drive):
         rolls = (
             pull.friction_roller_tooth * chain.roller_radius > pull.friction_roller_bush * chain.bush_radius
         )
-        own, layout, joint = 2.0 * math.pi / self.pitch_angle, self.layout, self.joint
+        own, joint = 2.0 * math.pi / self.pitch_angle, self.joint
         blocks = tuple(
             WrapBlock(
                 share=block.share,
-                mechanism=replace(self.rollers, pull=replace(pull, tight=block.tension)),
+                mechanism=replace(self.rollers, pull=replace(pull, tight=block.tension, slack=block.slack)),
                 pitch_time=60.0 / (block.speed_rpm * own),
                 wear_factor=block.wear_factor,
             )
             for block in self.blocks
         )
-        engaged = self.gaps // math.gcd(self.gaps, case.engaged_every)
-        mate = layout.teeth_2 if self.driver else layout.teeth_1
+        engaged, links = self.gaps // math.gcd(self.gaps, case.engaged_every), self.layout.links
         per_loop = math.fsum(
             block.share
             * elongation_per_loop(
                 block.joint_factor * joint.coefficient,
-                (
-                    (block.tension + block.centrifugal) / joint.bearing_area,
-                    (self.slack + block.centrifugal) / joint.bearing_area,
-                ),
+                [
+                    ((one + block.centrifugal) / joint.bearing_area, (other + block.centrifugal) / joint.bearing_area)
+                    for one, other in block.turns
+                ],
                 self.chain.pin_diameter,
                 self.chain.pitch,
-                (own, mate),
+                (own / self.time_share, *self.mates),
             )
             for block in self.blocks
         )
@@ -241,11 +263,13 @@ class WrapDrive(Drive):
                 fraction=self.slip_fraction, path_fraction=self.slip_fraction if rolls else 1.0
             ),
             modulus=case.modulus,
-            same_link_kind=ToothMeetings(engaged, layout.links).same_link_kind,
-            elongation_per_cycle=per_loop * engaged / layout.links,
+            same_link_kind=ToothMeetings(engaged, links).same_link_kind,
+            elongation_per_cycle=per_loop * engaged / (links * self.time_share),
             elongation_limit=joint.elongation_limit,
-            # Another sprocket wears the rollers too, by the same way over its own articulation.
-            roller_area_ratio=case.wear.roller_ratio * engaged / layout.links * (1.0 + own / mate),
+            # Other sprockets wear the rollers too, by the same way over their own articulation.
+            roller_area_ratio=(
+                case.wear.roller_ratio * engaged / links * (1.0 + sum(own / self.time_share / mate for mate in self.mates))
+            ),
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
         )
 
@@ -284,7 +308,7 @@ class WrapDrive(Drive):
             f"slack tension of {self.slack:.4g} N the chain jumps: {remedy}"
         )
 
-    def rated_drive(self, case: Case, load: LoadBlock) -> RatedDrive:
+    def rated_drive(self, case: Case, load: WrapLoad) -> RatedDrive:
         """Return what the ratings need to know under a load: of the smaller sprocket.
 
         Its teeth and speed follow from the chain's speed where the case is about the larger one.
@@ -304,37 +328,56 @@ class WrapDrive(Drive):
         >>> found.teeth, found.speed, round(found.power, 9)
         (20.0, 750.0, 30.0)
         """
-        layout, chain = self.layout, self.chain
-        mate = layout.teeth_2 if self.driver else layout.teeth_1
+        chain, smallest = self.chain, min(self.layout.rated_teeth)
         own = self.gaps / case.engaged_every
         # 27 gaps of which every second carries a roller are 13.5 teeth, and no more than 13.
-        teeth = own if int(own) <= mate else float(mate)
+        teeth = own if int(own) == smallest else float(smallest)
         pitches = own * load.speed_rpm
         return RatedDrive(
             pitch=chain.pitch,
             teeth=teeth,
             speed=pitches / teeth,
-            power=1e-6 * (load.tension - self.slack) * chain.pitch * pitches / 60.0,
+            power=1e-6 * load.pull * chain.pitch * pitches / 60.0,
             strands=chain.strands,
             bearing_area=chain.bearing_area,
             tensile=chain.tensile,
-            own_tension=self.slack + load.centrifugal,
+            own_tension=load.base + load.centrifugal,
             series=chain.series,
             light=chain.designation == LIGHT_CHAIN,
         )
+
+    def forces(self, load: WrapLoad) -> LoopForces:
+        """Return the forces in the whole loop under a load, with what its joints lose in friction.
+
+        Of two sprockets the driver stands in the origin and the driven one to its right, the slack strand
+        below.
+        """
+        layout, lever = self.layout, 0.5 * self.chain.pin_diameter * (self.joint_friction or 0.0)
+        if isinstance(layout, LoopLayout):
+            own, others = load.turns[0], load.turns[1 : len(layout.loop.wheels)]
+            turns = [*others[: layout.wheel], own, *others[layout.wheel :]]
+            tensions = np.array([leaving for _, leaving in turns])
+            idle = tuple(share == 0.0 for share in layout.drive.shares)
+            return LoopForces(layout.loop, tensions, load.centrifugal, lever, idle)
+        wheels = (
+            Wheel("driver", (0.0, 0.0), layout.teeth_1),
+            Wheel("driven", (layout.centre_distance, 0.0), layout.teeth_2),
+        )
+        tensions = np.array([load.slack, load.tension])
+        return LoopForces(ChainLoop(layout.pitch, wheels), tensions, load.centrifugal, lever, (False, False))
 
     def _findings(self, case: Case) -> list[list[RatingFinding]]:
         """What the handbooks say about every rated load that pulls, each named where there are several."""
         loads = []
         for load in self.rated:
-            if load.tension > self.slack:
+            if load.pull > 0.0:
                 of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(self.rated) > 1 else ""
                 loads.append((of, self.rated_drive(case, load)))
         return findings_by_load(loads, self.service_factor, self.joint_application_factor)
 
     def ratings(self, case: Case) -> tuple[RatingFinding, ...]:
         """Return what the handbooks say about the drive."""
-        limit = elongation_finding(self.layout, self.joint.elongation_limit)
+        limit = elongation_finding(self.layout.all_teeth, self.joint.elongation_limit)
         return (*worst_findings(self._findings(case)), limit)
 
     def notes(self, case: Case) -> list[str]:
@@ -361,17 +404,17 @@ def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str
 
 def elongation_per_loop(
     specific_wear_rate: float,
-    pressures: tuple[float, float],
+    pressures: Sequence[tuple[float, float]],
     pin_diameter: float,
     pitch: float,
-    teeth: tuple[float, float],
+    teeth: Sequence[float],
 ) -> float:
-    """Return how much a chain grows in one loop around two sprockets.
+    """Return how much a chain grows in one loop around its sprockets.
 
-    A joint turns by 2 pi/z where it comes onto a sprocket and where it leaves it, once
-    under the tight tension and once under the slack one. Its pin slides pi d2/z each time,
-    so Archard's law gives d(eps)/d(loop) = k (p_tight + p_slack) pi d2 (1/z1 + 1/z2)/p,
-    equation (4.1) of the reference with its slack part.
+    A joint turns by 2 pi/z where it comes onto a sprocket and where it leaves it, each time under the
+    tension of that span. Its pin slides pi d2/z each time, so Archard's law gives
+    d(eps)/d(loop) = k pi d2/p sum over sprockets of (p_in + p_out)/z. For two sprockets that is equation
+    (4.1) of the reference with its slack part.
 
     Equation physics.md (E1).
 
@@ -379,14 +422,14 @@ def elongation_per_loop(
     ----------
     specific_wear_rate : float
         k of pin and bush together [mm2/N].
-    pressures : tuple of float
-        Tension of the tight and of the slack strand over the bearing area [MPa].
+    pressures : sequence of tuple of float
+        At each sprocket, tension of the spans on both sides over the bearing area [MPa].
     pin_diameter : float
         d2 [mm].
     pitch : float
         p [mm].
-    teeth : tuple of float
-        z1 and z2, rollers per turn.
+    teeth : sequence of float
+        z of each, rollers per turn.
 
     Returns
     -------
@@ -397,8 +440,10 @@ def elongation_per_loop(
     --------
     1e-9 mm2/N at 20 MPa over pi 5 (1/20 + 1/20) mm on a pitch of 10 mm:
 
-    >>> round(elongation_per_loop(1e-9, (20.0, 0.0), 5.0, 10.0, (20, 20)) / (1e-9 * math.pi), 12)
+    >>> spans = [(20.0, 0.0), (0.0, 20.0)]
+    >>> round(elongation_per_loop(1e-9, spans, 5.0, 10.0, (20, 20)) / (1e-9 * math.pi), 12)
     1.0
     """
-    path = math.pi * pin_diameter * (1.0 / teeth[0] + 1.0 / teeth[1])
-    return specific_wear_rate * sum(pressures) * path / pitch
+    first = sum(pressures[0])
+    turned = sum(sum(pair) / first / z for pair, z in zip(pressures, teeth, strict=True))
+    return specific_wear_rate * first * (math.pi * pin_diameter * turned) / pitch

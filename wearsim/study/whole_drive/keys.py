@@ -1,30 +1,47 @@
 """A drive with all of its sprockets, `[[sprocket]]`, taken apart into the cases of each of them."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
-from wearsim.errors import CaseError
+from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
-from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.units import convert
-
-_OF_WHEEL = ("name", "wear", "material")
-"""Keys of a `[[sprocket]]` that a case of one sprocket has in other places."""
-
-_ROLES = ("driver", "driven")
+from wearsim.mechanisms.wrap.build import read
+from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
+from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY, PlaceInLoop
+from wearsim.study.whole_drive.wheels import (
+    DRIVEN,
+    DRIVER,
+    IDLER,
+    DriveWheel,
+    check_block_shares,
+    drive_wheels,
+    place_of,
+    power_shares,
+)
 
 _GIVEN_BY_WHEELS = "mate_teeth"
+
+JOINT_FRICTION = 0.11
+"""Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
 
 
 @dataclass(frozen=True)
 class DriveSprocket:
     """A sprocket of a drive."""
 
-    name: str  # as the user calls it
+    name: str  # as the user calls it, with its teeth where it is a cog of a cassette
+    role: str  # `driver`, `driven` or `idler`
     case: Case  # of this sprocket alone
+
+    @property
+    def drive(self) -> WrapDrive:
+        """Sprocket and chain."""
+        assert isinstance(self.case.drive, WrapDrive)
+        return self.case.drive
 
 
 @dataclass(frozen=True)
@@ -39,7 +56,7 @@ class DriveCase:
     @property
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""
-        return next(one for one in self.sprockets if one.case.inputs["sprocket"]["role"] == "driver")
+        return next(one for one in self.sprockets if one.role == DRIVER)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -64,8 +81,8 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     Parameters
     ----------
     source : path, CaseText or mapping
-        A TOML file with ``[[sprocket]]`` twice, its text, or its tables as dictionaries. ``[load]`` and
-        ``[[duty]]`` are those of the driver.
+        A TOML file with ``[[sprocket]]`` twice or more, its text, or its tables as dictionaries. ``[load]``
+        and ``[[duty]]`` are those of the driver.
     overrides : sequence of str
         ``table.key=VALUE``, applied before validation; ``sprocket.2.teeth=57`` sets the second one.
 
@@ -80,123 +97,161 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
         Everything that is wrong with the input, with file and line.
     """
     document = read_document(source, overrides)
-    wheels = _wheels(document)
+    _check_tables(document)
+    wheels = drive_wheels(document)
     document.faults.check()
-    seen: set[tuple[str, str]] = set()
-    cases = [_case(document, wheels, number, seen) for number in range(len(wheels))]
+    shares = power_shares(document, wheels)
+    check_block_shares(document, wheels)
     document.faults.check()
-    sprockets = tuple(
-        DriveSprocket(str(wheel["name"]), case)
-        for wheel, case in zip(wheels, cases, strict=True)
-        if case is not None
-    )
-    title = document.data.get("title") or _title(sprockets)
-    return DriveCase(document.name, title, document.data, sprockets)
+    sprockets = _sprockets(document, wheels, shares)
+    document.faults.check()
+    title = document.data.get("title") or _title(wheels, sprockets[0].case)
+    return DriveCase(document.name, title, document.data, tuple(sprockets))
 
 
-def _title(sprockets: Sequence[DriveSprocket]) -> str:
-    first = sprockets[0].case
-    teeth = " to ".join(str(one.case.inputs["sprocket"]["teeth"]) for one in sprockets)
-    chain = first.inputs["chain"].get("designation", f"chain of {first.inputs['chain'].get('pitch_mm')} mm")
-    return f"{chain}, {teeth} teeth"
-
-
-def _wheels(document: Document) -> list[dict[str, Any]]:
-    """Return the sprockets, the driver first, with a role and a name each; name what is wrong with them."""
-    faults, wheels = document.faults, document.data["sprocket"]
-    if not all(isinstance(wheel, dict) for wheel in wheels):
-        faults.add("sprocket", "must be tables under headers [[sprocket]]")
-        return []
-    if len(wheels) != 2:
-        faults.add(
-            "sprocket", f"a drive must have two sprockets, a driver and a driven one (got {len(wheels)})"
-        )
-        return []
-    found = []
-    for number, wheel in enumerate(wheels, start=1):
-        role = wheel.get("role", _ROLES[number - 1])
-        name = wheel.get("name", role)
-        if role not in _ROLES:
-            faults.add(f"sprocket.{number}.role", f"must be 'driver' or 'driven' (got {role!r})")
-        if not isinstance(name, str) or not name.strip():
-            faults.add(f"sprocket.{number}.name", f"must be a text (got {name!r})")
-        teeth = wheel.get("teeth")
-        if not isinstance(teeth, int) or isinstance(teeth, bool) or teeth < 5:
-            faults.add(f"sprocket.{number}.teeth", f"must be a whole number of at least 5 (got {teeth!r})")
-        elif _every(wheel) > 1 and teeth % _every(wheel):
-            faults.add(
-                f"sprocket.{number}.engaged_every",
-                f"must divide the number of teeth of a whole drive, {teeth} (got {_every(wheel)})",
-            )
-        found.append({**wheel, "role": role, "name": name})
-    if len({wheel["role"] for wheel in found}) < len(found):
-        faults.add("sprocket.2.role", f"one sprocket drives, the other is driven (both {found[1]['role']!r})")
-    if len({wheel["name"] for wheel in found}) < len(found):
-        faults.add("sprocket.2.name", f"sprockets need different names (got {found[1]['name']!r} twice)")
-    drive = document.data.get("drive")
+def _check_tables(document: Document) -> None:
+    drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
     if isinstance(drive, dict) and _GIVEN_BY_WHEELS in drive:
-        faults.add(f"drive.{_GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
-    load = document.data.get("load")
+        document.faults.add(f"drive.{_GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
     if isinstance(load, dict) and "duty_file" in load:
-        faults.add("load.duty_file", "a drive with [[sprocket]] takes no log of loads: use [[duty]]")
+        document.faults.add("load.duty_file", "a drive with [[sprocket]] takes no log of loads: use [[duty]]")
+    if isinstance(duty, list) and len(document.data["sprocket"]) == 2:
+        for number, block in enumerate(duty, start=1):
+            if isinstance(block, dict) and "power_share" in block:
+                document.faults.add(
+                    f"duty.{number}.power_share", "the only driven sprocket has all of the power: remove this"
+                )
+
+
+def _title(wheels: Sequence[DriveWheel], first: Case) -> str:
+    teeth = " to ".join(_teeth_in_words(wheel) for wheel in wheels if wheel.role != IDLER)
+    chain = first.inputs["chain"].get("designation", f"chain of {first.inputs['chain'].get('pitch_mm')} mm")
+    idlers = sum(wheel.role == IDLER for wheel in wheels)
+    more = f" and {idlers} idler{'s' if idlers > 1 else ''}" if idlers else ""
+    return f"{chain}, {teeth} teeth{more}"
+
+
+def _teeth_in_words(wheel: DriveWheel) -> str:
+    if not wheel.cogs:
+        return str(wheel.table["teeth"])
+    teeth = [teeth for teeth, _ in wheel.cogs]
+    return f"{min(teeth)}-{max(teeth)}"
+
+
+def _sprockets(
+    document: Document, wheels: Sequence[DriveWheel], shares: tuple[float, ...]
+) -> list[DriveSprocket]:
+    """Return the cases of all sprockets; what is wrong with them goes to the faults of the drive."""
+    seen: set[tuple[str, str]] = set()
+    found = []
+    for number, wheel in enumerate(wheels):
+        for teeth, time_share in wheel.cogs or ((int(wheel.table["teeth"]), 1.0),):
+            running = [
+                replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
+            ]
+            case = _case(document, running, shares, number, seen)
+            if case is not None:
+                case = _sharing_time(case, wheels, number, time_share)
+                name = f"{wheel.name} {teeth}T" if wheel.cogs else wheel.name
+                found.append(DriveSprocket(name, wheel.role, case))
     return found
 
 
-def _every(wheel: Mapping[str, Any]) -> int:
-    every = wheel.get("engaged_every", 1)
-    return every if type(every) is int and every >= 1 else 1
+def _sharing_time(case: Case, wheels: Sequence[DriveWheel], number: int, time_share: float) -> Case:
+    """Return the case of a sprocket of a drive in which the chain runs on one of several cogs at a time."""
+    if not any(wheel.cogs for wheel in wheels):
+        return case
+    own, drive = wheels[number], case.drive
+    assert isinstance(drive, WrapDrive)
+    mates: list[float] = [1.0 / wheel.turning for wheel in wheels if wheel is not own]
+    others = [
+        teeth / share for teeth, share in own.cogs if teeth != case.inputs["sprocket"]["teeth"] and share
+    ]
+    turns = drive.blocks[0].turns
+    return replace(
+        case,
+        speed_rpm=case.speed_rpm * time_share,
+        drive=replace(
+            drive,
+            mates=(*mates, *others),
+            time_share=time_share,
+            blocks=tuple(_with_cogs(block, len(others)) for block in drive.blocks),
+            rated=tuple(_with_cogs(block, len(others)) for block in drive.rated),
+        ),
+        assumptions=(
+            *case.assumptions,
+            f"the chain runs on this cog for {100.0 * time_share:.4g} % of the time, and grows on all"
+            if own.cogs
+            else "the chain turns on the cogs by their shares of time; the wrap is that of the one used most",
+        ),
+    ) if turns else case
 
 
-def _rollers(wheel: Mapping[str, Any]) -> int:
-    """Return how many rollers a sprocket takes along in a turn."""
-    return int(wheel["teeth"]) // _every(wheel)
+def _with_cogs(block: WrapLoad, others: int) -> WrapLoad:
+    """Return a block whose joints turn on the other cogs as they do on this one."""
+    return replace(block, turns=(*block.turns, *(block.turns[0],) * others))
 
 
 def _case(
-    document: Document, wheels: Sequence[Mapping[str, Any]], number: int, seen: set[tuple[str, str]]
+    document: Document,
+    wheels: Sequence[DriveWheel],
+    shares: tuple[float, ...],
+    number: int,
+    seen: set[tuple[str, str]],
 ) -> Case | None:
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
     own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
-    read: Callable[[Document], Case] = mechanism_of(own.data).load("read")
+    place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
     try:
-        return read(own)
+        return read(own, place)
     except CaseError as error:
         for fault in error.faults:
-            key = _key(fault.key, wheels, number)
+            key = _key(fault, wheels, number)
             if (key, fault.message) not in seen:
                 document.faults.add(key, fault.message)
             seen.add((key, fault.message))
         return None
 
 
-def _key(key: str, wheels: Sequence[Mapping[str, Any]], number: int) -> str:
-    """Return the key of the file that a key of the case of one sprocket comes from."""
+def _key(fault: Fault, wheels: Sequence[DriveWheel], number: int) -> str:
+    """Return the key of the file that a fault of the case of one sprocket comes from."""
+    key = fault.key
+    if key == LOOP_KEY:
+        named = [
+            (fault.message.find(repr(wheel.name)), place)
+            for place, wheel in enumerate(wheels, start=1)
+            if repr(wheel.name) in fault.message
+        ]
+        return f"sprocket.{min(named)[1]}" if named else "sprocket"
     table, _, name = key.partition(".")
     if table == "sprocket":
         return f"sprocket.{number + 1}.{name}".rstrip(".")
-    if table in _OF_WHEEL and name.split(".")[0] in wheels[number].get(table, {}):
+    if table == "wear" and wheels[number].place.wear and name.split(".")[0] in wheels[number].place.wear:
         return f"sprocket.{number + 1}.{key}"
+    if key.startswith("material.sprocket") and wheels[number].place.material is not None:
+        return f"sprocket.{number + 1}.material{key.removeprefix('material.sprocket')}"
     return key
 
 
-def _tables(data: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]], number: int) -> dict[str, Any]:
+def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) -> dict[str, Any]:
     """Return the tables of the case of one sprocket: its teeth, its speed and its torque."""
     wheel = wheels[number]
-    mate = wheels[1 - number]
-    driver = wheel if wheel["role"] == "driver" else mate
-    own = {key: value for key, value in wheel.items() if key not in _OF_WHEEL}
+    driver = next(one for one in wheels if one.role == DRIVER)
+    drive = {"joint_friction": JOINT_FRICTION, **_table(data, "drive")}
+    if wheel.place.position_mm is None:
+        drive[_GIVEN_BY_WHEELS] = wheels[1 - number].rollers
     tables: dict[str, Any] = {
         **{key: value for key, value in data.items() if key != "title"},
-        "sprocket": own,
-        "drive": {**_table(data, "drive"), _GIVEN_BY_WHEELS: _rollers(mate)},
+        "sprocket": {**wheel.table, "role": DRIVER if wheel.role == DRIVER else DRIVEN},
+        "drive": drive,
         "mechanism": {"kind": "wrap", **_table(data, "mechanism")},
     }
-    if "wear" in wheel:
-        tables["wear"] = wheel["wear"]
-    if "material" in wheel:
-        tables["material"] = {**_table(data, "material"), "sprocket": wheel["material"]}
-    ratio = _rollers(driver) / _rollers(wheel)
+    if wheel.place.wear is not None:
+        tables["wear"] = wheel.place.wear
+    if wheel.place.material is not None:
+        tables["material"] = {**_table(data, "material"), "sprocket": wheel.place.material}
     if wheel is not driver:
+        ratio = driver.rollers / wheel.rollers
         if isinstance(data.get("load"), dict):
             tables["load"] = _turned(data["load"], ratio)
         if isinstance(data.get("duty"), list):

@@ -1,0 +1,238 @@
+"""A sprocket in its place in a loop of many: the layout that fits, and the tensions on its two sides."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.table_inputs import effective_pull, within_strength
+from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.chain_loop import ChainLoop, Wheel
+from wearsim.chain.loop_forces import LoopForces, SpanLevel
+from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_from
+from wearsim.chain.span_tension import centrifugal_tension
+from wearsim.chain.take_up import TakeUp
+from wearsim.errors import CaseError, GeometryError
+from wearsim.input.case_record import ChainRecord
+from wearsim.input.schema import DriveTable
+from wearsim.mechanisms.wrap.drive import WrapLoad
+
+LOOP_KEY = "drive.loop"
+"""Key of faults that are about the loop as a whole."""
+
+_GIVEN_BY_PLACES = ("mate_teeth", "centre_distance_mm", "inclination_deg")
+
+_NO_TENSION = 1e-6
+"""Tension below which a span has none of its own [N]."""
+
+_TRAVEL = 2.0
+"""Travel of a take-up to both sides where a case gives none, in pitches."""
+
+
+@dataclass(frozen=True)
+class GivenTakeUp:
+    """A wheel that takes up the slack, as the case gives it."""
+
+    wheel: str
+    # direction in which the travel counts [rad]; None for that in which the chain is stretched
+    direction: float | None = None
+    travel: tuple[float, float] | None = None  # ends of the travel [mm]
+    force: float = 0.0  # along the direction, of a spring or a weight [N]; 0 where it is fixed
+
+
+@dataclass(frozen=True)
+class PlaceInLoop:
+    """The sprockets of a loop, and which of them a case is about."""
+
+    wheels: tuple[Wheel, ...]
+    # share of each wheel in the power of the drivers: above 0 for drivers, below for driven, 0 for idlers
+    shares: tuple[float, ...]
+    wheel: int  # the one that the case is about
+    take_up: GivenTakeUp | None = None
+
+
+def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInLoop) -> LoopLayout | None:
+    """Return the loop with a whole number of links; what is wrong with it goes to the faults."""
+    before = case.faults.count
+    for key in _GIVEN_BY_PLACES:
+        if getattr(table, key) is not None:
+            case.faults.add(f"drive.{key}", "the sprockets and their position_mm give this: remove it")
+    if place.take_up is None and table.sag_percent is not None:
+        case.faults.add("drive.sag_percent", "without a take_up the links give the sag: remove it")
+    if place.take_up is not None and place.take_up.force:
+        for key in ("slack_tension_N", "sag_percent"):
+            if getattr(table, key) is not None:
+                case.faults.add(f"drive.{key}", "the force of the take_up gives this: remove one of both")
+    if case.faults.count > before:
+        return None
+    try:
+        loop = _loop(chain.pitch, place.wheels)
+        drive = LoopDrive(loop, place.shares, _take_up(case, loop, place), _force(place))
+        layout = seen_from(loop_layout(drive, table.links), place.wheel)
+    except (CaseError, GeometryError) as error:
+        faults = error.faults if isinstance(error, CaseError) else ()
+        for text in [fault.message for fault in faults] or [str(error)]:
+            case.faults.add(LOOP_KEY, text)
+        return None
+    if table.links is None:
+        case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
+    if layout.links % 2:
+        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+    if drive.take_up is not None:
+        case.assumptions.append(
+            f"take-up {drive.take_up.wheel!r} stands {layout.travel:.4g} mm from its place for a new chain"
+        )
+    return layout
+
+
+def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
+    """Return the loop in the sense in which it is one; the faults are those of the usual sense."""
+    try:
+        return ChainLoop(pitch, wheels)
+    except CaseError:
+        try:
+            return ChainLoop(pitch, wheels, clockwise=True)
+        except CaseError:
+            pass
+        raise
+
+
+def _force(place: PlaceInLoop) -> float:
+    return place.take_up.force if place.take_up else 0.0
+
+
+def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp | None:
+    given = place.take_up
+    if given is None:
+        return None
+    if given.direction is not None:
+        direction = math.cos(given.direction), math.sin(given.direction)
+    else:
+        at = loop.index(given.wheel)
+        pulled = loop.directions[at] - loop.directions[at - 1]
+        direction = -float(pulled[0]), -float(pulled[1])
+        degrees = math.degrees(math.atan2(direction[1], direction[0]))
+        case.assumptions.append(
+            f"take-up {given.wheel!r} moves against the pull of its two spans, at {degrees:.4g} degrees"
+        )
+    travel = given.travel
+    if travel is None:
+        travel = -_TRAVEL * loop.pitch, _TRAVEL * loop.pitch
+        case.assumptions.append(
+            f"take-up {given.wheel!r} can move by {travel[1]:.4g} mm to both sides, {_TRAVEL:g} pitches"
+        )
+    return TakeUp(given.wheel, direction, *travel)
+
+
+def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> None:
+    """Warn where the take-up has no room for the chain that has grown to its limit."""
+    take_up = layout.drive.take_up
+    if take_up is None:
+        return
+    try:
+        travel = layout.travel_at(elongation)
+    except (CaseError, GeometryError):
+        case.warnings.append(
+            f"the travel of take-up {take_up.wheel!r} from {take_up.least:.4g} to {take_up.most:.4g} mm has no "
+            f"room for a chain grown by {100.0 * elongation:.3g} %: take two links out then, or give more"
+        )
+        return
+    case.assumptions.append(
+        f"take-up {take_up.wheel!r} moves on to {travel:.4g} mm as the chain grows by "
+        f"{100.0 * elongation:.3g} %"
+    )
+
+
+def loop_loads(
+    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty
+) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
+    """Return the blocks of the duty and the rated loads with the tensions on both sides of the sprocket."""
+    table = case.tables.drive or DriveTable()
+    before = case.faults.count
+    for load in (*duty.rated, *duty.blocks):
+        if load.kind == "tension_N":
+            case.faults.add(
+                load.key, "spans have tensions of their own here: give power_kW or torque_N_m of the driver"
+            )
+    sag = None if table.sag_percent is None else 0.01 * table.sag_percent
+    if sag is None and layout.drive.take_up is not None and not layout.drive.take_up_force:
+        sag = 0.02
+        if table.slack_tension_N is None:
+            case.take("drive.sag_percent", 100.0 * sag, "default")
+    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag)
+    if not level.force > _NO_TENSION:
+        case.faults.add(
+            "drive.slack_tension_N",
+            "the loosest span is vertical and has no tension of its own: give this, or a force of the take_up",
+        )
+    if case.faults.count > before:
+        return None
+    try:
+        found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
+        rated = [_forces(case, chain, layout, load, level, table) for load in duty.rated]
+    except CaseError as error:
+        for fault in error.faults:
+            case.faults.add(LOOP_KEY, fault.message)
+        return None
+    heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
+    spans = ", ".join(
+        f"{layout.loop.span_name(i)} {tension:.4g}" for i, tension in enumerate(heaviest.tensions)
+    )
+    case.assumptions.append(
+        f"tensions of the spans at the highest load: {spans} N, and {heaviest.centrifugal:.3g} N in each "
+        "from the chain's own speed, which loads joints but not teeth"
+    )
+    strained = float(heaviest.tensions.max()) + heaviest.centrifugal
+    key = duty.rated[rated.index(heaviest)].key
+    if not within_strength(case, strained, chain, key):
+        return None
+    blocks, ratings = (
+        tuple(_block(layout, load, forces) for load, forces in zip(loads, of, strict=True))
+        for loads, of in ((duty.blocks, found), (duty.rated, rated))
+    )
+    return blocks, ratings
+
+
+def _forces(
+    case: ChainRecord, chain: Chain, layout: LoopLayout, load: GivenLoad, level: SpanLevel, table: DriveTable
+) -> LoopForces:
+    sprocket = case.tables.sprocket
+    assert sprocket is not None
+    speed = chain.pitch * sprocket.teeth * load.speed_rpm / (60.0 * sprocket.engaged_every)
+    pull = effective_pull(load, speed, 60.0 * speed / (2.0 * math.pi * load.speed_rpm))
+    return layout.forces(
+        load.part * pull,
+        level,
+        0.5 * chain.pin_diameter * (table.joint_friction or 0.0),
+        centrifugal_tension(chain.mass_per_length, speed),
+        _shares(layout, load.power_share),
+    )
+
+
+def _shares(layout: LoopLayout, given: Mapping[str, float]) -> tuple[float, ...]:
+    """Return the shares of a block that gives those of some driven wheels, else those of the drive."""
+    if not given:
+        return layout.drive.shares
+    shares = (max(share, 0.0) for share in layout.drive.shares)
+    return tuple(
+        share - given.get(wheel.name, 0.0) for share, wheel in zip(shares, layout.loop.wheels, strict=True)
+    )
+
+
+def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces) -> WrapLoad:
+    arriving, leaving = forces.arriving.tolist(), forces.tensions.tolist()
+    own = layout.wheel
+    order = [own, *(i for i in range(len(leaving)) if i != own)]
+    pull = float(forces.pulls[[share > 0.0 for share in layout.drive.shares]].sum())
+    return WrapLoad(
+        share=load.share,
+        speed_rpm=load.speed_rpm,
+        tension=max(arriving[own], leaving[own]),
+        centrifugal=forces.centrifugal,
+        wear_factor=load.wear_factor,
+        joint_factor=load.joint_factor,
+        slack=min(arriving[own], leaving[own]),
+        pull=pull,
+        base=max(leaving) - pull,
+        turns=tuple((arriving[i], leaving[i]) for i in order),
+    )
