@@ -15,6 +15,8 @@ WITHOUT_EFFECT = {
     "title": "only shown above the answer",
     "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",
     "drive.joint_application_factor": "only the rating that check prints (test_cli_check_rating.py)",
+    "duty.power_share": "only drives of several driven sprockets (tests/cli/test_drive_loop.py)",
+    "drive.joint_friction": "only heat and efficiency of a whole drive (tests/cli/test_drive_loop.py)",
     "maintenance.chain_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.sprocket_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.downtime_hours": "only wearsim maintain (tests/unit/test_maintain.py)",

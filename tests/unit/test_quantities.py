@@ -20,7 +20,7 @@ from wearsim.export.wheel_drawing import wheel_points
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import MECHANISMS
-from wearsim.input.schema import CaseTables
+from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
@@ -91,7 +91,7 @@ def input_keys(model):
 
 
 def all_input_keys():
-    return {key for model in (CaseTables, *map(tables_of, OTHER_FILES)) for key in input_keys(model)}
+    return {key for model in (CaseTablesOrDrive, *map(tables_of, OTHER_FILES)) for key in input_keys(model)}
 
 
 def keys_below(content):

@@ -214,11 +214,11 @@ def test_rating_point_verifies_equation_4_1_and_validates_nothing(validated: Cal
 def test_slack_articulations_count() -> None:
     """With no slack part the life of one loop would be (p_t + p_s)/p_t times as long."""
     arguments = 1e-10, PIN, PITCH, (19, 57)
-    both = elongation_per_loop(arguments[0], (20.0, 5.0), *arguments[1:])
-    tight = elongation_per_loop(arguments[0], (20.0, 0.0), *arguments[1:])
+    both = elongation_per_loop(arguments[0], [(20.0, 5.0), (5.0, 20.0)], *arguments[1:])
+    tight = elongation_per_loop(arguments[0], [(20.0, 0.0), (0.0, 20.0)], *arguments[1:])
     assert both == pytest.approx(1.25 * tight, rel=1e-12)
     assert tight == pytest.approx(1e-10 * 20.0 * math.pi * PIN * (1 / 19 + 1 / 57) / PITCH, rel=1e-12)
 
 
 def test_no_wear_of_joints_no_elongation() -> None:
-    assert elongation_per_loop(0.0, (20.0, 5.0), PIN, PITCH, (19, 57)) == 0.0
+    assert elongation_per_loop(0.0, [(20.0, 5.0)] * 2, PIN, PITCH, (19, 57)) == 0.0

@@ -28,11 +28,11 @@ def schema(of_result: bool, command: str | None) -> None:
         click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
         return
     from wearsim.command.registry import OTHER_FILES, tables_of
-    from wearsim.input.schema import CaseTables
+    from wearsim.input.schema import CaseTablesOrDrive
 
     if command and command not in OTHER_FILES:
         raise click.BadParameter(f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of")
-    model = tables_of(command) if command else CaseTables
+    model = tables_of(command) if command else CaseTablesOrDrive
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **model.model_json_schema(),

@@ -9,6 +9,7 @@ from wearsim.input.schema.drive_tables import (
     JointTable,
     LoadTable,
     MechanismTable,
+    PlacedSprocketTable,
     PlaceTable,
     SprocketTable,
 )
@@ -25,6 +26,7 @@ from wearsim.input.schema.wear_tables import (
 
 __all__ = [
     "CaseTables",
+    "CaseTablesOrDrive",
     "ChainTable",
     "DriveTable",
     "DutyBlock",
@@ -65,3 +67,9 @@ class CaseTables(Table):
     service: ServiceTable | None = None
     uncertainty: Uncertainty | None = None
     optimise: OptimiseTable | None = None
+
+
+class CaseTablesOrDrive(CaseTables):
+    """The same, or those of a drive with all of its sprockets, for the schema."""
+
+    sprocket: SprocketTable | list[PlacedSprocketTable] | None = None  # type: ignore[assignment]

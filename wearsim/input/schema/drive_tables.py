@@ -6,6 +6,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
 from wearsim.input.schema.table import Table
+from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
 
@@ -224,8 +225,8 @@ class PlaceTable(Table):
     torque_N_m: Positive | None = None
     take_up: TakeUpTable | None = None
     cog: Annotated[list[CogTable], Field(min_length=2, max_length=20)] | None = None
-    wear: dict[str, Any] | None = None
-    material: dict[str, Any] | None = None
+    wear: WearTable | None = None
+    material: MaterialTable | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -241,6 +242,12 @@ class PlaceTable(Table):
             total = sum(cog.share_of_time for cog in self.cog)
             found.append(("cog", f"share_of_time of all cogs must sum to 1 (got {total:.9g})"))
         return found
+
+
+class PlacedSprocketTable(PlaceTable, SprocketTable):
+    """All keys of a sprocket of a drive, for the schema."""
+
+    teeth: Annotated[int, Field(ge=5, le=1000)] | None = None  # type: ignore[assignment]
 
 
 class DutyBlock(Table):

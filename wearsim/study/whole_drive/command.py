@@ -59,6 +59,8 @@ def live(path: Path, settings: Sequence[str], as_json: bool, hours: float | None
 
 def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
     """Print that a drive is complete, and what it assumes."""
+    from wearsim.study.whole_drive.layout import layout_json, layout_text
+
     drive = _loaded(path, settings, as_json)
     warnings = tuple(dict.fromkeys(text for one in drive.sprockets for text in one.case.warnings))
     if as_json:
@@ -66,12 +68,14 @@ def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
             "schema_version": 1,
             "case": drive.name,
             "sprockets": [one.name for one in drive.sprockets],
+            "layout": layout_json(drive),
             "assumptions": list(drive.assumptions),
             "warnings": list(warnings),
         }
         click.echo(json.dumps(content, ensure_ascii=False))
         return
     click.echo(f"{path}: ok, sprockets {', '.join(one.name for one in drive.sprockets)}")
+    click.echo(layout_text(drive))
     for text in drive.assumptions:
         click.echo(f"  assumes  {text}")
     for text in warnings:

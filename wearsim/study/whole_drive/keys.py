@@ -51,7 +51,8 @@ class DriveCase:
     name: str  # stem of its file
     title: str  # of the file, or what is driven by what
     inputs: Mapping[str, Any]  # tables of the file
-    sprockets: tuple[DriveSprocket, ...]  # in the order of the file
+    sprockets: tuple[DriveSprocket, ...]  # in the order of the file, each cog of a cassette for itself
+    wheels: tuple[DriveWheel, ...]  # in the order of the file, which is that of the chain
 
     @property
     def driver(self) -> DriveSprocket:
@@ -106,7 +107,7 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     sprockets = _sprockets(document, wheels, shares)
     document.faults.check()
     title = document.data.get("title") or _title(wheels, sprockets[0].case)
-    return DriveCase(document.name, title, document.data, tuple(sprockets))
+    return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels))
 
 
 def _check_tables(document: Document) -> None:
@@ -226,9 +227,10 @@ def _key(fault: Fault, wheels: Sequence[DriveWheel], number: int) -> str:
     table, _, name = key.partition(".")
     if table == "sprocket":
         return f"sprocket.{number + 1}.{name}".rstrip(".")
-    if table == "wear" and wheels[number].place.wear and name.split(".")[0] in wheels[number].place.wear:
+    own = wheels[number].own
+    if table in own and table == "wear":
         return f"sprocket.{number + 1}.{key}"
-    if key.startswith("material.sprocket") and wheels[number].place.material is not None:
+    if key.startswith("material.sprocket") and "material" in own:
         return f"sprocket.{number + 1}.material{key.removeprefix('material.sprocket')}"
     return key
 
@@ -246,10 +248,10 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
         "drive": drive,
         "mechanism": {"kind": "wrap", **_table(data, "mechanism")},
     }
-    if wheel.place.wear is not None:
-        tables["wear"] = wheel.place.wear
-    if wheel.place.material is not None:
-        tables["material"] = {**_table(data, "material"), "sprocket": wheel.place.material}
+    if "wear" in wheel.own:
+        tables["wear"] = wheel.own["wear"]
+    if "material" in wheel.own:
+        tables["material"] = {**_table(data, "material"), "sprocket": wheel.own["material"]}
     if wheel is not driver:
         ratio = driver.rollers / wheel.rollers
         if isinstance(data.get("load"), dict):

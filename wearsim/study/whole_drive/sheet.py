@@ -7,6 +7,7 @@ from wearsim.report.answer import ending, hours, overload_text, service_text
 from wearsim.report.service import service_keys
 from wearsim.report.text_lines import row, stated_and_defaults
 from wearsim.result import Life, WearResult, life_keys
+from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 
 _MAX_WARNINGS = 1
@@ -132,5 +133,6 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
             {"name": name, **result.summary(), "chains": found.chains_with(name)}
             for name, result in found.results.items()
         ],
+        "layout": layout_json(drive),
         "warnings": list(found.warnings),
     }

@@ -16,6 +16,9 @@ from wearsim.mechanisms.wrap.place_in_loop import GivenTakeUp, PlaceInLoop
 
 DRIVER, DRIVEN, IDLER = "driver", "driven", "idler"
 
+_OWN = ("wear", "material")
+"""Tables of a sprocket that a case of one has in other places."""
+
 _SUM_TOLERANCE = 1e-6
 _POWER_TOLERANCE = 0.01
 """Part of the driver's power by which torques may miss it."""
@@ -28,7 +31,8 @@ class DriveWheel:
     name: str
     role: str  # `driver`, `driven` or `idler`
     place: PlaceTable  # its own keys
-    table: Mapping[str, Any]  # all others, which a case of one sprocket has too
+    table: Mapping[str, Any]  # those of [sprocket]
+    own: Mapping[str, Any]  # tables that take the place of [wear] and [material.sprocket], where it has some
 
     @property
     def every(self) -> int:
@@ -92,7 +96,7 @@ def _wheel(number: int, table: Mapping[str, Any], count: int, faults: Faults) ->
         faults.add(f"{key}.teeth", f"must be a whole number of at least 5 (got {teeth!r})")
         return None
     name = place.name or (role if count == 2 else f"{role} {number}")
-    wheel = DriveWheel(name, role, place, rest)
+    wheel = DriveWheel(name, role, place, rest, {key: table[key] for key in _OWN if key in table})
     if wheel.every > 1 and teeth % wheel.every:
         message = f"must divide the number of teeth of a whole drive, {teeth} (got {wheel.every})"
         faults.add(f"{key}.engaged_every", message)
@@ -113,14 +117,11 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
             faults.add(f"sprocket.{len(wheels)}.role", f"at least one sprocket must be {role!r} (got {other})")
     placed = [wheel.place.position_mm is not None for wheel in wheels]
     if any(placed) or len(wheels) > 2:
-        for number, there in enumerate(placed, start=1):
-            if not there:
-                message = "required: " + (
-                    "more than two sprockets need the place of each"
-                    if len(wheels) > 2
-                    else "the other sprocket has one"
-                )
-                faults.add(f"sprocket.{number}.position_mm", message)
+        missing = [number for number, there in enumerate(placed, start=1) if not there]
+        if missing:
+            which = ", ".join(repr(wheels[number - 1].name) for number in missing)
+            message = f"every sprocket of more than two, or of two with one placed, needs this: give {which} one"
+            faults.add(f"sprocket.{missing[0]}.position_mm", message)
     else:
         for number, wheel in enumerate(wheels, start=1):
             for key in ("outside", "take_up"):

@@ -1,0 +1,98 @@
+"""Where the chain runs, how hard it pulls, what the shafts bear and what its joints lose."""
+
+import math
+from typing import Any
+
+from wearsim.chain.loop_forces import LoopForces
+from wearsim.report.text_lines import row
+from wearsim.study.whole_drive.keys import DriveCase
+from wearsim.study.whole_drive.wheels import DRIVER
+
+
+def drive_forces(drive: DriveCase) -> LoopForces:
+    """Return the forces in the loop under the highest load, of a cassette on the cog that runs longest."""
+    found = drive.driver.drive
+    return found.forces(found.heaviest)
+
+
+def chain_speed(drive: DriveCase) -> float:
+    """Return the speed of the chain under the highest load [mm/s]."""
+    found = drive.driver.drive
+    rollers = 2.0 * math.pi / found.pitch_angle
+    return found.chain.pitch * rollers * found.heaviest.speed_rpm / 60.0
+
+
+def layout_json(drive: DriveCase) -> dict[str, Any]:
+    """Return layout and forces of a drive as JSON."""
+    forces, speed = drive_forces(drive), chain_speed(drive)
+    loop = forces.loop
+    watts = 1e-3 * speed
+    return {
+        "links": drive.driver.drive.layout.links,
+        "chain_speed_m_per_s": 1e-3 * speed,
+        "sprockets": [
+            {
+                "name": name,
+                "teeth": wheel.teeth,
+                "x_mm": wheel.centre[0],
+                "y_mm": wheel.centre[1],
+                "wrap_deg": math.degrees(float(loop.wrap_angles[i])),
+                "teeth_in_mesh": float(loop.teeth_in_mesh[i]),
+                "shaft_load_N": float(forces.shaft_loads[i]),
+                "shaft_direction_deg": math.degrees(float(forces.shaft_directions[i])),
+                "torque_N_m": 1e-3 * float(forces.torques[i]),
+                "power_kW": 1e-3 * watts * float(forces.shaft_pulls[i]),
+            }
+            for i, (name, wheel) in enumerate(zip(_names(drive), loop.wheels, strict=True))
+        ],
+        "spans": [
+            {
+                "from": _names(drive)[i],
+                "to": _names(drive)[(i + 1) % len(loop.wheels)],
+                "length_mm": float(loop.span_lengths[i]),
+                "tension_N": float(forces.tensions[i]),
+            }
+            for i in range(len(loop.wheels))
+        ],
+        "centrifugal_tension_N": forces.centrifugal,
+        "efficiency": forces.efficiency,
+        "friction_heat_W": watts * float(forces.losses.sum()),
+    }
+
+
+def _names(drive: DriveCase) -> list[str]:
+    """Names of the sprockets in the order of the loop, which begins with the driver where none is placed."""
+    wheels = drive.wheels
+    if wheels[0].place.position_mm is None:
+        wheels = tuple(sorted(wheels, key=lambda wheel: wheel.role != DRIVER))
+    return [wheel.name for wheel in wheels]
+
+
+def layout_text(drive: DriveCase) -> str:
+    """Return layout and forces of a drive in lines of text."""
+    found = layout_json(drive)
+    lines = [
+        row("Chain", f"{found['links']} links at {found['chain_speed_m_per_s']:.4g} m/s"),
+        *(
+            row(
+                one["name"],
+                f"{one['teeth']} teeth, wrap {one['wrap_deg']:.1f} degrees, {one['teeth_in_mesh']:.1f} teeth in "
+                f"mesh; shaft {one['shaft_load_N']:.4g} N at {one['shaft_direction_deg']:.4g} degrees"
+                + (f", {abs(one['torque_N_m']):.4g} N m" if one["torque_N_m"] else ", idle"),
+            )
+            for one in found["sprockets"]
+        ),
+        row(
+            "Spans",
+            "; ".join(
+                f"{one['from']} to {one['to']} {one['length_mm']:.4g} mm, {one['tension_N']:.4g} N"
+                for one in found["spans"]
+            ),
+        ),
+        row(
+            "Losses",
+            f"joints turn {found['friction_heat_W']:.3g} W into heat: efficiency "
+            f"{100.0 * found['efficiency']:.2f} %",
+        ),
+    ]
+    return "\n".join(lines)
