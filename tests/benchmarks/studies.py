@@ -1,8 +1,8 @@
-"""Write reports/reference/studies.md: what many sampled lives of a strand cost on this machine.
+"""Write reports/reference/studies.md: what many lives of a strand and of wraps cost on this machine.
 
     python tests/benchmarks/studies.py
 
-Needs wearsim[study,dask] and a machine with nothing else to do; takes about six minutes.
+Needs wearsim[study,dask] and a machine with nothing else to do; takes about half an hour.
 """
 
 import datetime
@@ -13,30 +13,33 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
+
+import wearsim
 
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "cases" / "16b-20t-oiled.toml"
-SCATTER = 'uncertainty.load.tension_N={distribution = "normal", standard_deviation = 300.0}'
+SCATTER = ("--set", 'uncertainty.load.tension_N={distribution = "normal", standard_deviation = 300.0}')
 WEARSIM = str(Path(sys.executable).parent / "wearsim")
 DASK = str(Path(sys.executable).parent / "dask")
 COUNTS = (25_000, 50_000, 100_000)
+WRAPS = ("bicycle-17t-road", "08b-19t-wrap", "d6-crawler-27t-wrap")
+WRAP_SAMPLES, WRAP_LIVES = 64, 1000
 CLUSTER_COUNT = 10_000
 
 
-def sampled(count: int, *options: str) -> tuple[float, float]:
+def sampled(count: int, *options: str, case: Path = CASE) -> tuple[float, float]:
     """Return seconds and MiB (of all processes of the command) of a study."""
     command = [
         WEARSIM,
         "uncertainty",
-        str(CASE),
+        str(case),
         "--samples",
         str(count),
         "--method",
         "lhs",
         "-q",
-        "--set",
-        SCATTER,
         *options,
     ]
     start = time.perf_counter()
@@ -45,6 +48,40 @@ def sampled(count: int, *options: str) -> tuple[float, float]:
     if status:
         raise SystemExit(f"{' '.join(command)} ended with status {status}")
     return time.perf_counter() - start, usage.ru_maxrss / 1024.0
+
+
+def many_wraps() -> tuple[float, int]:
+    """Return seconds of so many lives of a wrap by `simulate_many`, and how many of them failed."""
+    path = ROOT / "cases" / f"{WRAPS[1]}.toml"
+    base = wearsim.load_case(path)
+    cases = (replace(base, modulus=base.modulus * (1.0 + 2e-4 * n)) for n in range(WRAP_LIVES))
+    start = time.perf_counter()
+    failed = sum(isinstance(life, Exception) for life in wearsim.simulate_many(cases))
+    return time.perf_counter() - start, failed
+
+
+def wrap_lines() -> list[str]:
+    """Return the lines on wraps."""
+    lines = [
+        "",
+        "## Wraps",
+        "",
+        f"`wearsim uncertainty CASE --samples {WRAP_SAMPLES} --jobs 2`, goal 60 s:",
+        "",
+        "| case | s | s a life |",
+        "|---|---|---|",
+    ]
+    for name in WRAPS:
+        path = ROOT / "cases" / f"{name}.toml"
+        seconds, _ = sampled(WRAP_SAMPLES, "--jobs", "2", case=path)
+        lines.append(f"| {name} | {seconds:.1f} | {seconds / WRAP_SAMPLES:.2f} |")
+    seconds, failed = many_wraps()
+    lines += [
+        "",
+        f"{WRAP_LIVES} lives of {WRAPS[1]}, no two with the same modulus, by `simulate_many` in threads: "
+        f"{seconds:.0f} s (goal 300), {failed} failed.",
+    ]
+    return lines
 
 
 def with_workers(count: int) -> float:
@@ -65,8 +102,8 @@ def with_workers(count: int) -> float:
                     time.sleep(0.1)
             time.sleep(5.0)
             options = ("--scheduler-file", str(place))
-            sampled(1000, *options)
-            return min(sampled(CLUSTER_COUNT, *options)[0] for _ in range(3))
+            sampled(1000, *SCATTER, *options)
+            return min(sampled(CLUSTER_COUNT, *SCATTER, *options)[0] for _ in range(3))
         finally:
             for process in processes:
                 process.kill()
@@ -74,7 +111,7 @@ def with_workers(count: int) -> float:
 
 
 def main() -> None:
-    sampled(1000)
+    sampled(1000, *SCATTER)
     lines = [
         "# Studies",
         "",
@@ -90,9 +127,9 @@ def main() -> None:
         "|---|---|---|---|",
     ]
     for count in COUNTS:
-        seconds, memory = sampled(count)
+        seconds, memory = sampled(count, *SCATTER)
         lines.append(f"| {count} | {seconds:.1f} | {1000 * seconds / count:.3f} | {memory:.0f} |")
-    seconds, memory = sampled(COUNTS[-1], "--jobs", "2")
+    seconds, memory = sampled(COUNTS[-1], *SCATTER, "--jobs", "2")
     children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
     lines.append(
         f"| {COUNTS[-1]} in two processes | {seconds:.1f} | {1000 * seconds / COUNTS[-1]:.3f} | "
@@ -104,6 +141,7 @@ def main() -> None:
         f"{CLUSTER_COUNT} lives on Dask workers of one thread each, scheduler and client on the same "
         f"{os.cpu_count()} cores, best of three: one {one:.1f} s, two {two:.1f} s, ratio "
         f"{one / two:.2f} (goal 1.6).",
+        *wrap_lines(),
     ]
     text = "\n".join(lines) + "\n"
     (ROOT / "reports" / "reference" / "studies.md").write_text(text, encoding="utf-8")
