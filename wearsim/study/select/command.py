@@ -3,7 +3,6 @@
 import shlex
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -11,40 +10,15 @@ import click
 
 from wearsim.command.options import FAILED, common_options, print_json, warn, working
 from wearsim.command.single_file import write_content
-from wearsim.errors import CaseError, Fault, OutputError, WearsimError
+from wearsim.errors import OutputError, WearsimError
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
-    from wearsim.chain.service_conditions import ServiceConditions
-    from wearsim.study.select.prices import Price
-    from wearsim.study.select.requirements import DriveRequirements
     from wearsim.study.select.sheet import SelectionAnswer
+    from wearsim.study.select.wish import Wish
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-
-_REQUIRED = ("power", "rpm", "ratio", "hours")
-
-_FIELDS = {"rpm": "speed"}
-"""Fields of the requirements whose options have other names."""
-
-_QUANTITIES = {
-    "power": "kW",
-    "rpm": "rpm",
-    "ratio": "",
-    "hours": "h",
-    "centre": "mm",
-    "centre_min": "mm",
-    "centre_max": "mm",
-    "max_diameter": "mm",
-    "ratio_tolerance": "%",
-    "hours_per_day": "",
-    "teeth_min": "",
-    "teeth_max": "",
-}
-"""Units of the options that hold a number, which may be written behind it."""
-
-_WHOLE = ("teeth_min", "teeth_max")
 
 
 def _offer(words: Sequence[str]) -> Callable[..., "list[CompletionItem[str]]"]:
@@ -174,11 +148,12 @@ def select(
     A drive passes where it keeps to the ratings and its chain lives long enough by wear. The
     lightest one comes first, or the cheapest. Exit code 3 where none passes.
     """
-    _check_places(out, csv_file, as_json, force)
-    wish = _wish(texts, price)
-    answer = _answer(wish, every_pair, count)
     from wearsim.study.select.sheet import selection_json, selection_text
+    from wearsim.study.select.wish import read_wish
 
+    _check_places(out, csv_file, as_json, force)
+    wish = read_wish(texts, price)
+    answer = _answer(wish, every_pair, count)
     verified = _verified(answer, wish, verify)
     if as_json:
         content = selection_json(answer)
@@ -196,17 +171,6 @@ def select(
     return 0
 
 
-@dataclass(frozen=True)
-class _Wish:
-    """What was asked for."""
-
-    need: "DriveRequirements"
-    service: "ServiceConditions"
-    hours_per_day: float
-    use: str  # in words
-    prices: "dict[str, Price] | None"
-
-
 def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force: bool) -> None:
     from wearsim.files import check_free
 
@@ -222,102 +186,7 @@ def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force:
             check_free(place, force)
 
 
-def _wish(texts: dict[str, str | None], price: Path | None) -> _Wish:
-    """Return what the options ask for; name everything that is wrong with them."""
-    from wearsim.catalogue.catalogues import wear_conditions
-    from wearsim.chain.service_conditions import service_conditions
-    from wearsim.study.select.prices import read_prices
-    from wearsim.study.select.requirements import DriveRequirements, requirement_faults
-
-    faults: list[Fault] = []
-    given = _numbers(texts, faults)
-    hours_per_day = given.pop("hours_per_day", 8.0)
-    words = str(texts["lubrication"]), str(texts["shock"])
-    service, prices = None, None
-    try:
-        service = service_conditions(*words, hours_per_day)
-    except CaseError as error:
-        faults += _by_option(error.faults)
-    faults += _by_option(requirement_faults(given))
-    if price is not None:
-        try:
-            prices = read_prices(price)
-        except CaseError as error:
-            faults += error.faults
-    if faults or service is None:
-        raise CaseError(faults)
-    joints = wear_conditions()[service.wear_condition]
-    need = DriveRequirements(
-        **given,
-        service_factor=service.service_factor,
-        joint_application_factor=service.joint_application_factor,
-        joint_rate=joints.joint_typical,
-        joint_rate_low=joints.joint_low,
-        joint_rate_high=joints.joint_high,
-    )
-    use = f"{words[0]}, {words[1]} load, {hours_per_day:g} h a day"
-    return _Wish(need, service, hours_per_day, use, prices)
-
-
-def _by_option(faults: Sequence[Fault]) -> list[Fault]:
-    """Return faults of fields with the names of their options."""
-    names = {field: option for option, field in _FIELDS.items()}
-    names |= {"strands_min": "strands", "strands_max": "strands"}
-    return [
-        Fault(fault.message, "", f"--{names.get(fault.key, fault.key).replace('_', '-')}") for fault in faults
-    ]
-
-
-def _numbers(texts: dict[str, str | None], faults: list[Fault]) -> dict[str, Any]:
-    """Return the numbers of the options by the names of their fields, those that can be read."""
-    found: dict[str, Any] = {}
-    for name, unit in _QUANTITIES.items():
-        text = texts[name]
-        option = f"--{name.replace('_', '-')}"
-        if text is None:
-            if name in _REQUIRED:
-                faults.append(Fault("must be given: the drive is chosen for it", "", option))
-            continue
-        try:
-            value = _number(text, unit)
-        except ValueError as error:
-            faults.append(Fault(f"{error} (got {text!r})", "", option))
-            continue
-        if name in _WHOLE and value.is_integer():
-            found[name] = int(value)
-        else:
-            found[_FIELDS.get(name, name)] = value
-    found["series"] = tuple(word.strip() for word in str(texts["series"]).split(","))
-    found |= _strands(str(texts["strands"]), faults)
-    return found
-
-
-def _number(text: str, unit: str) -> float:
-    """Return a number of an option in a unit."""
-    if unit == "%":
-        return 0.01 * _number(text.strip().removesuffix("%"), "")
-    try:
-        return float(text)
-    except ValueError:
-        pass
-    if not unit:
-        raise ValueError("must be a number: write it with a point")
-    from wearsim.input.units import convert
-
-    return convert(text, unit)
-
-
-def _strands(text: str, faults: list[Fault]) -> dict[str, int]:
-    low, dash, high = text.partition("-")
-    try:
-        return {"strands_min": int(low), "strands_max": int(high if dash else low)}
-    except ValueError:
-        message = f"must be a whole number or two with a dash between, such as 1-3 (got {text!r})"
-        faults.append(Fault(f"{message}: correct it", "", "--strands"))
-        return {}
-
-
-def _answer(wish: _Wish, every_pair: bool, count: int) -> "SelectionAnswer":
+def _answer(wish: "Wish", every_pair: bool, count: int) -> "SelectionAnswer":
     from wearsim.study.select.considered_chains import considered_chains
     from wearsim.study.select.model import judged_drives
     from wearsim.study.select.sheet import SelectionAnswer
@@ -334,7 +203,7 @@ def _answer(wish: _Wish, every_pair: bool, count: int) -> "SelectionAnswer":
     )
 
 
-def _verified(answer: "SelectionAnswer", wish: _Wish, count: int) -> list[dict[str, Any]]:
+def _verified(answer: "SelectionAnswer", wish: "Wish", count: int) -> list[dict[str, Any]]:
     """Return the lives of all parts of the first drives."""
     if not count:
         return []
@@ -361,7 +230,7 @@ def _verified_text(verified: dict[str, Any]) -> str:
 
 
 def _write(
-    answer: "SelectionAnswer", wish: _Wish, out: Path | None, csv_file: Path | None, force: bool
+    answer: "SelectionAnswer", wish: "Wish", out: Path | None, csv_file: Path | None, force: bool
 ) -> None:
     """Write the case of the best drive and the table."""
     if out is not None:

@@ -13,7 +13,6 @@ from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, sh
 from wearsim.errors import GeometryError
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN, elongation_per_loop
 from wearsim.study.select.considered_chains import considered_chains
-from wearsim.study.select.prices import Price
 from wearsim.study.select.requirements import DriveRequirements
 from wearsim.study.select.tooth_form import standard_tip_diameter
 
@@ -27,6 +26,24 @@ SAG = 0.02
 """Sag of the slack span over its length; a case of wearsim has the same."""
 
 LIFE, CENTRE, DIAMETER, WRAP = "chain life", "centre distance", "largest diameter", "wrap angle"
+
+
+@dataclass(frozen=True)
+class Price:
+    """What a metre of a chain and a kilogram of its sprockets cost, in a currency of one's own."""
+
+    chain: float  # of a metre of the chain
+    sprocket: float  # of a kilogram of a blank
+
+    def of(self, length: float, blanks: float) -> float:
+        """Return the price of a length of chain [mm] and of blanks [kg].
+
+        Examples
+        --------
+        >>> Price(20.0, 5.0).of(1500.0, 4.0)
+        50.0
+        """
+        return 1e-3 * length * self.chain + blanks * self.sprocket
 
 
 @dataclass(frozen=True)

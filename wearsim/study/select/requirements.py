@@ -173,6 +173,7 @@ def _without_pairs(sound: Mapping[str, Any]) -> list[Fault]:
             return []
     message = (
         f"must be that of {least} to {most} teeth and of at most {MOST_TEETH} within "
-        f"{100 * tolerance:g} % (got {sound['ratio']:g}): allow more tolerance or other teeth, or use two stages"
+        f"{100 * tolerance:g} % (got {sound['ratio']:g}): allow more tolerance or other teeth, "
+        "or use two stages"
     )
     return [Fault(message, "ratio")]

@@ -2,34 +2,16 @@
 
 import csv
 import math
-from dataclasses import dataclass
 from pathlib import Path
 
 from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
+from wearsim.study.select.model import Price
 
 _CHAIN, _LENGTH, _BLANK = "designation", "price_per_m", "sprocket_price_per_kg"
 _COLUMNS = (_CHAIN, _LENGTH, _BLANK)
 _MOST = 1e9
-
-
-@dataclass(frozen=True)
-class Price:
-    """What a metre of a chain and a kilogram of its sprockets cost, in a currency of one's own."""
-
-    chain: float  # of a metre of the chain
-    sprocket: float  # of a kilogram of a blank
-
-    def of(self, length: float, blanks: float) -> float:
-        """Return the price of a length of chain [mm] and of blanks [kg].
-
-        Examples
-        --------
-        >>> Price(20.0, 5.0).of(1500.0, 4.0)
-        50.0
-        """
-        return 1e-3 * length * self.chain + blanks * self.sprocket
 
 
 def read_prices(path: Path) -> dict[str, Price]:
