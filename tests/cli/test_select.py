@@ -142,6 +142,14 @@ def test_every_fault_is_named_in_one_pass(cli, tmp_path):
     assert "Traceback" not in done.err
 
 
+def test_fault_as_json(cli):
+    done = cli("select", *NEED, "--shock", "calm", "--json")
+    assert done.code == 2
+    found = json.loads(done.out)
+    assert (found["case"], found["error"]["kind"]) == ("select", "CaseError")
+    assert found["error"]["message"].startswith("--shock: must be one of")
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -200,7 +208,7 @@ def test_case_is_complete_and_has_the_same_life(cli, tmp_path, options):
     best = found["drives"][0]
     driver = drive.driver.case
     cycles = driver.drive.contact(driver).cycles_per_chain
-    assert cycles / driver.cycles_per_hour == pytest.approx(best["chain_life_hours"], rel=2e-5)
+    assert cycles / driver.cycles_per_hour == pytest.approx(best["chain_life_hours"], rel=5e-5)
     layout = driver.drive.layout
     assert (layout.teeth_1, layout.teeth_2, layout.links) == (
         best["driver_teeth"],
@@ -249,8 +257,8 @@ def test_no_chain_is_left(cli):
 
 
 def test_verified_lives_are_those_of_the_whole_drive(cli, tmp_path):
-    """So dry a drive that teeth and chain end soon."""
-    need = ("select", "--power", 0.3, "--rpm", 100, "--ratio", 1, "--hours", 300, "--lubrication", "dry")
+    """So dry a drive that its chain ends within twice the hours."""
+    need = ("select", "--power", 0.3, "--rpm", 100, "--ratio", 1, "--hours", 1200, "--lubrication", "dry")
     options = ("--series", "B", "--strands", 1, "--teeth-max", 17, "--verify", 1, "--count", 2)
     done = cli(*need, *options, "--json")
     assert done.code == 0, done.err
@@ -258,8 +266,8 @@ def test_verified_lives_are_those_of_the_whole_drive(cli, tmp_path):
     (verified,) = found["verified"]
     parts = {part["name"]: part for part in verified["parts"]}
     assert list(parts) == ["chain", "driver", "driven"]
-    life = parts["chain"]["life_hours"] or parts["chain"]["life_hours_at_least"]
-    assert life <= found["drives"][0]["chain_life_hours"] * (1 + 1e-4)
+    assert parts["chain"]["life_hours"] == pytest.approx(found["drives"][0]["chain_life_hours"], rel=1e-9)
+    assert verified["long_enough"] is True
     text = cli(*need, *options).out
     assert "\n  Verified " in text
 

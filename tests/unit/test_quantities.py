@@ -36,10 +36,10 @@ from wearsim.study.calibrate.sheet import readings_table, values_table
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
-from wearsim.study.sensitivity.model import KeyEffect
 from wearsim.study.select.model import select
 from wearsim.study.select.requirements import DriveRequirements
 from wearsim.study.select.sheet import drive_columns
+from wearsim.study.sensitivity.model import KeyEffect
 from wearsim.study.sensitivity.sheet import SensitivityAnswer, sensitivity_table
 
 CASE = {

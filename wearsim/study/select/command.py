@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from wearsim.command.options import FAILED, common_options, print_json, warn, working
+from wearsim.command.options import FAILED, common_options, error_json, print_json, warn, working
 from wearsim.command.single_file import write_content
-from wearsim.errors import OutputError, WearsimError
+from wearsim.errors import CaseError, OutputError, WearsimError
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -152,7 +152,12 @@ def select(
     from wearsim.study.select.wish import read_wish
 
     _check_places(out, csv_file, as_json, force)
-    wish = read_wish(texts, price)
+    try:
+        wish = read_wish(texts, price)
+    except CaseError as error:
+        if as_json:
+            click.echo(error_json("select", error))
+        raise
     answer = _answer(wish, every_pair, count)
     verified = _verified(answer, wish, verify)
     if as_json:
@@ -177,7 +182,7 @@ def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force:
     on_stdout = [name for name, place in (("--out", out), ("--csv", csv_file)) if str(place) == "-"]
     if as_json:
         on_stdout.append("--json")
-    if len(on_stdout) > 1 and on_stdout != ["--json"]:
+    if len(on_stdout) > 1:
         raise click.UsageError(f"{' and '.join(on_stdout)} both write to stdout: give one of them a file")
     if out is not None and csv_file is not None and out.resolve() == csv_file.resolve():
         raise OutputError(f"{out}: must not be the file of --csv: choose another place")
@@ -237,7 +242,7 @@ def _write(
         from wearsim.study.select.case_file import case_tables, case_text
 
         tables = case_tables(answer.shown[0], wish.need, wish.service.wear_condition, wish.hours_per_day)
-        command = shlex.join(["wearsim", *sys.argv[1:]])
+        command = shlex.join(["wearsim", *sys.argv[1:]]).replace("\n", " ")
         write_content(out, case_text(tables, command).encode(), force)
     if csv_file is not None:
         from wearsim.study.select.sheet import selection_csv

@@ -8,7 +8,7 @@ from itertools import product
 
 from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
-from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit, overloading
+from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.errors import GeometryError
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN, elongation_per_loop
@@ -115,7 +115,7 @@ def select(need: DriveRequirements, prices: Mapping[str, Price] | None = None) -
     >>> need = DriveRequirements(power=3.0, speed=120.0, ratio=2.7, hours=15_000.0, series=("A",))
     >>> best = select(need)[0]
     >>> best.chain.designation, best.layout.teeth_1, best.layout.teeth_2
-    ('10A-2', 17, 45)
+    ('10A-3', 18, 48)
     """
     return ranked(judged_drives(need, considered_chains(need, prices).chains, prices))
 
@@ -279,7 +279,7 @@ def _judged(
         cost=None if price is None else price.of(layout.links * layout.pitch, blanks),
         refusals=(
             *_space_refusals(need, layout, tip),
-            *(Refusal(one.name, one.used) for one in overloading(findings)),
+            *(Refusal(one.name, one.used) for one in deciding(findings) if not one.ok),
             *([Refusal(LIFE, need.hours / life)] if life < need.hours else []),
         ),
     )

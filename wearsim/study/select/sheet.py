@@ -5,6 +5,7 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from wearsim.quantities import grouped
@@ -40,12 +41,12 @@ class SelectionAnswer:
     count: int  # rows that are shown
     priced: bool  # whether prices rank the drives
 
-    @property
+    @cached_property
     def passing(self) -> tuple[CandidateDrive, ...]:
         """The drives that pass in their order."""
         return ranked(self.drives)
 
-    @property
+    @cached_property
     def shown(self) -> tuple[CandidateDrive, ...]:
         """The first of them."""
         passing = self.passing
