@@ -167,8 +167,8 @@ GREATEST_SPEED = {15.875: 2300, 19.05: 1800}
 SINGLE_MASS = {"A": 1.0, "B": 1.18, "GOST": 1.9}
 
 
-def plain_selection(need: DriveRequirements) -> list[tuple[float, int, int, str, int, float, float]]:
-    """Mass, teeth, chain, links, life and shaft load of all drives of the small catalogue that pass."""
+def plain_selection(need: DriveRequirements) -> list[tuple[float, int, int, str, int, float, float, float]]:
+    """Mass, teeth, chain, links, life, shaft load and safety of all drives of the small catalogue that pass."""
     found = []
     for series, names in SMALL.items():
         for strands, name in enumerate(names, start=1):
@@ -222,9 +222,9 @@ def plain_drive(need, series, strands, name, z1, z2):
     single = chain.bearing_area / strands
     pressure = F * need.joint_application_factor / (single * K) <= allowed
     speed = n <= GREATEST_SPEED[p]
-    safe = chain.tensile / (F + S + C) >= 7
+    safety = chain.tensile / (F + S + C)
     rules = {"A": power, "B": power and pressure and speed, "GOST": pressure and speed}
-    if not (rules[series] and safe):
+    if not (rules[series] and safety >= 7):
         return None
     # Archard's law of the joints.
     per_loop = need.joint_rate * (F + 2 * S + 2 * C) / chain.bearing_area * math.pi * chain.pin_diameter
@@ -239,7 +239,7 @@ def plain_drive(need, series, strands, name, z1, z2):
     steel = 7850e-9 * math.pi / 4 * (d1**2 + d2**2) * width * strands * chain.inner_width
     mass = q * links * p / 1e3 + steel
     shaft = math.hypot((F + 2 * S) * math.cos(beta), F * math.sin(beta))
-    return (mass, z1, z2, name, links, life, shaft)
+    return (mass, z1, z2, name, links, life, shaft, safety)
 
 
 NEEDS = {
@@ -279,6 +279,8 @@ def test_small_catalogue_by_a_plain_loop(validated: Callable[..., None], name: s
         "life of their chains", [one.life for one in found], [row[5] for row in expected], 1e-9, source, "h",
         **shown,
     )  # fmt: skip
+    safeties = [next(f.value for f in one.findings if f.name == "safety against breaking") for one in found]
+    assert safeties == pytest.approx([row[7] for row in expected], rel=1e-9)
     validated(
         "load of their shafts", [one.shaft_load for one in found], [row[6] for row in expected], 1e-9, source,
         "N", **shown,
