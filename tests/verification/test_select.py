@@ -168,7 +168,7 @@ SINGLE_MASS = {"A": 1.0, "B": 1.18, "GOST": 1.9}
 
 
 def plain_selection(need: DriveRequirements) -> list[tuple[float, int, int, str, int, float, float, float]]:
-    """Mass, teeth, chain, links, life, shaft load and safety of all drives of the small catalogue that pass."""
+    """Mass, teeth, chain, links, life, shaft load, safety of drives of the small catalogue that pass."""
     found = []
     for series, names in SMALL.items():
         for strands, name in enumerate(names, start=1):
