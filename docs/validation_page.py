@@ -22,6 +22,7 @@ SECTIONS = {
     "Elongation of the chain": ("test_elongation",),
     "Layout of a chain drive": ("test_drive_layout", "test_chain_loop"),
     "Ratings of a chain drive": ("test_selection",),
+    "Selection of a chain drive": ("test_select",),
     "Wear of gear pairs": ("test_gear_pair", "test_gear_forms"),
     "Convex-concave gears": ("test_convex_concave",),
     "Profiles for a contact stress": ("test_plane_gearing",),

@@ -17,7 +17,10 @@ import pytest
 import wearsim.cli
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = ("tutorial", "howto_chain", "howto_drive", "howto_profile", "howto_duty", "howto_measured_sprocket")
+PAGES = (
+    *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),
+    "howto_measured_sprocket",
+)
 LINKS = [
     (page, link)
     for page in PAGES

@@ -36,6 +36,9 @@ from wearsim.study.calibrate.sheet import readings_table, values_table
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
+from wearsim.study.select.model import select
+from wearsim.study.select.requirements import DriveRequirements
+from wearsim.study.select.sheet import drive_columns
 from wearsim.study.sensitivity.model import KeyEffect
 from wearsim.study.sensitivity.sheet import SensitivityAnswer, sensitivity_table
 
@@ -165,6 +168,7 @@ def study_columns():
     one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "", "")
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
     yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one])
+    yield from drive_columns(select(DriveRequirements(3.0, 120.0, 2.7, 15_000.0))[0])
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

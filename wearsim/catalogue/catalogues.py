@@ -67,6 +67,7 @@ class Chain:
     # kg/m of the table, so that q v^2 with v in mm/s is a force in N
     mass_per_length: float = 0.0
     transverse_pitch: float = 0.0  # distance of the strands [mm], 0 where it is not known
+    doubtful: tuple[str, ...] = ()  # columns of the table whose numbers are in doubt
 
     @property
     def in_words(self) -> str:
@@ -200,6 +201,7 @@ def _chain(row: dict[str, str]) -> Chain:
         bearing_area=float(row["bearing_area_mm2"] or 0.0),
         mass_per_length=KG_PER_M * float(row["mass_kg_per_m"] or 0.0),
         transverse_pitch=float(row["transverse_pitch_mm"] or 0.0),
+        doubtful=tuple(filter(None, row["trust"].partition("doubtful: ")[2].split(", "))),
     )
 
 

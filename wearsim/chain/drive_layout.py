@@ -181,7 +181,7 @@ def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> D
     """
     _refuse_numbers(pitch, teeth_1, teeth_2)
     centre = pitch * handbook_centre(teeth_1, teeth_2, links)
-    least = _least_centre(pitch, teeth_1, teeth_2)
+    least = least_centre(pitch, teeth_1, teeth_2)
     if centre < least:
         needed = even_links(handbook_links(teeth_1, teeth_2, least / pitch))
         raise GeometryError(
@@ -205,7 +205,14 @@ def layout_with_centre(pitch: float, teeth_1: int, teeth_2: int, centre_distance
     return layout_with_links(pitch, teeth_1, teeth_2, even_links(links))
 
 
-def _least_centre(pitch: float, teeth_1: int, teeth_2: int) -> float:
+def least_centre(pitch: float, teeth_1: int, teeth_2: int) -> float:
+    """Return the centre distance at which the tip circles of ANSI B29.1 touch [mm].
+
+    Examples
+    --------
+    >>> least_centre(10.0, 4, 4)  # p (0.6 + cot(45 deg))
+    16.0
+    """
     tips = sum(0.6 + 1.0 / math.tan(math.pi / teeth) for teeth in (teeth_1, teeth_2))
     return 0.5 * pitch * tips
 
@@ -221,7 +228,7 @@ def _refuse_numbers(pitch: float, teeth_1: int, teeth_2: int) -> None:
 
 def _refuse_sprockets(pitch: float, teeth_1: int, teeth_2: int, centre_distance: float) -> None:
     _refuse_numbers(pitch, teeth_1, teeth_2)
-    least = _least_centre(pitch, teeth_1, teeth_2)
+    least = least_centre(pitch, teeth_1, teeth_2)
     if not centre_distance >= least:
         raise GeometryError(
             "drive layout: the sprockets must not overlap, the centre distance is "

@@ -140,6 +140,24 @@ def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     return () if judged and all(finding.note for finding in outside) else outside
 
 
+def deciding(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
+    """Return the ratings that decide by themselves whether a drive is overloaded.
+
+    All but the recommended speed and the elongation; where a rating of the load applies as it
+    stands, only those that are not indicative. A drive that keeps to them is not `overloading`.
+
+    Examples
+    --------
+    >>> plates = RatingFinding("plate fatigue", 4.6, 4.604, "kW", "ANSI B29.1, H1")
+    >>> pressure = RatingFinding("joint pressure", 26.0, 22.5, "MPa", "GOST practice", "indicative")
+    >>> [finding.name for finding in deciding([plates, pressure])]
+    ['plate fatigue']
+    """
+    found = tuple(one for one in ratings if one.name in RULES and one.name != "recommended speed")
+    judged = any(one.name in _CAPACITY and not one.note for one in found)
+    return tuple(one for one in found if not (judged and one.note))
+
+
 def elongation_limit(teeth: int, adjustable: bool = True) -> float:
     """Return the elongation at which a chain is worn out.
 

@@ -74,3 +74,34 @@ def catenary_tension(mass_per_length: float, span: float, sag: float = 0.02, slo
             f"slack span: the sag must be above 0, is {sag:g}: about 0.02 of the span is usual"
         )
     return mass_per_length * STANDARD_GRAVITY * span * math.cos(slope) / (8.0 * sag)
+
+
+def shaft_load(tight: float, slack: float, inclination: float) -> float:
+    """Return the force of both spans of a chain on either shaft.
+
+    F = sqrt(((T_t + T_s) cos b)^2 + ((T_t - T_s) sin b)^2): the tight span lies at the angle b to
+    the line of centres and the slack one at -b, so that their parts along the line add up and those
+    across it subtract. The centrifugal tension bends the chain and loads no shaft. The weight of the
+    sprockets is left out. Of two shafts the forces are equal and opposite.
+
+    Parameters
+    ----------
+    tight, slack : float
+        Tensions of both spans without the centrifugal part [N].
+    inclination : float
+        Angle b of a span to the line of centres [rad], `DriveLayout.inclination`.
+
+    Returns
+    -------
+    float
+        Force [N].
+
+    Examples
+    --------
+    >>> shaft_load(1000.0, 20.0, 0.0)
+    1020.0
+    >>> round(shaft_load(1000.0, 0.0, 0.3), 9)  # one span alone pulls in its own direction
+    1000.0
+    """
+    along = (tight + slack) * math.cos(inclination)
+    return math.hypot(along, (tight - slack) * math.sin(inclination))

@@ -40,6 +40,7 @@ from wearsim.study.calibrate.command import calibrate
 from wearsim.study.maintain.command import maintain
 from wearsim.study.optimise.command import optimise
 from wearsim.study.remaining.command import remaining
+from wearsim.study.select.command import select
 from wearsim.study.sensitivity.command import sensitivity
 from wearsim.study.sweep.command import sweep
 from wearsim.study.uncertainty.command import uncertainty
@@ -52,6 +53,7 @@ How long will this sprocket live?
   wearsim compare drive.toml other.toml --out reports/first
   wearsim report drive.toml --out reports/page      pages for a browser
   wearsim ui drive.toml              a local page: edit it, see the life change
+  wearsim select --power "3 kW" --rpm 120 --ratio 2.7 --hours 15000
   wearsim maintain drive.toml        when to replace the chain, and the cost
   wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
   wearsim calibrate drive.toml readings.csv         coefficients and hours left
@@ -97,6 +99,7 @@ for _command in (
     compare,
     report,
     ui,
+    select,
     maintain,
     remaining,
     sweep,

@@ -1,0 +1,446 @@
+"""Selection of drives: published selections, and all drives of a small catalogue by a plain loop.
+
+The loop has formulas, tables and constants of its own, from the texts of ANSI B29.1, ISO 10823 and
+GOST practice; of wearsim it takes the rows of the catalogue only.
+"""
+
+import math
+from collections.abc import Callable
+from itertools import product
+
+import pytest
+
+from wearsim.catalogue.catalogues import chains
+from wearsim.chain.drive_layout import layout_with_links
+from wearsim.chain.power_rating import HORSEPOWER
+from wearsim.chain.selection import RULES, overloading
+from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, service_conditions
+from wearsim.chain.span_tension import shaft_load
+from wearsim.errors import CaseError
+from wearsim.study.select.considered_chains import considered_chains
+from wearsim.study.select.model import (
+    CandidateDrive,
+    Price,
+    best_of_each_chain,
+    judged_drives,
+    nearest_miss,
+    ranked,
+    refused_by,
+    select,
+)
+from wearsim.study.select.requirements import DriveRequirements
+
+WORN_AT_LAST = 1.0
+"""Required hours that every chain lives, where only the ratings are compared."""
+
+
+def drive_of(drives: tuple[CandidateDrive, ...], name: str, teeth: tuple[int, int]) -> CandidateDrive:
+    (found,) = (
+        one
+        for one in drives
+        if one.chain.designation == name and (one.layout.teeth_1, one.layout.teeth_2) == teeth
+    )
+    return found
+
+
+def used(drive: CandidateDrive, rating: str) -> float:
+    return next(one.used for one in drive.findings if one.name == rating)
+
+
+def judged(need: DriveRequirements) -> tuple[CandidateDrive, ...]:
+    return judged_drives(need, considered_chains(need).chains)
+
+
+def test_shigley_example_17_5(validated: Callable[..., None]) -> None:
+    """90 hp at 300 rpm to 150 rpm, factor 1.3 times 1.5: published are no. 140-3, 76 links, 25.104 pitches.
+
+    Of its other answers no. 160-2 passes here too; no. 200-1 has no mass in the catalogue. Two
+    strands of no. 140 would have to carry 176/1.7 = 103 hp each.
+    """
+    need = DriveRequirements(
+        90 * HORSEPOWER, 300.0, 2.0, WORN_AT_LAST, 1.3 * 1.5, centre=25 * 44.45, series=("A",)
+    )
+    drives = judged(need)
+    chosen = drive_of(drives, "28A-3", (17, 34))
+    assert chosen in ranked(drives)
+    assert drive_of(drives, "32A-2", (17, 34)) in ranked(drives)
+    lesser = drive_of(drives, "28A-2", (17, 34))
+    assert "plate fatigue" in {refusal.limit for refusal in lesser.refusals}
+    rating = 90 * 1.95 / used(chosen, "plate fatigue") / 2.5
+    source = "Shigley, example 17-5"
+    validated("rating of a strand of the chosen no. 140-3", rating, 72.4, 0.05, source, "hp", absolute=True)
+    assert chosen.layout.links == 76
+    centre = chosen.layout.centre_distance / 44.45
+    validated("its centre distance", centre, 25.104, 5e-4, source, "pitches", absolute=True)
+
+
+def test_no_50_drive(validated: Callable[..., None]) -> None:
+    """7.457 kW at 1200 rpm, factor 1.5: 20.046 teeth by the plates, so that 21 of them pass and 20 do not.
+
+    Of 63 teeth and 36 pitches at most, 114 links and 35.59 pitches (published 35.6).
+    """
+    need = DriveRequirements(
+        7.457, 1200.0, 63 / 20, WORN_AT_LAST, 1.5, centre_max=36 * 15.875, strands_max=1, series=("A",)
+    )
+    drives = judged(need)
+    passing = [one.layout.teeth_1 for one in ranked(drives) if one.chain.designation == "10A-1"]
+    source = "published no. 50 drive"
+    validated("least teeth of no. 50 that pass", min(passing), math.ceil(20.046), 0.5, source, absolute=True)
+    short = drive_of(drives, "10A-1", (20, 63))
+    needed = 20 * used(short, "plate fatigue") ** (1 / 1.08)
+    validated("teeth that just pass", needed, 20.046, 2e-3, source, absolute=True)
+    assert short.layout.links == 114
+    centre = short.layout.centre_distance / 15.875
+    validated("centre distance of 114 links", centre, 35.6, 0.05, source, "pitches", absolute=True)
+
+
+def test_no_80_drive(validated: Callable[..., None]) -> None:
+    """30 kW at 750 rpm on 20 and 60 teeth: 40.2 hp of the 39.33 that no. 80 has; 21 teeth carry it."""
+    need = DriveRequirements(30.0, 750.0, 3.0, WORN_AT_LAST, strands_max=1, series=("A",))
+    drives = judged(need)
+    short = drive_of(drives, "16A-1", (20, 60))
+    validated(
+        "required over rated power, no. 80",
+        used(short, "plate fatigue"),
+        40.2 / 39.33,
+        2e-3,
+        "published drive",
+    )
+    assert short.refusals
+    assert min(one.layout.teeth_1 for one in ranked(drives) if one.chain.designation == "16A-1") == 21
+    assert short.layout.links == 122
+
+
+def test_conveyor_drive(validated: Callable[..., None]) -> None:
+    """ПР-25,4 on 27 and 51 teeth, 2.75 kW at 114 rpm, K_e 1.3, 30 pitches: 100 links, 768.58 mm.
+
+    A GOST chain of today has the same link with 60 kN. The pressure is 2110 N times 1.3 over
+    179.7 mm2; the table allows 35 MPa at 50 and 30 MPa at 200 rpm.
+    """
+    need = DriveRequirements(
+        *(2.75, 114.0, 51 / 27, WORN_AT_LAST),
+        joint_application_factor=1.3,
+        centre=762.0,
+        teeth_max=27,
+        strands_max=1,
+        series=("GOST",),
+    )
+    chosen = drive_of(select(need), "ПР-25,4-60", (27, 51))
+    source = "published conveyor drive"
+    validated("links of the conveyor drive", chosen.layout.links, 100, 0.5, source, absolute=True)
+    centre = chosen.layout.centre_distance
+    validated("its centre distance", centre, 769.0, 0.5, source, "mm", absolute=True)
+    pressure = next(one for one in chosen.findings if one.name == "joint pressure")
+    assert pressure.value == pytest.approx(2110 * 1.3 / 179.7, rel=1e-3)
+    assert pressure.limit == pytest.approx(35 - 5 * 64 / 150, rel=1e-12)
+    assert round(chosen.chain_speed, 3) == 1.303
+
+
+def test_rating_point_of_no_40(validated: Callable[..., None]) -> None:
+    """4.60 kW at 1000 rpm is what 19 teeth of no. 40 carry: they pass, 18 do not; and 15 000 h.
+
+    With 1.16e-7 mm3/(N m), which the reference calculates back without the slack span's 2.5 %.
+    """
+    need = DriveRequirements(
+        *(4.60, 1000.0, 3.0, WORN_AT_LAST), joint_rate=1.16e-10, strands_max=1, series=("A",)
+    )
+    passing = [one for one in ranked(judged(need)) if one.chain.designation == "08A-1"]
+    source = "rating point of ISO 10823 and ANSI B29.1"
+    least = min(one.layout.teeth_1 for one in passing)
+    validated("least teeth of no. 40 at its rating point", least, 19, 0.5, source, absolute=True)
+    best = drive_of(tuple(passing), "08A-1", (19, 57))
+    assert best.layout.links == 120
+    validated("life of its chain", best.life, 15_000.0, 0.03, source, "h")
+
+
+# --- a small catalogue by a plain loop -------------------------------------------------------------
+
+SMALL = {
+    "A": ("10A-1", "10A-2", "10A-3"),
+    "B": ("12B-1", "12B-2", "12B-3"),
+    "GOST": ("ПР-19,05-31,8", "2ПР-19,05-64", "3ПР-19,05-96"),
+}
+STRANDS = (1.0, 1.7, 2.5)
+SPEEDS = (50, 200, 400, 600, 800, 1000, 1200, 1600)
+PRESSURES = {15.875: (35, 31.5, 28.5, 26, 24, 22.5, 21, 18.5), 19.05: (35, 30, 26, 23.5, 21, 19, 17.5, 15)}
+GREATEST_SPEED = {15.875: 2300, 19.05: 1800}
+SINGLE_MASS = {"A": 1.0, "B": 1.18, "GOST": 1.9}
+
+
+def plain_selection(need: DriveRequirements) -> list[tuple[float, int, int, str, int, float, float, float]]:
+    """Mass, teeth, chain, links, life, shaft load, safety of drives of the small catalogue that pass."""
+    found = []
+    for series, names in SMALL.items():
+        for strands, name in enumerate(names, start=1):
+            for z1, z2 in product(range(need.teeth_min, need.teeth_max + 1), range(9, 121)):
+                if abs(z2 / z1 / need.ratio - 1) > need.ratio_tolerance + 1e-12:
+                    continue
+                row = plain_drive(need, series, strands, name, z1, z2)
+                if row:
+                    found.append(row)
+    return sorted(found)
+
+
+def plain_drive(need, series, strands, name, z1, z2):
+    chain = chains()[name]
+    p, n, K = chain.pitch, need.speed, STRANDS[strands - 1]
+    d1, d2 = p / math.sin(math.pi / z1), p / math.sin(math.pi / z2)
+    # The shortest even number of links with 40 pitches, or the room that there is, or more; then two less.
+    term = ((z2 - z1) / (2 * math.pi)) ** 2
+    links, centre = 0, 0.0
+    for links in range(2 * math.ceil((z1 + z2) / 2), 1000, 2):
+        m = links - (z1 + z2) / 2
+        centre = p * (m + math.sqrt(max(0.0, m * m - 8 * term))) / 4
+        if centre >= min(40 * p, need.centre_max or math.inf):
+            break
+    if need.centre_max and centre > need.centre_max:
+        m = links - 2 - (z1 + z2) / 2
+        links, centre = links - 2, p * (m + math.sqrt(m * m - 8 * term)) / 4
+        if centre > need.centre_max:
+            return None
+    q = strands * SINGLE_MASS[series]  # kg/m
+    v = z1 * p * n / 6e4  # m/s
+    F = 1e3 * need.power / v
+    beta = math.asin((d2 - d1) / (2 * centre))
+    span = centre * math.cos(beta)
+    S = 6.25 * q * 9.80665 * 1e-3 * span
+    C = q * v * v
+    # ANSI B29.1 and ISO 10823.
+    inch = p / 25.4
+
+    def rating(z):
+        plates = 0.004 * z**1.08 * n**0.9 * inch ** (3 - 0.07 * inch)
+        rollers = 1000 * 17 * z**1.5 * inch**0.8 / n**1.5
+        return plates, rollers
+
+    P = need.power * need.service_factor / 0.745699872
+    power = K * rating(z1)[0] >= P and K * rating(z1)[1] >= P and P * (19 / z1) ** 1.08 <= K * min(rating(19))
+    # GOST practice.
+    at = next(i for i, speed in enumerate(SPEEDS) if n <= speed)
+    low, high = PRESSURES[p][at - 1], PRESSURES[p][at]
+    allowed = low + (high - low) * (n - SPEEDS[at - 1]) / (SPEEDS[at] - SPEEDS[at - 1])
+    single = chain.bearing_area / strands
+    pressure = F * need.joint_application_factor / (single * K) <= allowed
+    speed = n <= GREATEST_SPEED[p]
+    safety = chain.tensile / (F + S + C)
+    rules = {"A": power, "B": power and pressure and speed, "GOST": pressure and speed}
+    if not (rules[series] and safety >= 7):
+        return None
+    # Archard's law of the joints.
+    per_loop = need.joint_rate * (F + 2 * S + 2 * C) / chain.bearing_area * math.pi * chain.pin_diameter
+    per_loop *= (1 / z1 + 1 / z2) / p
+    life = min(0.03, 2 / z2) / per_loop / (60 * n * z1 / links)
+    width = {"A": 0.95, "B": 0.95, "GOST": 0.95}[series] if strands == 1 else 0.93
+    tip = {"A": 0.6 * p + p / math.tan(math.pi / z2), "GOST": 0.532 * p + p / math.tan(math.pi / z2)}
+    # ISO 606: halfway between least and greatest tip diameter, as no tooth is pointed there.
+    tip["B"] = d2 - chain.roller_diameter + p * (1 - 1.6 / z2 + 1.25) / 2
+    if life < need.hours or (need.max_diameter and tip[series] > need.max_diameter):
+        return None
+    steel = 7850e-9 * math.pi / 4 * (d1**2 + d2**2) * width * strands * chain.inner_width
+    mass = q * links * p / 1e3 + steel
+    shaft = math.hypot((F + 2 * S) * math.cos(beta), F * math.sin(beta))
+    return (mass, z1, z2, name, links, life, shaft, safety)
+
+
+NEEDS = {
+    "light": DriveRequirements(3.0, 300.0, 2.5, 20_000.0, 1.4, 1.35, teeth_max=20),
+    "heavy": DriveRequirements(12.0, 400.0, 1.8, 15_000.0, 1.0, 1.0, teeth_max=21),
+    "fast": DriveRequirements(9.0, 1150.0, 3.1, 8_000.0, 1.4, 0.8, teeth_max=23),
+    "narrow": DriveRequirements(
+        5.0, 250.0, 3.0, 15_000.0, 1.0, 1.0, centre_max=640.0, max_diameter=330.0, teeth_max=20
+    ),
+    "long": DriveRequirements(4.0, 500.0, 2.0, 90_000.0, ratio_tolerance=0.01, teeth_max=22),
+}
+
+
+@pytest.mark.parametrize("name", NEEDS)
+def test_small_catalogue_by_a_plain_loop(validated: Callable[..., None], name: str) -> None:
+    need = NEEDS[name]
+    small = [
+        chain
+        for chain in considered_chains(need).chains
+        if chain.designation in {one for names in SMALL.values() for one in names}
+    ]
+    drives = judged_drives(need, small)
+    found = ranked(drives)
+    expected = plain_selection(need)
+    assert len(small) == 9
+    assert 0 < len(expected) < len(drives), "the loop must tell drives apart"
+    assert [
+        (one.layout.teeth_1, one.layout.teeth_2, one.chain.designation, one.layout.links) for one in found
+    ] == [row[1:5] for row in expected]
+    source = "independent program"
+    shown = {"page": name == "narrow"}
+    validated(
+        "mass of all drives that pass", [one.mass for one in found], [row[0] for row in expected], 1e-9,
+        source, "kg", **shown,
+    )  # fmt: skip
+    validated(
+        "life of their chains", [one.life for one in found], [row[5] for row in expected], 1e-9, source, "h",
+        **shown,
+    )  # fmt: skip
+    safeties = [next(f.value for f in one.findings if f.name == "safety against breaking") for one in found]
+    assert safeties == pytest.approx([row[7] for row in expected], rel=1e-9)
+    validated(
+        "load of their shafts", [one.shaft_load for one in found], [row[6] for row in expected], 1e-9, source,
+        "N", **shown,
+    )  # fmt: skip
+
+
+def test_every_limit_refuses_something() -> None:
+    """The wrap angle has a test of its own: 40 pitches keep it above 120 degrees."""
+    needs = [*NEEDS.values(), DriveRequirements(60.0, 1500.0, 2.0, 1000.0)]
+    found = {limit for need in needs for limit in refused_by(judged(need))}
+    assert found >= {
+        "plate fatigue",
+        "roller impact",
+        "corrected power",
+        "joint pressure",
+        "greatest speed",
+        "safety against breaking",
+        "chain life",
+        "centre distance",
+        "largest diameter",
+    }
+
+
+# --- order, prices, room -----------------------------------------------------------------------------
+
+
+def test_prices_change_the_order_and_leave_other_chains_out() -> None:
+    """12B at a tenth of the price of 16A is the cheapest, though 16A is the lightest."""
+    need = DriveRequirements(3.0, 120.0, 2.7, 15_000.0, 1.4, 1.6875)
+    lightest = select(need)[0]
+    assert lightest.chain.designation == "16A-1"
+    prices = {"16A-1": Price(100.0, 10.0), "12B-3": Price(10.0, 1.0)}
+    found = select(need, prices)
+    assert {one.chain.designation for one in found} == {"16A-1", "12B-3"}
+    assert found[0].chain.designation == "12B-3"
+    one = found[0]
+    metres = one.layout.links * one.layout.pitch / 1e3
+    assert one.cost == pytest.approx(10.0 * metres + (one.mass - 3 * 1.18 * metres), rel=1e-12)
+    assert [one.cost for one in found] == sorted(one.cost for one in found)
+
+
+def test_order_is_by_mass_and_best_of_each_chain_comes_once() -> None:
+    need = DriveRequirements(3.0, 120.0, 2.7, 15_000.0)
+    found = select(need)
+    masses = [one.mass for one in found]
+    assert masses == sorted(masses)
+    best = best_of_each_chain(found)
+    names = [one.chain.designation for one in best]
+    assert len(set(names)) == len(names) > 3
+    assert all(min(one.mass for one in found if one.chain is drive.chain) == drive.mass for drive in best)
+
+
+def test_driving_faster_mirrors_driving_slower() -> None:
+    """The same sprockets at the same speeds, whichever of them drives."""
+    slower = DriveRequirements(3.0, 120.0, 2.5, 15_000.0, ratio_tolerance=0.0, teeth_min=18, teeth_max=18)
+    faster = DriveRequirements(3.0, 48.0, 0.4, 15_000.0, ratio_tolerance=0.0, teeth_min=18, teeth_max=18)
+    for one, other in zip(select(slower), select(faster), strict=True):
+        assert one.chain == other.chain
+        assert (one.layout.teeth_1, one.layout.teeth_2) == (other.layout.teeth_2, other.layout.teeth_1)
+        assert one.life == pytest.approx(other.life, rel=1e-12)
+        assert one.shaft_load == pytest.approx(other.shaft_load, rel=1e-12)
+        assert [f.used for f in one.findings] == pytest.approx([f.used for f in other.findings], rel=1e-12)
+
+
+def test_life_goes_with_the_wear_rate() -> None:
+    need = DriveRequirements(3.0, 120.0, 2.7, 1.0)
+    worse = DriveRequirements(
+        3.0, 120.0, 2.7, 1.0, joint_rate=2.4e-10, joint_rate_low=1.2e-10, joint_rate_high=4.8e-10
+    )
+    first = judged(need)[0]
+    second = judged(worse)[0]
+    assert second.life == pytest.approx(first.life / 2, rel=1e-12)
+    assert second.life_low == pytest.approx(second.life / 2, rel=1e-12)
+    assert second.life_high == pytest.approx(2 * second.life, rel=1e-12)
+
+
+def test_what_decides_is_what_overloads() -> None:
+    """A drive is refused by its ratings where a case of it would be overloaded, and nowhere else."""
+    for need in NEEDS.values():
+        for one in judged(need):
+            outside = {finding.name for finding in overloading(one.findings)}
+            refusing = {refusal.limit for refusal in one.refusals}
+            assert bool(outside) == bool(outside & refusing)
+            assert refusing & set(RULES) <= outside
+
+
+def test_nearest_miss_is_beyond_by_least() -> None:
+    """16A with 20 teeth misses 30 kW at 750 rpm by 2.3 %; with 19 teeth by more."""
+    need = DriveRequirements(
+        30.0, 750.0, 3.0, 1.0, strands_max=1, series=("A",), teeth_max=20, ratio_tolerance=0.0
+    )
+    drives = [one for one in judged(need) if one.chain.designation == "16A-1"]
+    miss = nearest_miss(drives)
+    assert miss is not None and miss.layout.teeth_1 == 20
+    assert max(refusal.used for refusal in miss.refusals) == pytest.approx(40.23 / 39.33, rel=1e-3)
+    assert nearest_miss([]) is None
+
+
+def test_shafts_too_near() -> None:
+    """Sprockets of 17 and 45 teeth of a pitch of 25.4 mm need 267 mm; at 200 mm none fits."""
+    need = DriveRequirements(3.0, 120.0, 2.7, 1.0, centre=200.0)
+    big = [one for one in judged(need) if one.chain.pitch == 25.4]
+    assert all("centre distance" in {refusal.limit for refusal in one.refusals} for one in big)
+
+
+def test_small_wrap_is_refused() -> None:
+    """At 590 mm the chain wraps the smaller of 17 and 102 teeth by some 110 degrees."""
+    need = DriveRequirements(3.0, 120.0, 6.0, 1.0, teeth_max=17, centre=590.0, series=("A",), strands_max=1)
+    found = [one for one in judged(need) if one.chain.designation == "16A-1"]
+    assert all("wrap angle" in {refusal.limit for refusal in one.refusals} for one in found)
+
+
+def test_doubtful_and_missing_numbers_are_left_out() -> None:
+    need = DriveRequirements(3.0, 120.0, 2.7, 1.0)
+    found = considered_chains(need)
+    names = {chain.designation for chain in found.chains}
+    assert "20B-1" in found.skipped["doubtful pin_diameter_mm"]
+    assert "085-1" in found.skipped["no mass_kg_per_m in the catalogue"]
+    assert not names & {name for skipped in found.skipped.values() for name in skipped}
+    assert all(chain.mass_per_length and chain.bearing_area and chain.tensile for chain in found.chains)
+
+
+def test_service_conditions() -> None:
+    """Moderate shocks 1.4 and 1.35; drip 1; 8, 16 and 24 hours 1, 1.25 and 1.45."""
+    table = {(8.0, 1.0), (8.5, 1.25), (16.0, 1.25), (24.0, 1.45)}
+    for hours, factor in table:
+        used_so = service_conditions("drip", "moderate", hours)
+        assert used_so.service_factor == 1.4
+        assert used_so.joint_application_factor == pytest.approx(1.35 * factor, rel=1e-14)
+    assert service_conditions("oil bath").joint_application_factor == 0.8
+    assert service_conditions("grease").wear_condition == "normalised, greased"
+    assert [service_conditions(shock=word).service_factor for word in SHOCKS] == [1.0, 1.4, 1.8]
+    assert len(LUBRICATIONS) == 6
+    with pytest.raises(CaseError, match=r"(?s)did you mean 'drip'.*must be one of steady.*at most 24"):
+        service_conditions("drp", "calm", 25.0)
+
+
+def test_shaft_load_of_a_layout() -> None:
+    """By components: spans at the angles b and -b to the line of centres."""
+    layout = layout_with_links(25.4, 17, 60, 120)
+    beta = layout.inclination
+    across = 900.0 * math.sin(beta) - 40.0 * math.sin(beta)
+    along = 940.0 * math.cos(beta)
+    assert shaft_load(900.0, 40.0, beta) == pytest.approx(math.hypot(along, across), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"power": 0.0}, "power: must be above 0"),
+        ({"ratio": 19.0}, "ratio: must be that of 17 to 25 teeth"),
+        ({"teeth_min": 20, "teeth_max": 18}, "teeth_max: must be at least teeth_min"),
+        ({"centre": 500.0, "centre_min": 400.0}, "centre_min: must be left out"),
+        ({"centre_min": 500.0, "centre_max": 400.0}, "centre_max: must be at least centre_min"),
+        ({"series": ("C",)}, "series: must be of A, B, H, GOST"),
+        ({"strands_max": 4}, "strands_max: must be a whole number and at least 1|strands_max: must be"),
+        ({"hours": math.nan, "speed": math.inf}, "(?s)speed: must be a finite.*hours: must be a finite"),
+    ],
+)
+def test_what_cannot_be(wrong, message: str) -> None:
+    given = {"power": 3.0, "speed": 120.0, "ratio": 2.7, "hours": 15_000.0}
+    with pytest.raises(CaseError, match=message):
+        DriveRequirements(**(given | wrong))

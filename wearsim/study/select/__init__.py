@@ -1,0 +1,1 @@
+"""Which chains and teeth of the catalogue carry a power and live as long as they must."""

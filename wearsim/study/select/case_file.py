@@ -1,0 +1,71 @@
+"""A drive that was chosen, as a case of its own."""
+
+import math
+from typing import Any
+
+from wearsim.catalogue.catalogues import KG_PER_M, chains
+from wearsim.chain.selection import elongation_limit
+from wearsim.study.select.model import SAG, CandidateDrive
+from wearsim.study.select.requirements import DriveRequirements
+from wearsim.study.select.tooth_form import TOOTH_FORMS
+
+
+def case_tables(
+    drive: CandidateDrive, need: DriveRequirements, condition: str, hours_per_day: float
+) -> dict[str, Any]:
+    """Return the tables of a case with both sprockets of a drive.
+
+    Parameters
+    ----------
+    drive : CandidateDrive
+        Chain, teeth, links.
+    need : DriveRequirements
+        Load, factors and the wear rate of the joints.
+    condition : str
+        Row of the table of wear conditions.
+    hours_per_day : float
+        Running hours of a day.
+    """
+    chain, layout = drive.chain, drive.layout
+    profile = TOOTH_FORMS[chain.series]
+    limit = 100.0 * elongation_limit(max(layout.teeth_1, layout.teeth_2))
+    return {
+        "format_version": 1,
+        "title": f"{chain.designation}, {layout.teeth_1} to {layout.teeth_2} teeth",
+        "chain": {"designation": chain.designation, **_mass(drive)},
+        "sprocket": [
+            {"role": "driver", "teeth": layout.teeth_1, "profile": profile},
+            {"role": "driven", "teeth": layout.teeth_2, "profile": profile},
+        ],
+        "drive": {
+            "links": layout.links,
+            "sag_percent": 100.0 * SAG,
+            "service_factor": _digits(need.service_factor),
+            "joint_application_factor": _digits(need.joint_application_factor),
+        },
+        "joint": {"specific_wear_rate_mm2_per_N": need.joint_rate},
+        "load": {"power_kW": need.power, "speed_rpm": need.speed},
+        "wear": {"condition": condition},
+        # Rounded down, so that it stays within the rule.
+        "stop": {"elongation_percent": math.floor(1e4 * limit + 1e-6) / 1e4},
+        "service": {"hours_per_day": hours_per_day},
+    }
+
+
+def case_text(tables: dict[str, Any], command: str) -> str:
+    """Return tables as the text of an input file, with the command that chose them."""
+    import tomlkit
+
+    text = tomlkit.dumps(tables)
+    return f"# Chosen by {command}\n# All that it assumes: wearsim check, with this file.\n{text}"
+
+
+def _mass(drive: CandidateDrive) -> dict[str, float]:
+    """Return the mass of a chain that the catalogue has none for."""
+    if chains()[drive.chain.designation].mass_per_length:
+        return {}
+    return {"mass_kg_per_m": _digits(drive.chain.mass_per_length / KG_PER_M)}
+
+
+def _digits(value: float) -> float:
+    return float(f"{value:.12g}")

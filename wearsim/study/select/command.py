@@ -1,0 +1,250 @@
+"""``wearsim select``: chains and teeth of the catalogue that carry a power and live long enough."""
+
+import shlex
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from wearsim.command.options import FAILED, common_options, error_json, print_json, warn, working
+from wearsim.command.single_file import write_content
+from wearsim.errors import CaseError, OutputError, WearsimError
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+    from wearsim.study.select.sheet import SelectionAnswer
+    from wearsim.study.select.wish import Wish
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _offer(words: Sequence[str]) -> Callable[..., "list[CompletionItem[str]]"]:
+    def _complete(
+        context: click.Context, parameter: click.Parameter, incomplete: str
+    ) -> "list[CompletionItem[str]]":
+        from click.shell_completion import CompletionItem
+
+        return [CompletionItem(word) for word in words if word.startswith(incomplete)]
+
+    return _complete
+
+
+def _lubrications(
+    context: click.Context, parameter: click.Parameter, incomplete: str
+) -> "list[CompletionItem[str]]":
+    from wearsim.chain.service_conditions import LUBRICATIONS
+
+    return _offer(tuple(LUBRICATIONS))(context, parameter, incomplete)
+
+
+def _requirement_options(function: _Function) -> _Function:
+    """Add the options that say what the drive is to do and what may be used for it."""
+    options = (
+        click.option("--power", metavar="KW", help="Power that the drive transmits, such as 3 or '4 hp'."),
+        click.option("--rpm", metavar="RPM", help="Speed of the driver."),
+        click.option("--ratio", metavar="I", help="Its speed over that of the driven shaft."),
+        click.option("--hours", metavar="H", help="Running hours that the chain must live."),
+        click.option("--centre", metavar="MM", help="Distance of the shafts; about 40 pitches without it."),
+        click.option("--centre-min", metavar="MM", help="Least distance of the shafts."),
+        click.option("--centre-max", metavar="MM", help="Greatest distance of the shafts."),
+        click.option("--max-diameter", metavar="MM", help="Largest tip circle that there is room for."),
+        click.option(
+            "--lubrication",
+            default="drip",
+            show_default=True,
+            metavar="WORD",
+            shell_complete=_lubrications,
+            help="drip, oil bath, forced, periodic, grease or dry.",
+        ),
+        click.option(
+            "--shock",
+            default="steady",
+            show_default=True,
+            metavar="WORD",
+            shell_complete=_offer(("steady", "moderate", "heavy")),
+            help="Load of the driven machine: steady, moderate or heavy shocks.",
+        ),
+        click.option("--hours-per-day", default="8", show_default=True, metavar="H", help="Hours of a day."),
+        click.option(
+            "--series",
+            default="A,B,H,GOST",
+            show_default=True,
+            metavar="WORDS",
+            shell_complete=_offer(("A", "B", "H", "GOST")),
+            help="Series of chains, with commas between them.",
+        ),
+        click.option(
+            "--strands", default="1-3", show_default=True, metavar="N-M", help="Strands of a chain."
+        ),
+        click.option(
+            "--ratio-tolerance",
+            default="3 %",
+            show_default=True,
+            metavar="PERCENT",
+            help="Part by which the ratio may be off.",
+        ),
+        click.option(
+            "--teeth-min", default="17", show_default=True, metavar="Z", help="Of the smaller sprocket."
+        ),
+        click.option("--teeth-max", default="25", show_default=True, metavar="Z", help="Of the same."),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
+
+
+@click.command(short_help="Chains and teeth of the catalogue for a drive.")
+@_requirement_options
+@click.option(
+    "--price",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="CSV of designation, price_per_m, sprocket_price_per_kg: the cheapest drive first.",
+)
+@click.option("--every-pair", is_flag=True, help="Show all teeth of a chain, not only the best.")
+@click.option(
+    "--count", type=click.IntRange(min=1), default=10, show_default=True, metavar="N", help="Drives shown."
+)
+@click.option(
+    "--verify",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Wear the sprockets of the first N drives shown too, up to twice the hours.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, allow_dash=True),
+    metavar="FILE",
+    help="New case of the best drive; - is stdout.",
+)
+@click.option(
+    "--csv",
+    "csv_file",
+    type=click.Path(path_type=Path, allow_dash=True),
+    metavar="FILE",
+    help="New table of the drives shown; - is stdout.",
+)
+@click.option("--force", is_flag=True, help="Replace the files.")
+@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@common_options
+def select(
+    price: Path | None,
+    every_pair: bool,
+    count: int,
+    verify: int,
+    out: Path | None,
+    csv_file: Path | None,
+    force: bool,
+    as_json: bool,
+    **texts: str | None,
+) -> int:
+    """Choose chains and teeth of the catalogue for a drive.
+
+    A drive passes where it keeps to the ratings and its chain lives long enough by wear. The
+    lightest one comes first, or the cheapest. Exit code 3 where none passes.
+    """
+    from wearsim.study.select.sheet import selection_json, selection_text
+    from wearsim.study.select.wish import read_wish
+
+    _check_places(out, csv_file, as_json, force)
+    try:
+        wish = read_wish(texts, price)
+    except CaseError as error:
+        if as_json:
+            click.echo(error_json("select", error))
+        raise
+    answer = _answer(wish, every_pair, count)
+    verified = _verified(answer, wish, verify)
+    if as_json:
+        content = selection_json(answer)
+        print_json({**content, "verified": verified} if verify else content, Path("select"))
+    else:
+        # A file on stdout leaves stderr for the table.
+        on_stdout = "-" in (str(out), str(csv_file))
+        (warn if on_stdout else click.echo)(
+            "\n".join([selection_text(answer), *map(_verified_text, verified)])
+        )
+    if not answer.shown:
+        warn("select: a drive must keep to all limits, but none does: see what refuses them")
+        return FAILED
+    _write(answer, wish, out, csv_file, force)
+    return 0
+
+
+def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force: bool) -> None:
+    from wearsim.files import check_free
+
+    on_stdout = [name for name, place in (("--out", out), ("--csv", csv_file)) if str(place) == "-"]
+    if as_json:
+        on_stdout.append("--json")
+    if len(on_stdout) > 1:
+        raise click.UsageError(f"{' and '.join(on_stdout)} both write to stdout: give one of them a file")
+    if out is not None and csv_file is not None and out.resolve() == csv_file.resolve():
+        raise OutputError(f"{out}: must not be the file of --csv: choose another place")
+    for place in (out, csv_file):
+        if place is not None and str(place) != "-":
+            check_free(place, force)
+
+
+def _answer(wish: "Wish", every_pair: bool, count: int) -> "SelectionAnswer":
+    from wearsim.study.select.considered_chains import considered_chains
+    from wearsim.study.select.model import judged_drives
+    from wearsim.study.select.sheet import SelectionAnswer
+
+    considered = considered_chains(wish.need, wish.prices)
+    return SelectionAnswer(
+        need=wish.need,
+        use=wish.use,
+        considered=considered,
+        drives=judged_drives(wish.need, considered.chains, wish.prices),
+        every_pair=every_pair,
+        count=count,
+        priced=wish.prices is not None,
+    )
+
+
+def _verified(answer: "SelectionAnswer", wish: "Wish", count: int) -> list[dict[str, Any]]:
+    """Return the lives of all parts of the first drives."""
+    if not count:
+        return []
+    from wearsim.study.select.case_file import case_tables
+    from wearsim.study.select.verified_lives import part_lives
+
+    found = []
+    for drive in answer.shown[:count]:
+        tables = case_tables(drive, wish.need, wish.service.wear_condition, wish.hours_per_day)
+        title = str(tables["title"])
+        with working(f"wearing {title}") as report_progress:
+            try:
+                found.append({"title": title, **part_lives(tables, wish.need.hours, report_progress)})
+            except WearsimError as error:
+                found.append({"title": title, "error": str(error)})
+    return found
+
+
+def _verified_text(verified: dict[str, Any]) -> str:
+    from wearsim.report.text_lines import row
+    from wearsim.study.select.verified_lives import lives_text
+
+    return row("Verified", lives_text(verified))
+
+
+def _write(
+    answer: "SelectionAnswer", wish: "Wish", out: Path | None, csv_file: Path | None, force: bool
+) -> None:
+    """Write the case of the best drive and the table."""
+    if out is not None:
+        from wearsim.study.select.case_file import case_tables, case_text
+
+        tables = case_tables(answer.shown[0], wish.need, wish.service.wear_condition, wish.hours_per_day)
+        command = shlex.join(["wearsim", *sys.argv[1:]]).replace("\n", " ")
+        write_content(out, case_text(tables, command).encode(), force)
+    if csv_file is not None:
+        from wearsim.study.select.sheet import selection_csv
+
+        write_content(csv_file, selection_csv(answer).encode(), force)
