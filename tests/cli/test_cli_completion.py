@@ -94,6 +94,7 @@ def test_other_places_are_left_to_the_shell(complete):
 def test_names_of_catalogues(complete):
     assert complete("init", "--chain", "20B-") == plain("20B-1", "20B-2", "20B-3")
     assert complete("init", "--chain", "20b-1") == plain("20B-1")
+    assert complete("init", "--lubrication", "d") == plain("drip", "dry")
     assert complete("schema", "--of", "wave") == plain("wave-drive")
     assert complete("list", "wear") == plain("wear-conditions")
 

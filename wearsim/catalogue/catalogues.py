@@ -155,6 +155,16 @@ def chain_name(typed: str) -> str | None:
     return typed if typed in chains() else _spellings().get(_plain(typed))
 
 
+def known_chain_name(typed: str) -> str:
+    """Return the name of the catalogue that a typed designation stands for; raise ValueError for none."""
+    name = chain_name(typed)
+    if name:
+        return name
+    raise ValueError(
+        f"no such chain in the catalogue{nearest_chain(typed)} (wearsim list chains shows them all)"
+    )
+
+
 def nearest_chain(typed: str) -> str:
     """Return a hint at the chains most like a designation that is none.
 

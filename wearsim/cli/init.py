@@ -1,35 +1,31 @@
 """``wearsim init``: a commented case to start from."""
 
+import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.complete import complete_chain
+from wearsim.cli.drive_start import KNOWN, ask_for_drive, drive_options, drive_text, tooth_form
 from wearsim.command.options import common_options
 from wearsim.errors import CaseError, Fault
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
 
-_FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
-"""Tooth form that goes with the series of a chain; ISO 606 with the others."""
-
 _SAFETY = {"strand": 10.0, "wrap": 20.0}
 """Breaking load over the pull of a starting case."""
 
 
 @click.command(short_help="A commented case to start from.")
-@click.option(
-    "--chain", default="16B-1", show_default=True, metavar="DESIGNATION", shell_complete=complete_chain
-)
-@click.option("--teeth", type=int, default=20, show_default=True)
+@drive_options
+@click.option("--teeth", type=int, help="Teeth of one sprocket alone.  [default: 20]")
 @click.option(
     "--kind",
-    type=click.Choice(["strand", "wrap"]),
-    default="strand",
-    show_default=True,
-    help="A guided strand past the sprocket, or a chain around it.",
+    type=click.Choice(["drive", "strand", "wrap"]),
+    help="A chain and both of its sprockets; or one sprocket, with a guided strand past it or a chain "
+    "around it.  [default: drive; with --teeth strand]",
 )
 @click.option(
     "--out",
@@ -40,17 +36,51 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
 @common_options
-def init(chain: str, teeth: int, kind: str, out: Path, force: bool) -> None:
-    """Write a working case for a chain and a number of teeth, every key explained."""
+def init(teeth: int | None, kind: str | None, out: Path, force: bool, **typed: str | None) -> None:
+    """Write a working case by what is known of a drive, every line explained.
+
+    Power, speed, distance and hours may have a unit: --power "4 hp". On a terminal, without any of
+    these options, it asks for them one by one. --teeth and --kind are for a case of one sprocket.
+    """
     from wearsim.files import check_free, write_file
 
     if str(out) != "-":
         check_free(out, force)
-    text = new_case(chain, teeth, kind)
+    text = _text(typed, teeth, kind or ("drive" if teeth is None else "strand"))
     if str(out) == "-":
         click.echo(text, nl=False)
     else:
         write_file(out, text, force)
+
+
+def at_terminal() -> bool:
+    """Tell whether someone is there to be asked."""
+    return sys.stdin.isatty() and sys.stdout.isatty()
+
+
+def _text(typed: Mapping[str, str | None], teeth: int | None, kind: str) -> str:
+    if kind == "drive":
+        if teeth is not None:
+            raise CaseError(
+                [
+                    Fault(
+                        "belongs to one sprocket, not to --kind drive: give --driver and --driven",
+                        "",
+                        "--teeth",
+                    )
+                ]
+            )
+        if at_terminal() and all(value is None for value in typed.values()):
+            return ask_for_drive()
+        return drive_text(typed)
+    given = [known for known in KNOWN if typed[known.name] is not None and known.option != "--chain"]
+    if given:
+        message = (
+            f"belongs to a whole drive, not to --kind {kind}: remove it, or give --driver and --driven in "
+            "place of --teeth"
+        )
+        raise CaseError([Fault(message, "", known.option) for known in given])
+    return new_case(typed["chain"] or "16B-1", 20 if teeth is None else teeth, kind)
 
 
 def new_case(chain: str, teeth: int, kind: str) -> str:
@@ -70,7 +100,7 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
     from wearsim.catalogue.catalogues import chain_name, chains
 
     known = chains().get(chain_name(chain) or "")
-    form = _FORMS.get(known.series if known else "", "iso606") if kind == "wrap" else "evolute"
+    form = tooth_form(known) if kind == "wrap" else "evolute"
     seed = {
         "format_version": 1,
         "chain": {"designation": chain},

@@ -47,7 +47,8 @@ from wearsim.study.uncertainty.command import uncertainty
 
 _EXAMPLES = """\b
 How long will this sprocket live?
-  wearsim init > drive.toml          a commented case to start from
+  wearsim init --out pair.toml       a whole drive from what is known of it
+  wearsim init --teeth 20 > drive.toml         a case of one of its sprockets
   wearsim check drive.toml           is it complete, and can it run?
   wearsim life drive.toml            the life in hours
   wearsim compare drive.toml other.toml --out reports/first

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
+from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name
 from wearsim.input.schema.table import Table
 from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
@@ -78,11 +78,9 @@ class ChainTable(Table):
     @field_validator("designation")
     @classmethod
     def _known(cls, value: str | None) -> str | None:
-        if value is None or chain_name(value):
-            return value
-        raise ValueError(
-            f"no such chain in the catalogue{nearest_chain(value)} (wearsim list chains shows them all)"
-        )
+        if value is not None:
+            known_chain_name(value)
+        return value
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -1,0 +1,283 @@
+"""Drives of more than two sprockets: positions, idlers, take-ups, shares of power, cassettes."""
+
+import json
+import math
+
+import pytest
+
+import wearsim
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.model import drive_life
+
+LOOP = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+name = "motor"
+teeth = 17
+profile = "iso606"
+nodes = 61
+position_mm = [0, 0]
+[[sprocket]]
+name = "tensioner"
+role = "idler"
+teeth = 13
+profile = "iso606"
+nodes = 61
+position_mm = [62, 155]
+outside = true
+take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}
+[[sprocket]]
+name = "pump"
+teeth = 20
+profile = "iso606"
+nodes = 61
+position_mm = [200, 250]
+power_share = 0.7
+[[sprocket]]
+name = "fan"
+teeth = 25
+profile = "iso606"
+nodes = 61
+position_mm = [306, 0]
+power_share = 0.3
+[drive]
+links = 92
+[load]
+power_kW = 1.3
+speed_rpm = 300
+[wear]
+specific_wear_rate_mm2_per_N = 1e-9
+[joint]
+specific_wear_rate_mm2_per_N = 1e-9
+[run]
+life_tolerance = 0.1
+"""
+
+CASSETTE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+name = "ring"
+teeth = 38
+profile = "iso606"
+nodes = 61
+[[sprocket]]
+name = "cassette"
+profile = "iso606"
+nodes = 61
+cog = [{teeth = 13, share_of_time = 0.25}, {teeth = 17, share_of_time = 0.75}]
+[drive]
+links = 110
+[load]
+power_kW = 0.8
+speed_rpm = 100
+[wear]
+specific_wear_rate_mm2_per_N = 1e-9
+[joint]
+specific_wear_rate_mm2_per_N = 1e-9
+[run]
+life_tolerance = 0.1
+"""
+
+
+def checked(cli, tmp_path, text):
+    path = tmp_path / "drive.toml"
+    path.write_text(text)
+    done = cli("check", path, "--json")
+    assert done.code == 0, done.err + done.out
+    return json.loads(done.out)["layout"]
+
+
+def test_layout_and_forces_balance(cli, tmp_path):
+    found = checked(cli, tmp_path, LOOP)
+    power = {one["name"]: one["power_kW"] for one in found["sprockets"]}
+    heat = 1e-3 * found["friction_heat_W"]
+    assert power["motor"] == pytest.approx(-power["pump"] - power["fan"] + heat, rel=1e-6)
+    assert found["efficiency"] == pytest.approx(-(power["pump"] + power["fan"]) / power["motor"], rel=1e-9)
+    assert power["tensioner"] == 0.0
+    spans = {one["from"]: one["tension_N"] for one in found["spans"]}
+    # 1.3 kW at 17 * 12.7 mm * 5/s; the pump takes 70 % of what the idler's joints leave.
+    assert spans["fan"] - spans["motor"] == pytest.approx(1.3e6 / (17 * 12.7 * 5), rel=1e-9)
+    taken = spans["fan"] - spans["tensioner"]
+    assert spans["pump"] - spans["tensioner"] == pytest.approx(0.7 * taken, rel=1e-9)
+    # The spring pulls with its 80 N along its guide.
+    idler = next(one for one in found["sprockets"] if one["name"] == "tensioner")
+    angle = math.radians(idler["shaft_direction_deg"] - -37.5)
+    assert idler["shaft_load_N"] * math.cos(angle) == pytest.approx(-80.0, rel=1e-9)
+    assert sum(one["wrap_deg"] * (-1 if one is idler else 1) for one in found["sprockets"]) == (
+        pytest.approx(360.0)
+    )
+
+
+CHANGES = [
+    ('name = "fan"', 'name = "blower"', "names"),
+    ("position_mm = [306, 0]", "position_mm = [304, 0]", "spans"),
+    ("tensioner_force_N = 80", "tensioner_force_N = 90", "spans"),
+    ("guide_deg = -37.5", "guide_deg = -45", "places"),
+    ("power_share = 0.7", "power_share = 0.8", "spans"),
+    ("links = 92", "links = 92\njoint_friction = 0.2", "heat"),
+]
+
+
+@pytest.mark.parametrize(("before", "after", "what"), CHANGES)
+def test_every_key_changes_something(cli, tmp_path, before, after, what):
+    changed = LOOP.replace(before, after).replace(
+        "power_share = 0.3", "power_share = 0.2" if "0.8" in after else "power_share = 0.3"
+    )
+    looks = {
+        "names": lambda found: [one["name"] for one in found["sprockets"]],
+        "spans": lambda found: [one["tension_N"] for one in found["spans"]],
+        "places": lambda found: [one["x_mm"] for one in found["sprockets"]],
+        "heat": lambda found: found["friction_heat_W"],
+    }
+    first, then = (looks[what](checked(cli, tmp_path, text)) for text in (LOOP, changed))
+    assert first != then
+
+
+def test_torques_in_place_of_shares(cli, tmp_path):
+    """The chain has the same power; what the joints of the idler lose is shared as the torques are."""
+    torques = [1e3 * 1.3 * share / (math.pi * 10.0 * 17 / teeth) for share, teeth in ((0.7, 20), (0.3, 25))]
+    text = LOOP.replace("power_share = 0.7", f"torque_N_m = {torques[0]}")
+    text = text.replace("power_share = 0.3", f"torque_N_m = {torques[1]}")
+    by_share, by_torque = (checked(cli, tmp_path, one)["spans"] for one in (LOOP, text))
+    for one, other in zip(by_share, by_torque, strict=True):
+        assert one["tension_N"] == pytest.approx(other["tension_N"], rel=1e-9)
+
+
+def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path):
+    duty = """\
+[[duty]]
+share_of_time = 0.5
+power_kW = 1.3
+speed_rpm = 300
+[[duty]]
+share_of_time = 0.5
+power_kW = 1.3
+speed_rpm = 300
+power_share = {pump = 0.1, fan = 0.9}
+"""
+    path = tmp_path / "duty.toml"
+    path.write_text(LOOP.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    pump = next(one for one in load_drive(path).sprockets if one.name == "pump").drive
+    taken = [block.tension - block.slack for block in pump.blocks]
+    assert taken[1] == pytest.approx(taken[0] / 7.0, rel=1e-9)
+    assert [block.share for block in pump.blocks] == [0.5, 0.5]
+
+
+def test_all_sprockets_live_with_the_same_chain(tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(LOOP)
+    found = drive_life(load_drive(path))
+    chains = [result.parts["chain"].hours for result in found.results.values()]
+    assert chains == pytest.approx([chains[0]] * 4, rel=1e-9)
+    # One loop of the chain: k pi d2/p sum (p_in + p_out)/z, by hand from the spans (E1).
+    drive = found.drive.driver.drive
+    forces = drive.forces(drive.heaviest)
+    z = (17, 13, 20, 25)
+    arriving = [*forces.tensions[-1:], *forces.tensions[:-1]]
+    turned = sum(
+        (one + other + 2.0 * forces.centrifugal) / teeth
+        for one, other, teeth in zip(arriving, forces.tensions, z, strict=True)
+    )
+    growth = 1e-9 * math.pi * 4.45 / 12.7 * turned / 50.3
+    loops_per_hour = 60.0 * 300.0 * 17.0 / 92.0
+    assert chains[0] == pytest.approx(0.03 / growth / loops_per_hour, rel=1e-6)
+    # The idler carries least and lives longest; each sprocket has a life of its own.
+    lives = {name: life.hours_run for name, life in found.sprockets.items()}
+    assert max(lives, key=lives.__getitem__) == "tensioner"
+    assert len(set(lives.values())) == 4
+
+
+def test_cogs_share_the_time_and_the_chain(tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(CASSETTE)
+    drive = load_drive(path)
+    assert [one.name for one in drive.sprockets] == ["ring", "cassette 13T", "cassette 17T"]
+    found = drive_life(drive)
+    chains = [result.parts["chain"].hours for result in found.results.values()]
+    assert chains == pytest.approx([chains[0]] * 3, rel=1e-9)
+    # A chain on one cog all the time, for either: growth adds up by shares of time.
+    alone = []
+    for teeth in (13, 17):
+        tables = {
+            "format_version": 1,
+            "chain": {"designation": "08B-1"},
+            "sprocket": {"teeth": teeth, "profile": "iso606", "nodes": 61, "role": "driven"},
+            "drive": {"links": 110, "mate_teeth": 38},
+            "load": {"power_kW": 0.8, "speed_rpm": 100 * 38 / teeth},
+            "joint": {"specific_wear_rate_mm2_per_N": 1e-9},
+            "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+            "run": {"life_tolerance": 0.1},
+        }
+        alone.append(wearsim.load_case(tables))
+    hours = [case.drive.contact(case).cycles_per_chain / case.cycles_per_hour for case in alone]
+    # Slack tensions of the two layouts differ by a little.
+    assert chains[0] == pytest.approx(1.0 / (0.25 / hours[0] + 0.75 / hours[1]), rel=1e-3)
+    # A cog that runs a quarter of the time lives about four times as long as one that runs all of it.
+    life = wearsim.simulate(alone[0]).parts["sprocket"].hours
+    assert found.sprockets["cassette 13T"].hours == pytest.approx(4.0 * life, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "line", "message"),
+    [
+        ("position_mm = [62, 155]", "position_mm = [20, 155]", 4, "does not touch wheel 'tensioner'"),
+        ("links = 92", "links = 120", 10, "120 links must fit within its travel"),
+        ("power_share = 0.3", "power_share = 0.2", 32, "the power must balance"),
+        ("outside = true", "outside = true\npower_share = 0.1", 18, "an idler takes no power"),
+        (
+            "power_share = 0.3",
+            "power_share = 0.3\ntake_up = {guide_deg = 0}",
+            33,
+            "one sprocket takes up the slack, 'tensioner' does already",
+        ),
+        ("position_mm = [306, 0]", "position_mm = [40, 40]", 4, "must not overlap"),
+        ("[-25, 30]", "[30, -25]", 18, "two ends of the travel"),
+        ("power_kW = 1.3", "tension_N = 1300", 36, "spans have tensions of their own"),
+        ("links = 92", "links = 92\nmate_teeth = 20", 35, "the other [[sprocket]] gives this"),
+        ("links = 92", "centre_distance_mm = 300", 34, "position_mm give this"),
+        ("links = 92", "links = 92\nslack_tension_N = 80", 35, "the force of the take_up gives this"),
+        ("tensioner_force_N = 80", "tensioner_force_N = 8000", 10, "the pull must stay below the chain's"),
+        ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be pulled"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line, message):
+    path = tmp_path / "drive.toml"
+    assert before in LOOP
+    path.write_text(LOOP.replace(before, after))
+    done = cli("check", path)
+    assert done.code == 2, done.out
+    assert message in done.err
+    assert done.err.count(message) == 1
+    at = next(one for one in done.err.splitlines() if message in one)
+    assert f"drive.toml:{line}: " in at
+
+
+def test_without_a_take_up_the_links_decide(cli, tmp_path):
+    fixed = LOOP.replace("take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}\n", "")
+    path = tmp_path / "drive.toml"
+    path.write_text(fixed)
+    done = cli("check", path)
+    assert done.code == 2
+    assert "a whole number of links must fit: the wheels as they stand take 91." in done.err
+    path.write_text(fixed.replace("[306, 0]", "[307.9, 0]").replace("links = 92", "links = 92"))
+    done = cli("check", path)
+    assert done.code in (0, 2)
+    text = fixed.replace("links = 92", "links = 92\nsag_percent = 3")
+    path.write_text(text)
+    assert "without a take_up the links give the sag" in cli("check", path).err
+
+
+def test_cassettes_are_checked(cli, tmp_path):
+    path = tmp_path / "drive.toml"
+    for before, after, message in (
+        ("share_of_time = 0.75", "share_of_time = 0.7", "share_of_time of all cogs must sum to 1 (got 0.95)"),
+        ('name = "cassette"', 'name = "cassette"\nteeth = 17', "the cogs give their own"),
+    ):
+        path.write_text(CASSETTE.replace(before, after))
+        done = cli("check", path)
+        assert done.code == 2
+        assert message in done.err
