@@ -20,7 +20,7 @@ SECTIONS = {
     "Wrap: loads of the teeth": ("test_wrap_loads",),
     "Wrap: a contact that stays and wears": ("test_half_space_contact", "test_resting_b4"),
     "Elongation of the chain": ("test_elongation",),
-    "Layout of a chain drive": ("test_drive_layout", "test_chain_loop"),
+    "Layout of a chain drive": ("test_drive_layout", "test_chain_loop", "test_loop_forces"),
     "Ratings of a chain drive": ("test_selection",),
     "Selection of a chain drive": ("test_select",),
     "Wear of gear pairs": ("test_gear_pair", "test_gear_forms"),

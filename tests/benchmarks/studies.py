@@ -31,17 +31,7 @@ CLUSTER_COUNT = 10_000
 
 def sampled(count: int, *options: str, case: Path = CASE) -> tuple[float, float]:
     """Return seconds and MiB (of all processes of the command) of a study."""
-    command = [
-        WEARSIM,
-        "uncertainty",
-        str(case),
-        "--samples",
-        str(count),
-        "--method",
-        "lhs",
-        "-q",
-        *options,
-    ]
+    command = [WEARSIM, "uncertainty", str(case), "--samples", str(count), "--method", "lhs", "-q", *options]
     start = time.perf_counter()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)

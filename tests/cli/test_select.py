@@ -31,7 +31,7 @@ def test_installed_command():
     words = [str(word) for word in NEED]
     done = subprocess.run([wearsim_command, "select", *words], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith("3 kW at 120 rpm, ratio 2.7, 15 000 h (drip, steady load, 8 h a day)\n")
+    assert done.stdout.startswith("3 kW at 120 rpm, ratio 2.7, 15 000 h (drip, smooth load, 8 h a day)\n")
     for label in ("Ranked by  mass: ", "Passed ", "Refused ", "Left out ", "Assumes "):
         assert f"\n  {label}" in done.stdout
 
@@ -127,7 +127,7 @@ def test_every_fault_is_named_in_one_pass(cli, tmp_path):
         ("--ratio: ", "must be given"),
         ("--hours: ", "must be above 0"),
         ("--lubrication: ", "did you mean 'drip'"),
-        ("--shock: ", "must be one of steady, moderate, heavy"),
+        ("--shock: ", "must be one of smooth, moderate, heavy"),
         ("--hours-per-day: ", "at most 24 (got 25)"),
         ("--series: ", "(got 'C')"),
         ("--strands: ", "at most 3 (got 9)"),

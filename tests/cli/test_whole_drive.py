@@ -153,13 +153,13 @@ speed_rpm = 300
             11,
             "(got 'evolvent')",
         ),
-        (('name = "roll"', 'role = "driver"'), 9, "at least one sprocket must be 'driven' (got 'driver', 'driver')"),
+        (('name = "roll"', 'role = "driver"'), 9, "one sprocket must be 'driven' (got 'driver', 'driver')"),
         (('name = "roll"', 'name = "driver"'), 9, "different names"),
         (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
         (("links = 110", "links = 12"), 14, "drive layout: "),
         (("teeth = 20", "teeth = 20\nposition = 3"), 11, "unknown key"),
         (("teeth = 20", "teeth = 21\nengaged_every = 2"), 11, "must divide the number of teeth"),
-        (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "every sprocket of more than two"),
+        (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "more than two"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, wrong, line, message):

@@ -410,11 +410,11 @@ def test_service_conditions() -> None:
         used_so = service_conditions("drip", "moderate", hours)
         assert used_so.service_factor == 1.4
         assert used_so.joint_application_factor == pytest.approx(1.35 * factor, rel=1e-14)
-    assert service_conditions("oil bath").joint_application_factor == 0.8
+    assert service_conditions("oil-bath").joint_application_factor == 0.8
     assert service_conditions("grease").wear_condition == "normalised, greased"
     assert [service_conditions(shock=word).service_factor for word in SHOCKS] == [1.0, 1.4, 1.8]
     assert len(LUBRICATIONS) == 6
-    with pytest.raises(CaseError, match=r"(?s)did you mean 'drip'.*must be one of steady.*at most 24"):
+    with pytest.raises(CaseError, match=r"(?s)did you mean 'drip'.*must be one of smooth.*at most 24"):
         service_conditions("drp", "calm", 25.0)
 
 

@@ -118,18 +118,36 @@ def _turns_per_cycle(case: ChainRecord) -> int:
     return table.engaged_every // common
 
 
+def _of_strands(name: str, strands: int) -> str | None:
+    """Return the chain of so many strands of a single one, None where there is none."""
+    for several in (f"{name.removesuffix('-1')}-{strands}", f"{strands}{name}"):
+        if several in chains():
+            return several
+    return None
+
+
 def _chain(case: ChainRecord, table: ChainTable) -> Chain:
+    strands = table.strands or 1
     if table.designation is None:
         assert table.pitch_mm and table.roller_diameter_mm and table.inner_width_mm
         return replace(
             Chain("", table.pitch_mm, table.roller_diameter_mm, table.inner_width_mm),
             pin_diameter=table.pin_diameter_mm or 0.0,
-            bearing_area=table.bearing_area_mm2 or 0.0,
-            mass_per_length=KG_PER_M * (table.mass_kg_per_m or 0.0),
+            bearing_area=strands * (table.bearing_area_mm2 or 0.0),
+            mass_per_length=strands * KG_PER_M * (table.mass_kg_per_m or 0.0),
+            strands=strands,
         )
     name = chain_name(table.designation)
     assert name is not None
-    if name != table.designation:
+    if chains()[name].strands != strands and strands > 1:
+        several = _of_strands(name, strands)
+        if several is None:
+            case.faults.add("chain.strands", f"the catalogue has no {name} of {strands} strands")
+            return chains()[name]
+        name = several
+        case.inputs["chain"]["designation"] = name
+        case.assumptions.append(f"{strands} strands are chain {name}; they share the pull evenly")
+    elif name != table.designation:
         case.inputs["chain"]["designation"] = name
         case.assumptions.append(f"chain {table.designation!r} is read as {name} of the catalogue")
     chain = chains()[name]

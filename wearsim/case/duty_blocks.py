@@ -33,7 +33,7 @@ class GivenLoad:
     key: str  # of the case, for faults
     part: float = 1.0  # of the useful pull, for typical regimes
     measured: bool = False  # whether it comes from a log, which may hold idling
-    # shares of the power that driven sprockets take in this block, by their names; none for those of the drive
+    # shares of the power that driven sprockets take here, by their names; none for those of the drive
     power_share: Mapping[str, float] = field(default_factory=dict)
 
 

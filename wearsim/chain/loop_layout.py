@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from wearsim.chain.chain_loop import ChainLoop
-from wearsim.chain.loop_forces import LoopForces, SpanLevel, inclination, looser_span, loop_forces
+from wearsim.chain.loop_forces import LoopForces, SpanLevel, inclination, loop_forces, looser_span
 from wearsim.chain.span_tension import catenary_tension
 from wearsim.chain.take_up import TakeUp, fitting_travel
 from wearsim.errors import CaseError, Fault, GeometryError
@@ -136,9 +136,7 @@ class LoopLayout:
         shares: tuple[float, ...] = (),
     ) -> LoopForces:
         """Return the forces under a pull, with the shares of the drive or of a block of its duty."""
-        return loop_forces(
-            self.loop, pull, shares or self.drive.shares, level, friction_lever, centrifugal
-        )
+        return loop_forces(self.loop, pull, shares or self.drive.shares, level, friction_lever, centrifugal)
 
     def travel_at(self, elongation: float) -> float:
         """Return the travel of the take-up for a chain that has grown [mm]; 0 without one."""

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.catalogue.catalogues import Chain, chains, known_chain_name, nearest
+from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
+from wearsim.chain.service_conditions import LUBRICATIONS, SHIFTS, SHOCKS, plain_word, service_conditions
 from wearsim.command.complete import complete_chain
 from wearsim.errors import CaseError, Fault
 
@@ -20,16 +21,6 @@ if TYPE_CHECKING:
 _SAFETY = 20.0
 """Breaking load over the pull, before the factors of its use, where nobody knows the power."""
 
-_FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
-"""Tooth form that goes with the series of a chain; ISO 606 with the others."""
-
-_SHOCKS = {
-    "smooth": ("smooth", "steady"),
-    "moderate": ("moderate shocks", "moderate shocks"),
-    "heavy": ("heavy shocks", "heavy shocks"),
-}
-"""Words of ISO 10823 and of GOST practice for the load of the driven machine."""
-
 _UNITS = {"power": "kW", "rpm": "rpm", "centre": "mm"}
 """Units of the case."""
 
@@ -38,39 +29,15 @@ _TOO_HARD = "\n# It is above 3, where handbooks ask for another drive."
 _COLUMN = 32
 """Width of a line of the case before its comment."""
 
-_HORIZON = 2e5
-"""Hours that a run covers at most: most drives last less, and a run to the default of 1e6 takes minutes."""
-
 _DAYS = 365.25
 """Days of a year."""
 
-_SHIFTS = ((8.0, "one"), (16.0, "two"), (24.0, "three"))
-"""Most running hours a day, and the shifts of GOST practice that they take."""
-
-
-@dataclass(frozen=True)
-class _Lubrication:
-    """What a way to lubricate is called in the tables."""
-
-    gost: str
-    condition: str  # of wear
-    why: str
-    note: str = ""  # on the factor
-
-
-_OILED = "hardened teeth, and oil on teeth and joints at all times."
-_SPARSE = "the row of the table for little lubricant, with softer teeth."
-_LUBRICATIONS = {
-    "drip": _Lubrication("drip", "hardened, oiled", _OILED),
-    "oil-bath": _Lubrication("continuous", "hardened, oiled", _OILED),
-    "forced": _Lubrication("continuous", "hardened, oiled", _OILED),
-    "periodic": _Lubrication("periodic", "normalised, greased", _SPARSE),
-    "grease": _Lubrication("periodic", "normalised, greased", _SPARSE),
-    "dry": _Lubrication(
-        "periodic", "hardened, dry", "hardened teeth, no lubricant at all.", " (there is none for dry)"
-    ),
+_WHY = {
+    "hardened, oiled": "hardened teeth, and oil on teeth and joints at all times.",
+    "normalised, greased": "the row of the table for little lubricant, with softer teeth.",
+    "hardened, dry": "hardened teeth, no lubricant at all.",
 }
-_OTHER_WORDS = {"continuous": "forced", "manual": "periodic"}
+"""What the conditions of wear mean that go with the ways to lubricate."""
 
 
 def _whole(least: int, most: int) -> Callable[[str], int]:
@@ -116,8 +83,7 @@ def _is_plain(text: str) -> bool:
 
 def _word(words: tuple[str, ...]) -> Callable[[str], str]:
     def _read(text: str) -> str:
-        plain = text.strip().lower().replace(" ", "-").replace("_", "-")
-        found = _OTHER_WORDS.get(plain, plain)
+        found = plain_word(text)
         if found not in words:
             raise ValueError(f"must be one of {', '.join(words)} (got {text!r}){nearest(text, list(words))}")
         return found
@@ -199,9 +165,9 @@ KNOWN = (
         lambda values: "",
         asked=False,
     ),
-    _one_of("--lubrication", "Lubrication", tuple(_LUBRICATIONS)),
+    _one_of("--lubrication", "Lubrication", tuple(LUBRICATIONS)),
     _fixed("--hours-per-day", "Running hours a day", "HOURS", _quantity("h", 24.0), "8"),
-    _one_of("--shock", "Load of the driven machine", tuple(_SHOCKS)),
+    _one_of("--shock", "Load of the driven machine", tuple(SHOCKS)),
     Known(
         "--power",
         "Power in kW",
@@ -240,11 +206,6 @@ def drive_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def _completing(words: tuple[str, ...]) -> Callable[..., list[str]]:
     return lambda context, parameter, incomplete: [word for word in words if word.startswith(incomplete)]
-
-
-def tooth_form(chain: Chain | None) -> str:
-    """Return the standard tooth form for a chain, that of ISO 606 for an unknown one."""
-    return _FORMS.get(chain.series if chain else "", "iso606")
 
 
 def ask_for_drive() -> str:
@@ -318,28 +279,28 @@ class _Factors:
 
 def _factors(values: Values) -> _Factors:
     from wearsim.chain.joint_pressure import joint_application_factor
-    from wearsim.chain.power_rating import application_factor
 
-    iso, load = _SHOCKS[values["shock"]]
-    lubrication, shifts = _LUBRICATIONS[values["lubrication"]].gost, _shifts(values)
+    _, load = SHOCKS[values["shock"]]
+    used = service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
     return _Factors(
-        service=application_factor("smooth", iso),
+        service=used.service_factor,
         load=joint_application_factor(load=load),
-        lubrication=joint_application_factor(lubrication=lubrication),
-        shifts=joint_application_factor(shifts=shifts),
-        joint=joint_application_factor(load, lubrication, shifts),
+        lubrication=joint_application_factor(lubrication=LUBRICATIONS[values["lubrication"]][1]),
+        shifts=joint_application_factor(shifts=_shifts(values)),
+        joint=used.joint_application_factor,
     )
 
 
 def _shifts(values: Values) -> str:
-    return next(shifts for most, shifts in _SHIFTS if values["hours_per_day"] <= most)
+    return next(shifts for most, shifts in SHIFTS if values["hours_per_day"] <= most)
 
 
 def _loaded(values: Values) -> "DriveCase":
     """Return the drive, or raise its faults at the options that they come from."""
+    from wearsim.chain.standard_teeth import standard_form
     from wearsim.study.whole_drive.keys import load_drive
 
-    factors, form = _factors(values), tooth_form(chains()[values["chain"]])
+    factors, form = _factors(values), standard_form(chains()[values["chain"]])
     lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
     tables = {
         "format_version": 1,
@@ -351,7 +312,7 @@ def _loaded(values: Values) -> "DriveCase":
             "joint_application_factor": factors.joint,
         },
         "load": {"power_kW": values["power"], "speed_rpm": values["rpm"]},
-        "wear": {"condition": _LUBRICATIONS[values["lubrication"]].condition},
+        "wear": {"condition": LUBRICATIONS[values["lubrication"]][0]},
     }
     try:
         return load_drive(tables)
@@ -391,12 +352,14 @@ def _as_typed(value: float, text: str | None, unit: str) -> _Amount:
 
 def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -> dict[str, Any]:
     """Return what the template shows."""
-    factors, lubrication = _factors(values), _LUBRICATIONS[values["lubrication"]]
+    from wearsim.study.whole_drive.keys import SERVICE_YEARS
+
+    factors, (condition, oil) = _factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     power, rpm = amounts["power"], amounts["rpm"]
     title = f"{chain}, {driver} to {driven} teeth, {power.words} at {rpm.words}"
-    iso, load = _SHOCKS[values["shock"]]
+    iso, load = SHOCKS[values["shock"]]
     shifts = _shifts(values)
     return {
         "title": json.dumps(title, ensure_ascii=False),
@@ -408,19 +371,19 @@ def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -
         "length": _length(values, amounts, case),
         "iso_load": iso,
         "gost_load": load,
-        "gost_lubrication": lubrication.gost,
-        "lubrication_note": lubrication.note,
+        "gost_lubrication": oil,
+        "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
         "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
         "factors": factors,
         "limit": _TOO_HARD if factors.joint > _MOST_JOINT_FACTOR else "",
         "power": power.toml,
         "rpm": rpm.toml,
         "lubrication": values["lubrication"],
-        "why": lubrication.why,
-        "condition": lubrication.condition,
+        "why": _WHY[condition],
+        "condition": condition,
         "hours": values["hours_per_day"],
-        "horizon": _HORIZON,
-        "years": _HORIZON / values["hours_per_day"] / _DAYS,
+        "horizon": SERVICE_YEARS * _DAYS * values["hours_per_day"],
+        "years": SERVICE_YEARS,
         "elongation": case.inputs["stop"]["elongation_percent"],
     }
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.drive_start import KNOWN, ask_for_drive, drive_options, drive_text, tooth_form
+from wearsim.cli.drive_start import KNOWN, ask_for_drive, drive_options, drive_text
 from wearsim.command.options import common_options
 from wearsim.errors import CaseError, Fault
 
@@ -98,9 +98,10 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
     """A case that takes every default."""
     from wearsim.case.load_case import load_case
     from wearsim.catalogue.catalogues import chain_name, chains
+    from wearsim.chain.standard_teeth import standard_form
 
     known = chains().get(chain_name(chain) or "")
-    form = tooth_form(known) if kind == "wrap" else "evolute"
+    form = standard_form(known) if kind == "wrap" and known else "evolute"
     seed = {
         "format_version": 1,
         "chain": {"designation": chain},

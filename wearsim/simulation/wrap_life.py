@@ -153,6 +153,8 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     """Warn of a run that ended neither at a limit nor at its horizon."""
     if run.met is not None or float(run.cycles[-1]) >= horizon * (1.0 - 1e-9):
         return []
+    if run.lost:
+        return [f"the run ends before the sprocket's limit, so its life is longer than stated: {run.lost}"]
     return [
         f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
         "the sprocket outlives them, its own limit was not reached"

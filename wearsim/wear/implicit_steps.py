@@ -12,14 +12,14 @@ new outline, their wear summed until the deepest has come to its limit.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.contact.resting_engagement import RestingContact
 from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
-from wearsim.errors import JumpError
+from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Vector
 from wearsim.wear.law import WearLaw
 from wearsim.wear.resting_bodies import StartState, WornBodies, WornState
@@ -68,6 +68,7 @@ class RestingTrajectory(Trajectory):
     peak_pressure: Vector
     sliding_speed: Vector
     area: float  # worn off all bodies by the events [mm2]
+    lost: str = ""  # why the run ends before its limit and its horizon, where its mates were not found
 
 
 class _Snapshots:
@@ -223,7 +224,7 @@ def run_seated(
     At its elongation limit the chain is replaced by a new one. A run that takes too many steps
     ends before its horizon.
     """
-    # Its kernels compile where it is imported for the first time.
+    # A run event by event does without.
     from wearsim.wear.seated_bodies import SeatedBodies
 
     pace = _StepSize(BY_STAGES, stop_limits[0].limit, level, 0.0)
@@ -252,6 +253,13 @@ def _run(
                 raise
             record.add(bodies, last=True)
             return record.trajectory(bodies, jump_limit(contact.slack_tension))
+        except ConvergenceError as error:
+            if bodies.cycles == 0.0:
+                raise
+            # What is worn so far holds: the life is longer.
+            bodies.go_back(before)
+            record.add(bodies, last=True)
+            return replace(record.trajectory(bodies, None), lost=str(error))
         met = _limit_met(stop_limits, bodies, before)
         record.add_between(bodies, before)
         if met is None and bodies.chain_is_worn:

@@ -68,6 +68,7 @@ class ChainTable(Table):
     bush_diameter_mm: Positive | None = None
     bearing_area_mm2: Positive | None = None
     mass_kg_per_m: Positive | None = None
+    strands: Annotated[int, Field(ge=1, le=3)] | None = None
 
     @field_validator("designation", mode="before")
     @classmethod
@@ -87,6 +88,10 @@ class ChainTable(Table):
         own = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
         given = [key for key in own if getattr(self, key) is not None]
         if self.designation is not None:
+            single = chains()[chain_name(self.designation) or ""]
+            if self.strands is not None and single.strands not in (1, self.strands):
+                message = f"the designation is of {single.strands} strands (got {self.strands}): remove one of both"
+                return [("strands", message)]
             given += [key for key in self._known_by_designation() if getattr(self, key) is not None]
             return [(key, "a designation gives this already: remove one of both") for key in given]
         missing = [key for key in own if key not in given]
@@ -231,9 +236,11 @@ class PlaceTable(Table):
         found = []
         if self.position_mm is not None and len(self.position_mm) != 2:
             found.append(("position_mm", f"must be x and y of the centre (got {list(self.position_mm)})"))
-        for key in ("power_share", "torque_N_m"):
-            if self.role == "idler" and getattr(self, key) is not None:
-                found.append((key, "an idler takes no power: remove this, or give it another role"))
+        found += [
+            (key, "an idler takes no power: remove this, or give it another role")
+            for key in ("power_share", "torque_N_m")
+            if self.role == "idler" and getattr(self, key) is not None
+        ]
         if self.power_share is not None and self.torque_N_m is not None:
             found.append(("torque_N_m", "power_share gives this already: remove one of both"))
         if self.cog and abs(sum(cog.share_of_time for cog in self.cog) - 1.0) > 1e-6:

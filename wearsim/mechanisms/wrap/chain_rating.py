@@ -48,7 +48,9 @@ def elongation_finding(all_teeth: Sequence[int], limit: float) -> RatingFinding:
     )
 
 
-def drive_notes(layout: DriveLayout | LoopLayout, rated: RatedDrive, silent: Sequence[str], meetings: str) -> list[str]:
+def drive_notes(
+    layout: DriveLayout | LoopLayout, rated: RatedDrive, silent: Sequence[str], meetings: str
+) -> list[str]:
     """Return what a designer asks of a chain drive that no rule limits."""
     small = min(layout.rated_teeth)
     speed = rated.teeth * rated.pitch * rated.speed / 6e4

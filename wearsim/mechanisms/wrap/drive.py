@@ -241,14 +241,12 @@ class WrapDrive(Drive):
             for block in self.blocks
         )
         engaged, links = self.gaps // math.gcd(self.gaps, case.engaged_every), self.layout.links
+        others = sum(own / self.time_share / mate for mate in self.mates)
         per_loop = math.fsum(
             block.share
             * elongation_per_loop(
                 block.joint_factor * joint.coefficient,
-                [
-                    ((one + block.centrifugal) / joint.bearing_area, (other + block.centrifugal) / joint.bearing_area)
-                    for one, other in block.turns
-                ],
+                [self._joint_pressures(block, spans) for spans in block.turns],
                 self.chain.pin_diameter,
                 self.chain.pitch,
                 (own / self.time_share, *self.mates),
@@ -267,11 +265,15 @@ class WrapDrive(Drive):
             elongation_per_cycle=per_loop * engaged / (links * self.time_share),
             elongation_limit=joint.elongation_limit,
             # Other sprockets wear the rollers too, by the same way over their own articulation.
-            roller_area_ratio=(
-                case.wear.roller_ratio * engaged / links * (1.0 + sum(own / self.time_share / mate for mate in self.mates))
-            ),
+            roller_area_ratio=case.wear.roller_ratio * engaged / links * (1.0 + others),
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
         )
+
+    def _joint_pressures(self, block: WrapLoad, spans: tuple[float, float]) -> tuple[float, float]:
+        """Pressure in the joints where they turn onto a wheel and off it [MPa]."""
+        on, off = spans
+        area = self.joint.bearing_area
+        return (on + block.centrifugal) / area, (off + block.centrifugal) / area
 
     def gap_limits(self, case: Case, path: RollerPath) -> tuple[StopLimit, ...]:
         """Return the limits of a worn gap whose roller takes a path, the critical depth first."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.table_inputs import effective_pull, within_strength
@@ -86,12 +87,15 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
 
 
 def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
-    """Return the loop in the sense in which it is one; the faults are those of the usual sense."""
+    """Return the loop in the sense in which it is one; the faults are those of the sense of its centres."""
+    centres = [wheel.centre for wheel in wheels]
+    turned = math.fsum(x * v - u * y for (x, y), (u, v) in pairwise([*centres, centres[0]]))
+    clockwise = turned < 0.0
     try:
-        return ChainLoop(pitch, wheels)
+        return ChainLoop(pitch, wheels, clockwise=clockwise)
     except CaseError:
         try:
-            return ChainLoop(pitch, wheels, clockwise=True)
+            return ChainLoop(pitch, wheels, clockwise=not clockwise)
         except CaseError:
             pass
         raise
@@ -133,7 +137,7 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
         travel = layout.travel_at(elongation)
     except (CaseError, GeometryError):
         case.warnings.append(
-            f"the travel of take-up {take_up.wheel!r} from {take_up.least:.4g} to {take_up.most:.4g} mm has no "
+            f"the travel of take-up {take_up.wheel!r}, {take_up.least:.4g} to {take_up.most:.4g} mm, has no "
             f"room for a chain grown by {100.0 * elongation:.3g} %: take two links out then, or give more"
         )
         return
@@ -163,7 +167,7 @@ def loop_loads(
     if not level.force > _NO_TENSION:
         case.faults.add(
             "drive.slack_tension_N",
-            "the loosest span is vertical and has no tension of its own: give this, or a force of the take_up",
+            "the loosest span is vertical and has no tension of its own: give this, or take_up with a force",
         )
     if case.faults.count > before:
         return None

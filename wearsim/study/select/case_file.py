@@ -5,9 +5,9 @@ from typing import Any
 
 from wearsim.catalogue.catalogues import KG_PER_M, chains
 from wearsim.chain.selection import elongation_limit
+from wearsim.chain.standard_teeth import standard_form
 from wearsim.study.select.model import SAG, CandidateDrive
 from wearsim.study.select.requirements import DriveRequirements
-from wearsim.study.select.tooth_form import TOOTH_FORMS
 
 
 def case_tables(
@@ -27,7 +27,7 @@ def case_tables(
         Running hours of a day.
     """
     chain, layout = drive.chain, drive.layout
-    profile = TOOTH_FORMS[chain.series]
+    profile = standard_form(chain)
     limit = 100.0 * elongation_limit(max(layout.teeth_1, layout.teeth_2))
     return {
         "format_version": 1,

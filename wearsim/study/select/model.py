@@ -10,11 +10,11 @@ from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
 from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
+from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN, elongation_per_loop
 from wearsim.study.select.considered_chains import considered_chains
 from wearsim.study.select.requirements import DriveRequirements
-from wearsim.study.select.tooth_form import standard_tip_diameter
 
 CENTRE_IN_PITCHES = 40.0
 """Centre distance that is sought where it may be chosen; 30 to 50 pitches are usual."""

@@ -11,7 +11,7 @@ from wearsim.input.faults import Faults
 from wearsim.input.units import convert
 from wearsim.mechanisms.wrap.build import read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
-from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY, PlaceInLoop
+from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.study.whole_drive.wheels import (
     DRIVEN,
     DRIVER,
@@ -24,6 +24,9 @@ from wearsim.study.whole_drive.wheels import (
 )
 
 _GIVEN_BY_WHEELS = "mate_teeth"
+
+SERVICE_YEARS, LONGEST = 100.0, 1e6
+"""Years of service, and hours, after which the runs of a drive end that gives no horizon."""
 
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
@@ -169,23 +172,27 @@ def _sharing_time(case: Case, wheels: Sequence[DriveWheel], number: int, time_sh
         teeth / share for teeth, share in own.cogs if teeth != case.inputs["sprocket"]["teeth"] and share
     ]
     turns = drive.blocks[0].turns
-    return replace(
-        case,
-        speed_rpm=case.speed_rpm * time_share,
-        drive=replace(
-            drive,
-            mates=(*mates, *others),
-            time_share=time_share,
-            blocks=tuple(_with_cogs(block, len(others)) for block in drive.blocks),
-            rated=tuple(_with_cogs(block, len(others)) for block in drive.rated),
-        ),
-        assumptions=(
-            *case.assumptions,
-            f"the chain runs on this cog for {100.0 * time_share:.4g} % of the time, and grows on all"
-            if own.cogs
-            else "the chain turns on the cogs by their shares of time; the wrap is that of the one used most",
-        ),
-    ) if turns else case
+    return (
+        replace(
+            case,
+            speed_rpm=case.speed_rpm * time_share,
+            drive=replace(
+                drive,
+                mates=(*mates, *others),
+                time_share=time_share,
+                blocks=tuple(_with_cogs(block, len(others)) for block in drive.blocks),
+                rated=tuple(_with_cogs(block, len(others)) for block in drive.rated),
+            ),
+            assumptions=(
+                *case.assumptions,
+                f"the chain runs on this cog for {100.0 * time_share:.4g} % of the time, and grows on all"
+                if own.cogs
+                else "the chain turns on the cogs by their shares of time; wrap as on the one used most",
+            ),
+        )
+        if turns
+        else case
+    )
 
 
 def _with_cogs(block: WrapLoad, others: int) -> WrapLoad:
@@ -242,8 +249,13 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     drive = {"joint_friction": JOINT_FRICTION, **_table(data, "drive")}
     if wheel.place.position_mm is None:
         drive[_GIVEN_BY_WHEELS] = wheels[1 - number].rollers
+    run, service = _table(data, "run"), _table(data, "service")
+    hours_per_day = service.get("hours_per_day")
+    if isinstance(hours_per_day, int | float) and 0.0 < hours_per_day <= 24.0:
+        run = {"horizon_hours": min(LONGEST, SERVICE_YEARS * 365.25 * hours_per_day), **run}
     tables: dict[str, Any] = {
         **{key: value for key, value in data.items() if key != "title"},
+        "run": run,
         "sprocket": {**wheel.table, "role": DRIVER if wheel.role == DRIVER else DRIVEN},
         "drive": drive,
         "mechanism": {"kind": "wrap", **_table(data, "mechanism")},

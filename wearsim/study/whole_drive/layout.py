@@ -76,7 +76,7 @@ def layout_text(drive: DriveCase) -> str:
         *(
             row(
                 one["name"],
-                f"{one['teeth']} teeth, wrap {one['wrap_deg']:.1f} degrees, {one['teeth_in_mesh']:.1f} teeth in "
+                f"{one['teeth']} teeth, wrap {one['wrap_deg']:.1f} degrees, {one['teeth_in_mesh']:.1f} in "
                 f"mesh; shaft {one['shaft_load_N']:.4g} N at {one['shaft_direction_deg']:.4g} degrees"
                 + (f", {abs(one['torque_N_m']):.4g} N m" if one["torque_N_m"] else ", idle"),
             )

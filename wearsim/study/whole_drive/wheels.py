@@ -59,7 +59,7 @@ class DriveWheel:
 
 
 def drive_wheels(document: Document) -> list[DriveWheel]:
-    """Return the sprockets of a drive in the order of the file; what is wrong with them goes to the faults."""
+    """Return the sprockets of a drive in the order of the file; faults of them go to the document's."""
     faults, tables = document.faults, document.data["sprocket"]
     if not all(isinstance(table, dict) for table in tables):
         faults.add("sprocket", "must be tables under headers [[sprocket]]")
@@ -114,13 +114,17 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     for role in (DRIVER, DRIVEN):
         if role not in roles:
             other = ", ".join(repr(one) for one in roles)
-            faults.add(f"sprocket.{len(wheels)}.role", f"at least one sprocket must be {role!r} (got {other})")
+            faults.add(
+                f"sprocket.{len(wheels)}.role", f"at least one sprocket must be {role!r} (got {other})"
+            )
     placed = [wheel.place.position_mm is not None for wheel in wheels]
     if any(placed) or len(wheels) > 2:
         missing = [number for number, there in enumerate(placed, start=1) if not there]
         if missing:
             which = ", ".join(repr(wheels[number - 1].name) for number in missing)
-            message = f"every sprocket of more than two, or of two with one placed, needs this: give {which} one"
+            message = (
+                f"every sprocket of more than two, or of two with one placed, needs this: give {which} one"
+            )
             faults.add(f"sprocket.{missing[0]}.position_mm", message)
     else:
         for number, wheel in enumerate(wheels, start=1):
@@ -156,7 +160,9 @@ def _shares_of(
     faults, role = document.faults, wheels[0][1].role
     torques = [(number, wheel) for number, wheel in wheels if wheel.place.torque_N_m is not None]
     if torques and role == DRIVER:
-        faults.add(f"sprocket.{torques[0][0]}.torque_N_m", "[load] gives that of the driver: remove one of both")
+        faults.add(
+            f"sprocket.{torques[0][0]}.torque_N_m", "[load] gives that of the driver: remove one of both"
+        )
         return {}
     if torques:
         return _shares_by_torque(document, wheels, driver)

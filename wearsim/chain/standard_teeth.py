@@ -6,15 +6,21 @@ from wearsim.catalogue.catalogues import Chain
 from wearsim.geometry.forms.ansi_b29 import TypeIITooth
 from wearsim.geometry.forms.gost591 import GostTooth
 from wearsim.geometry.forms.iso606 import iso606_gap
-from wearsim.study.select.requirements import SERIES
 
-TOOTH_FORMS = {
-    SERIES["A"]: "ansi_b29",
-    SERIES["B"]: "iso606",
-    SERIES["H"]: "ansi_b29",
-    SERIES["GOST"]: "gost591",
-}
-"""Profile of a case by the series of its chain."""
+_FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
+"""Profile of a case by the series of its chain, where it is not that of ISO 606."""
+
+
+def standard_form(chain: Chain) -> str:
+    """Return the profile of a case that goes with a chain.
+
+    Examples
+    --------
+    >>> from wearsim.catalogue.catalogues import chains
+    >>> standard_form(chains()["08A-1"]), standard_form(chains()["08B-1"])
+    ('ansi_b29', 'iso606')
+    """
+    return _FORMS.get(chain.series, "iso606")
 
 
 def standard_tip_diameter(chain: Chain, teeth: int) -> float:
@@ -26,7 +32,7 @@ def standard_tip_diameter(chain: Chain, teeth: int) -> float:
     >>> round(standard_tip_diameter(chains()["08A-1"], 20), 4)  # p (0.6 + cot(9 deg))
     87.8046
     """
-    return _tip_diameter(TOOTH_FORMS[chain.series], chain.pitch, chain.roller_diameter, teeth)
+    return _tip_diameter(standard_form(chain), chain.pitch, chain.roller_diameter, teeth)
 
 
 @cache
