@@ -69,7 +69,8 @@ def wrap_lines() -> list[str]:
     lines += [
         "",
         f"{WRAP_LIVES} lives of {WRAPS[1]}, no two with the same modulus, by `simulate_many` in threads: "
-        f"{seconds:.0f} s, so 1000 in about {1000.0 * seconds / WRAP_LIVES:.0f} s (goal 300); {failed} failed.",
+        f"{seconds:.0f} s, so 1000 in about {1000.0 * seconds / WRAP_LIVES:.0f} s (goal 300); {failed} "
+        "failed.",
     ]
     return lines
 

@@ -93,9 +93,7 @@ def test_two_strands_share_the_pull() -> None:
     assert (drive.chain.designation, drive.chain.strands) == ("16B-2", 2)
     single = load_drive(PATHS["escalator-duplex"], ["chain.strands=1", "drive.service_factor=1"]).driver
     twice = load_drive(PATHS["escalator-duplex"], ["drive.service_factor=1"]).driver
-    growth = [
-        one.drive.contact(one.case).elongation_per_cycle for one in (single, twice)
-    ]
+    growth = [one.drive.contact(one.case).elongation_per_cycle for one in (single, twice)]
     # The pull is the same, the bearing area twice as large; a heavier chain hangs with twice the slack.
     assert growth[0] == pytest.approx(2.0 * growth[1], rel=0.06)
     plates = [

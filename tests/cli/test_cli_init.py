@@ -184,7 +184,7 @@ def test_commented_keys_of_a_drive_are_the_defaults(start, tmp_path):
     drive = start(**{name.removeprefix("--").replace("-", "_"): value for name, value in EXAMPLE.items()})
     lines = (tmp_path / "drive.toml").read_text().splitlines()
     keys = [line.removeprefix("# ") if line.startswith("# ") and " = " in line else line for line in lines]
-    assert len([line for line in lines if line not in keys]) == 5
+    assert len([line for line in lines if line not in keys]) == 6
     (tmp_path / "bare.toml").write_text("\n".join(keys))
     bare = load_drive(tmp_path / "bare.toml")
     for before, after in zip(drive.sprockets, bare.sprockets, strict=True):

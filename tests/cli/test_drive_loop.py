@@ -224,7 +224,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path):
 @pytest.mark.parametrize(
     ("before", "after", "line", "message"),
     [
-        ("position_mm = [62, 155]", "position_mm = [20, 155]", 4, "does not touch wheel 'tensioner'"),
+        ("position_mm = [62, 155]", "position_mm = [20, 155]", 10, "does not touch wheel 'tensioner'"),
         ("links = 92", "links = 120", 10, "120 links must fit within its travel"),
         ("power_share = 0.3", "power_share = 0.2", 32, "the power must balance"),
         ("outside = true", "outside = true\npower_share = 0.1", 18, "an idler takes no power"),
@@ -240,7 +240,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path):
         ("links = 92", "links = 92\nmate_teeth = 20", 35, "the other [[sprocket]] gives this"),
         ("links = 92", "centre_distance_mm = 300", 34, "position_mm give this"),
         ("links = 92", "links = 92\nslack_tension_N = 80", 35, "the force of the take_up gives this"),
-        ("tensioner_force_N = 80", "tensioner_force_N = 8000", 10, "the pull must stay below the chain's"),
+        ("tensioner_force_N = 80", "tensioner_force_N = 80000", 36, "the pull must stay below the chain's"),
         ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be pulled"),
     ],
 )

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import FlankContact, Mechanism
@@ -28,7 +28,10 @@ class LoadBlock:
     joint_factor: float  # on that of the chain's joints, which a straight strand does not have
 
 
-def heaviest_block(blocks: tuple[LoadBlock, ...]) -> LoadBlock:
+_Load = TypeVar("_Load", bound=LoadBlock)
+
+
+def heaviest_block(blocks: tuple[_Load, ...]) -> _Load:
     """Return the block of the largest tension, the first of them where several are alike."""
     return max(blocks, key=lambda block: block.tension)
 

@@ -77,7 +77,8 @@ class LoopForces:
     @property
     def shaft_pulls(self) -> Floats:
         """Power of each shaft over the chain's speed [N], shape (n,); above 0 where the shaft drives."""
-        return np.where(self.idle, 0.0, self.pulls + self.losses)
+        found: Floats = np.where(self.idle, 0.0, self.pulls + self.losses)
+        return found
 
     @property
     def torques(self) -> Floats:
@@ -103,13 +104,13 @@ class LoopForces:
     @property
     def shaft_loads(self) -> Floats:
         """Size of the force on each shaft [N], shape (n,)."""
-        return np.hypot(*self.shaft_vectors.T)
+        return np.array(np.hypot(*self.shaft_vectors.T))
 
     @property
     def shaft_directions(self) -> Floats:
         """Direction of the force on each shaft, from x towards y [rad], shape (n,)."""
         x, y = self.shaft_vectors.T
-        return np.arctan2(y, x)
+        return np.array(np.arctan2(y, x))
 
 
 def loop_forces(
@@ -198,7 +199,7 @@ def loop_forces(
             name = loop.wheels[level.wheel].name
             message = f"the force on wheel {name!r} must stretch the chain, acts across its spans: turn it"
             raise CaseError([Fault(f"chain loop: {message}")])
-    found = np.linalg.solve(matrix, right)[:count]
+    found: Floats = np.array(np.linalg.solve(matrix, right)[:count], float)
     if found.min() <= 0.0:
         span = loop.span_name(int(found.argmin()))
         message = (

@@ -390,10 +390,12 @@ def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -
 
 def _length(values: Values, amounts: Mapping[str, _Amount], case: "Case") -> str:
     """Return the line of the case that says how long the drive is."""
+    from wearsim.chain.drive_layout import DriveLayout
     from wearsim.mechanisms.wrap.drive import WrapDrive
 
     assert isinstance(case.drive, WrapDrive)
     layout = case.drive.layout
+    assert isinstance(layout, DriveLayout)
     distance = f"{layout.centre_distance:.6g} mm between the axes"
     if values["centre"] is not None:
         even = f"{layout.links} links, the next even number, take {layout.centre_distance:.6g} mm"

@@ -90,7 +90,9 @@ class ChainTable(Table):
         if self.designation is not None:
             single = chains()[chain_name(self.designation) or ""]
             if self.strands is not None and single.strands not in (1, self.strands):
-                message = f"the designation is of {single.strands} strands (got {self.strands}): remove one of both"
+                message = (
+                    f"the designation is of {single.strands} strands (got {self.strands}): remove one of both"
+                )
                 return [("strands", message)]
             given += [key for key in self._known_by_designation() if getattr(self, key) is not None]
             return [(key, "a designation gives this already: remove one of both") for key in given]
@@ -252,6 +254,7 @@ class PlaceTable(Table):
 class PlacedSprocketTable(PlaceTable, SprocketTable):
     """All keys of a sprocket of a drive, for the schema."""
 
+    role: Literal["driver", "driven", "idler"] | None = None  # type: ignore[assignment]
     teeth: Annotated[int, Field(ge=5, le=1000)] | None = None  # type: ignore[assignment]
 
 

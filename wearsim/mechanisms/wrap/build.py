@@ -114,7 +114,8 @@ def _joint_friction(case: ChainRecord) -> float | None:
     given = (case.tables.drive or DriveTable()).joint_friction
     if given is not None:
         case.assumptions.append(
-            f"coefficient of friction of the joints {given:g}: it makes heat of power, and moves no life"
+            f"coefficient of friction of the joints {given:g}: it makes heat of power, and moves "
+            "no tension but beyond idlers"
         )
     return given
 
@@ -263,6 +264,7 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> Wr
         pull=tight - slack,
         base=slack,
         turns=((tight, slack),) * 2,
+        spans=(slack, tight),
     )
 
 

@@ -64,6 +64,9 @@ class WrapLoad(LoadBlock):
     # tensions of the spans on both sides of every wheel on which joints turn, this sprocket first, then
     # `WrapDrive.mates` [N]
     turns: tuple[tuple[float, float], ...]
+    spans: tuple[
+        float, ...
+    ]  # tension of the span after each wheel of the loop, of two the driver's first [N]
 
 
 @dataclass(frozen=True, eq=False)
@@ -355,17 +358,14 @@ class WrapDrive(Drive):
         below.
         """
         layout, lever = self.layout, 0.5 * self.chain.pin_diameter * (self.joint_friction or 0.0)
+        tensions = np.array(load.spans)
         if isinstance(layout, LoopLayout):
-            own, others = load.turns[0], load.turns[1 : len(layout.loop.wheels)]
-            turns = [*others[: layout.wheel], own, *others[layout.wheel :]]
-            tensions = np.array([leaving for _, leaving in turns])
             idle = tuple(share == 0.0 for share in layout.drive.shares)
             return LoopForces(layout.loop, tensions, load.centrifugal, lever, idle)
         wheels = (
             Wheel("driver", (0.0, 0.0), layout.teeth_1),
             Wheel("driven", (layout.centre_distance, 0.0), layout.teeth_2),
         )
-        tensions = np.array([load.slack, load.tension])
         return LoopForces(ChainLoop(layout.pitch, wheels), tensions, load.centrifugal, lever, (False, False))
 
     def _findings(self, case: Case) -> list[list[RatingFinding]]:

@@ -239,4 +239,5 @@ def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces) -> WrapLoad:
         pull=pull,
         base=max(leaving) - pull,
         turns=tuple((arriving[i], leaving[i]) for i in order),
+        spans=tuple(leaving),
     )

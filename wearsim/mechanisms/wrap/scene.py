@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim.chain.drive_layout import DriveLayout
+from wearsim.chain.loop_layout import LoopLayout
 from wearsim.geometry.blank import gap_space
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle, Label, Scene, Stroke, around, letter_height, line, turn_arrow
 from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_alike, worn_gap
+from wearsim.mechanisms.wrap.loop_scene import loop_scene
 from wearsim.quantities import grouped
 
 if TYPE_CHECKING:
@@ -70,6 +72,10 @@ def beside_gap(drive: "WrapDrive") -> Stroke:
 def wrap_scene(drive: "WrapDrive") -> Scene:
     """Return both sprockets with the chain around them, the worn one with its teeth."""
     layout = drive.layout
+    if isinstance(layout, LoopLayout):
+        forces, own = drive.forces(drive.heaviest), layout.wheel
+        wheel = replace(wrap_wheel(drive, 1), centre=layout.loop.wheels[own].centre)
+        return loop_scene(forces, 0.5 * drive.chain.roller_diameter, (wheel.sketched("worn"),), own)
     rollers = roller_places(layout)
     radius = 0.5 * drive.chain.roller_diameter
     worn = 0 if drive.driver else 1
@@ -96,13 +102,12 @@ def wrap_scene(drive: "WrapDrive") -> Scene:
             Label("text", "tight strand", (middle, rise + gap), text),
             Label("text", "slack strand", (middle, -rise - gap - 0.75 * text), text),
         ),
-        _alt(drive),
-        _notes(drive),
+        _alt(drive, layout),
+        _notes(drive, layout),
     ).with_scale()
 
 
-def _alt(drive: "WrapDrive") -> str:
-    layout = drive.layout
+def _alt(drive: "WrapDrive", layout: DriveLayout) -> str:
     return (
         f"Two sprockets to scale, a driver of {layout.teeth_1} teeth and a driven one of "
         f"{layout.teeth_2}, {layout.centre_distance:.1f} mm apart, and the chain of {layout.links} "
@@ -111,8 +116,7 @@ def _alt(drive: "WrapDrive") -> str:
     )
 
 
-def _notes(drive: "WrapDrive") -> tuple[str, ...]:
-    layout = drive.layout
+def _notes(drive: "WrapDrive", layout: DriveLayout) -> tuple[str, ...]:
     worn = "the driver, left" if drive.driver else "the driven one, right"
     return (
         f"driver {layout.teeth_1} teeth, driven {layout.teeth_2} teeth, ratio {layout.ratio:.4g}; "

@@ -228,7 +228,7 @@ def chain_life(
     0.03
     """
     teeth = layout.teeth_1, layout.teeth_2
-    growth = elongation_per_loop(need.joint_rate, pressures, chain.pin_diameter, chain.pitch, teeth)
+    growth = elongation_per_loop(need.joint_rate, [pressures] * 2, chain.pin_diameter, chain.pitch, teeth)
     loops = 60.0 * need.speed * layout.teeth_1 / layout.links
     return elongation_limit(max(teeth)) / (growth * loops)
 

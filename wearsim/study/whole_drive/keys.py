@@ -1,5 +1,6 @@
 """A drive with all of its sprockets, `[[sprocket]]`, taken apart into the cases of each of them."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -149,55 +150,81 @@ def _sprockets(
     seen: set[tuple[str, str]] = set()
     found = []
     for number, wheel in enumerate(wheels):
-        for teeth, time_share in wheel.cogs or ((int(wheel.table["teeth"]), 1.0),):
+        for teeth, _ in wheel.cogs or ((int(wheel.table["teeth"]), 1.0),):
             running = [
                 replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
             ]
             case = _case(document, running, shares, number, seen)
             if case is not None:
-                case = _sharing_time(case, wheels, number, time_share)
                 name = f"{wheel.name} {teeth}T" if wheel.cogs else wheel.name
                 found.append(DriveSprocket(name, wheel.role, case))
+    place = next((place for place, wheel in enumerate(wheels) if wheel.cogs), None)
+    if place is None or document.faults.count:
+        return found
+    return _sharing_time(found, wheels[place], place)
+
+
+def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: int) -> list[DriveSprocket]:
+    """Return sprockets of which several are cogs of one place, between which the chain changes.
+
+    The chain grows on every cog by its share of time, and on the others under the mean of their tensions.
+    """
+    shares = [share for _, share in cassette.cogs]
+    cogs = [one.drive for one in sprockets[place : place + len(shares)]]
+    rollers = [2.0 * math.pi / drive.pitch_angle / share for drive, share in zip(cogs, shares, strict=True)]
+    found = []
+    for number, one in enumerate(sprockets):
+        cog = number - place if 0 <= number - place < len(shares) else None
+        wheel = number if number < place else number - len(shares) + 1
+        drive = one.drive
+        if cog is None:
+            # The mates of a sprocket stand in the order of the loop, this place among them.
+            at = place - (place > wheel)
+            mates = (*drive.mates[:at], *drive.mates[at + 1 :], *rollers)
+        else:
+            mates = (*drive.mates, *rollers[:cog], *rollers[cog + 1 :])
+        loads = [
+            tuple(
+                replace(load, turns=_turns([getattr(of, kind)[i] for of in cogs], shares, cog, wheel, place))
+                for i, load in enumerate(getattr(drive, kind))
+            )
+            for kind in ("blocks", "rated")
+        ]
+        time_share = 1.0 if cog is None else shares[cog]
+        case = replace(
+            one.case,
+            speed_rpm=one.case.speed_rpm * time_share,
+            drive=replace(drive, mates=mates, time_share=time_share, blocks=loads[0], rated=loads[1]),
+            assumptions=(
+                *one.case.assumptions,
+                "the chain turns on the cogs by their shares of time; wrap as on the one used most"
+                if cog is None
+                else f"the chain runs on this cog {100.0 * time_share:.4g} % of the time and grows on all",
+            ),
+        )
+        found.append(replace(one, case=case))
     return found
 
 
-def _sharing_time(case: Case, wheels: Sequence[DriveWheel], number: int, time_share: float) -> Case:
-    """Return the case of a sprocket of a drive in which the chain runs on one of several cogs at a time."""
-    if not any(wheel.cogs for wheel in wheels):
-        return case
-    own, drive = wheels[number], case.drive
-    assert isinstance(drive, WrapDrive)
-    mates: list[float] = [1.0 / wheel.turning for wheel in wheels if wheel is not own]
+def _turns(
+    on_cogs: Sequence[WrapLoad], shares: Sequence[float], cog: int | None, wheel: int, place: int
+) -> tuple[tuple[float, float], ...]:
+    """Return the tensions on both sides of all sprockets while the chain changes between cogs.
+
+    First those of a cog, or of another sprocket by its number, then those of the others, of the cogs last.
+    """
+    of_cogs = [load.turns[0] for load in on_cogs]
     others = [
-        teeth / share for teeth, share in own.cogs if teeth != case.inputs["sprocket"]["teeth"] and share
-    ]
-    turns = drive.blocks[0].turns
-    return (
-        replace(
-            case,
-            speed_rpm=case.speed_rpm * time_share,
-            drive=replace(
-                drive,
-                mates=(*mates, *others),
-                time_share=time_share,
-                blocks=tuple(_with_cogs(block, len(others)) for block in drive.blocks),
-                rated=tuple(_with_cogs(block, len(others)) for block in drive.rated),
-            ),
-            assumptions=(
-                *case.assumptions,
-                f"the chain runs on this cog for {100.0 * time_share:.4g} % of the time, and grows on all"
-                if own.cogs
-                else "the chain turns on the cogs by their shares of time; wrap as on the one used most",
-            ),
+        (
+            math.fsum(share * on for share, (on, _) in zip(shares, sides, strict=True)),
+            math.fsum(share * off for share, (_, off) in zip(shares, sides, strict=True)),
         )
-        if turns
-        else case
-    )
-
-
-def _with_cogs(block: WrapLoad, others: int) -> WrapLoad:
-    """Return a block whose joints turn on the other cogs as they do on this one."""
-    return replace(block, turns=(*block.turns, *(block.turns[0],) * others))
+        for sides in zip(*(load.turns[1:] for load in on_cogs), strict=True)
+    ]
+    if cog is not None:
+        return (of_cogs[cog], *others, *of_cogs[:cog], *of_cogs[cog + 1 :])
+    own = wheel - (wheel > place)
+    return (others[own], *others[:own], *others[own + 1 :], *of_cogs)
 
 
 def _case(

@@ -1,0 +1,101 @@
+"""A closed chain round its sprockets as it is drawn: to scale, with the tension of every span."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from wearsim.chain.chain_loop import ChainLoop
+from wearsim.chain.loop_forces import LoopForces
+from wearsim.geometry.profile_points import Vector
+from wearsim.geometry.scene import Circle, Label, Scene, Shape, around, letter_height, line, turn_arrow
+from wearsim.quantities import grouped
+
+_ARC = math.radians(3.0)
+"""Angle between points of an arc of the chain."""
+
+
+def loop_scene(forces: LoopForces, roller_radius: float, worn: Sequence[Shape] = (), own: int = -1) -> Scene:
+    """Return all sprockets with the chain around them.
+
+    Parameters
+    ----------
+    forces : LoopForces
+        The loop, and what pulls in its spans.
+    roller_radius : float
+        Radius of the rollers [mm].
+    worn : sequence of shapes
+        What is drawn of one sprocket in place of its tip circle.
+    own : int
+        Which sprocket that is, -1 for none.
+    """
+    loop = forces.loop
+    tips = 0.5 * loop.pitch * (0.6 + 1.0 / np.tan(math.pi / loop.teeth))
+    centres = [(float(x), float(y)) for x, y in loop.centres]
+    box = around(
+        [
+            *zip(centres, tips.tolist(), strict=True),
+            *zip(centres, (loop.pitch_radii + roller_radius).tolist(), strict=True),
+        ]
+    )
+    text = letter_height(box)
+    shapes: list[Shape] = [*worn]
+    for i, (wheel, centre) in enumerate(zip(loop.wheels, centres, strict=True)):
+        radius = float(loop.pitch_radii[i])
+        if i != own:
+            shapes.append(Circle("tip", centre, float(tips[i])))
+        shapes += [
+            Circle("pitch", centre, radius),
+            *turn_arrow(centre, 0.45 * radius, int(loop.senses[i])),
+            Label("text", f"{wheel.name}, {wheel.teeth}", (centre[0], centre[1] - 0.4 * text), text),
+        ]
+    path = chain_path(loop)
+    shapes += [line("chain", path, closed=True)]
+    for i in range(len(centres)):
+        middle = 0.5 * (loop.starts[i] + loop.ends[i])
+        # Beside the span, on the side that lies outside of the loop.
+        right = np.array([loop.directions[i, 1], -loop.directions[i, 0]]) * loop.turn
+        x, y = (middle + right * (roller_radius + 1.8 * text)).tolist()
+        shapes.append(Label("text", f"{grouped(float(forces.tensions[i]))} N", (x, y - 0.4 * text), text))
+    return Scene(box, tuple(shapes), _alt(loop), _notes(forces)).with_scale()
+
+
+def chain_path(loop: ChainLoop) -> Vector:
+    """Return the line of the chain: spans, and arcs of the pitch circles as points, shape (n, 2).
+
+    Examples
+    --------
+    >>> from wearsim.chain.chain_loop import Wheel
+    >>> loop = ChainLoop(10.0, (Wheel("driver", (0.0, 0.0), 20), Wheel("driven", (300.0, 0.0), 20)))
+    >>> path = chain_path(loop)
+    >>> steps = np.hypot(*np.diff(path, axis=0, append=path[:1]).T)
+    >>> abs(steps.sum() / loop.circle_length - 1.0) < 1e-3
+    True
+    """
+    parts = []
+    for i, centre in enumerate(loop.centres):
+        first = loop.ends[i - 1] - centre
+        angle = math.atan2(first[1], first[0])
+        count = max(2, math.ceil(float(loop.wrap_angles[i]) / _ARC) + 1)
+        angles = angle + loop.senses[i] * np.linspace(0.0, float(loop.wrap_angles[i]), count)
+        parts.append(centre + loop.pitch_radii[i] * np.column_stack([np.cos(angles), np.sin(angles)]))
+    return np.concatenate(parts)
+
+
+def _alt(loop: ChainLoop) -> str:
+    wheels = ", ".join(f"{wheel.name} of {wheel.teeth} teeth" for wheel in loop.wheels)
+    return f"{len(loop.wheels)} sprockets to scale with the chain around them: {wheels}."
+
+
+def _notes(forces: LoopForces) -> tuple[str, ...]:
+    loop = forces.loop
+    return (
+        "; ".join(
+            f"{wheel.name} wrapped over {math.degrees(angle):.1f} degrees"
+            for wheel, angle in zip(loop.wheels, loop.wrap_angles, strict=True)
+        ),
+        "; ".join(
+            f"{loop.span_name(i)} {grouped(float(tension))} N" for i, tension in enumerate(forces.tensions)
+        ),
+        "drawn without sag; tensions at the highest load, without what the chain's speed adds",
+    )
