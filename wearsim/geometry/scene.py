@@ -61,10 +61,10 @@ class Scene:
     alt: str = ""  # what there is to see, for those who cannot
     notes: tuple[str, ...] = ()  # what stands below the drawing
 
-    def with_scale(self) -> "Scene":
-        """Return a sketch with a margin and, below it, a bar of round length."""
+    def with_scale(self, letters: float = 0.0) -> "Scene":
+        """Return a sketch with a margin and, below it, a bar of round length; letters as high as others."""
         left, bottom, width, height = self.box
-        edge, text = _MARGIN * width, letter_height(self.box)
+        edge, text = _MARGIN * width, letters or letter_height(self.box)
         bar, y, tick = round_length(0.25 * width), bottom - 2.6 * text, 0.4 * text
         ends = [line("scale", [(x, y + tick), (x, y - tick)]) for x in (left, left + bar)]
         label = Label("text", f"{bar:g} mm", (left + 0.5 * bar, y + 0.8 * tick), text)

@@ -150,6 +150,21 @@ class WrapDrive(Drive):
         """Return the tip land that a worn outline leaves."""
         return tip_land(x, y, self.gaps)
 
+    @property
+    def root_diameter(self) -> float:
+        """Diameter of the circle at the bottom of the new gaps [mm]."""
+        return 2.0 * float(np.hypot(self.outline.x, self.outline.y).min())
+
+    @property
+    def tip_diameter(self) -> float:
+        """Diameter over the tips of the new teeth [mm]."""
+        return 2.0 * float(np.hypot(self.outline.x, self.outline.y).max())
+
+    @property
+    def over_pins(self) -> float:
+        """Measurement over pins of the roller's diameter of the new sprocket [mm]."""
+        return over_pins(self.rollers.path, self.outline.x.copy(), self.outline.y.copy(), self.gaps)
+
     def blank_area(self) -> float:
         """Return the area of the whole wheel [mm2]."""
         return blank_area(gap_space(self.outline, self.gap), self.gaps)

@@ -7,12 +7,19 @@ import numpy as np
 
 from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_forces import LoopForces
+from wearsim.geometry.label_places import FreePlaces, around_circle, beside_line, box_around, label_box
 from wearsim.geometry.profile_points import Vector
-from wearsim.geometry.scene import Circle, Label, Scene, Shape, around, letter_height, line, turn_arrow
+from wearsim.geometry.scene import Circle, Scene, Shape, around, letter_height, line, turn_arrow
 from wearsim.quantities import grouped
 
 _ARC = math.radians(3.0)
 """Angle between points of an arc of the chain."""
+
+_ARROW = 0.6
+"""Radius of the arrow that tells the sense of a wheel, over that of its pitch circle."""
+
+_UPRIGHT = 0.8
+"""Part of the height that letters follow where a sketch is upright."""
 
 
 def loop_scene(forces: LoopForces, roller_radius: float, worn: Sequence[Shape] = (), own: int = -1) -> Scene:
@@ -38,26 +45,43 @@ def loop_scene(forces: LoopForces, roller_radius: float, worn: Sequence[Shape] =
             *zip(centres, (loop.pitch_radii + roller_radius).tolist(), strict=True),
         ]
     )
-    text = letter_height(box)
+    text = letter_height((*box[:2], max(box[2], _UPRIGHT * box[3]), box[3]))
     shapes: list[Shape] = [*worn]
-    for i, (wheel, centre) in enumerate(zip(loop.wheels, centres, strict=True)):
+    arrows = []
+    for i, centre in enumerate(centres):
         radius = float(loop.pitch_radii[i])
         if i != own:
             shapes.append(Circle("tip", centre, float(tips[i])))
-        shapes += [
-            Circle("pitch", centre, radius),
-            *turn_arrow(centre, 0.45 * radius, int(loop.senses[i])),
-            Label("text", f"{wheel.name}, {wheel.teeth}", (centre[0], centre[1] - 0.4 * text), text),
-        ]
+        arrow = turn_arrow(centre, _ARROW * radius, int(loop.senses[i]))
+        arrows += [stroke.vertices for stroke in arrow]
+        shapes += [Circle("pitch", centre, radius), *arrow]
     path = chain_path(loop)
     shapes += [line("chain", path, closed=True)]
+    circles = [_circle(centre, tip) for centre, tip in zip(centres, tips.tolist(), strict=True)]
+    free = FreePlaces([np.vstack([path, path[:1]]), *circles, *arrows], 0.3 * text, 0.3 * text)
+    for i, (wheel, centre) in enumerate(zip(loop.wheels, centres, strict=True)):
+        name, outer = f"{wheel.name}, {wheel.teeth}", max(float(tips[i]), _riding(loop, i, roller_radius))
+        size = label_box(name, centre, text)
+        shapes.append(free.set(name, around_circle(centre, outer, size, 0.5 * text), text))
     for i in range(len(centres)):
-        middle = 0.5 * (loop.starts[i] + loop.ends[i])
-        # Beside the span, on the side that lies outside of the loop.
+        # Beside the span, rather on the side that lies outside of the loop.
         right = np.array([loop.directions[i, 1], -loop.directions[i, 0]]) * loop.turn
-        x, y = (middle + right * (roller_radius + 1.8 * text)).tolist()
-        shapes.append(Label("text", f"{grouped(float(forces.tensions[i]))} N", (x, y - 0.4 * text), text))
-    return Scene(box, tuple(shapes), _alt(loop), _notes(forces)).with_scale()
+        pull = f"{grouped(float(forces.tensions[i]))} N"
+        size = label_box(pull, centres[i], text)
+        places = beside_line(loop.starts[i], loop.ends[i], right, size, roller_radius + 0.5 * text)
+        shapes.append(free.set(pull, places, text))
+    box = box_around([box, *free.boxes])
+    return Scene(box, tuple(shapes), _alt(loop), _notes(forces)).with_scale(text)
+
+
+def _circle(centre: tuple[float, float], radius: float) -> Vector:
+    angles = np.linspace(0.0, 2.0 * math.pi, 121)
+    return centre + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def _riding(loop: ChainLoop, wheel: int, roller_radius: float) -> float:
+    """Radius that the chain reaches to on a wheel."""
+    return float(loop.pitch_radii[wheel]) + roller_radius
 
 
 def chain_path(loop: ChainLoop) -> Vector:

@@ -1,6 +1,6 @@
 """A drive to scale as a page holds it, in SVG."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from markupsafe import Markup
@@ -9,20 +9,33 @@ from wearsim.geometry.scene import Circle, Label, Scene, Stroke
 
 _FIGURE = Markup(
     '<figure class="panel">\n'
-    '<svg class="sketch" viewBox="{:.2f} {:.2f} {:.2f} {:.2f}" role="img" aria-label="{}">\n{}\n</svg>\n'
+    '<svg class="sketch" viewBox="{:.2f} {:.2f} {:.2f} {:.2f}" role="{}" aria-label="{}">\n{}\n</svg>\n'
     '<figcaption><ul class="notes">{}</ul></figcaption>\n'
     "</figure>\n"
 )
 
+_LINK = Markup(
+    '<a href="#{}"><title>{}</title><circle class="link" cx="{:.2f}" cy="{:.2f}" r="{:.2f}"/></a>'
+)
 
-def sketch(scene: Scene | None) -> Markup:
-    """Return a drawing with its notes, nothing of none; the looks of its lines follow from their classes."""
+
+def sketch(scene: Scene | None, links: Sequence[tuple[str, Circle]] = ()) -> Markup:
+    """Return a drawing with its notes, nothing of none; the looks of its lines follow from their classes.
+
+    Links are circles of the drawing that lead to a place of the page.
+    """
     if scene is None:
         return Markup()
     left, bottom, width, height = scene.box
     notes = Markup().join(Markup("<li>{}</li>").format(note) for note in scene.notes)
-    drawn = Markup("\n").join(_elements(scene))
-    return _FIGURE.format(left, -bottom - height, width, height, scene.alt, drawn, notes)
+    leading = (
+        _LINK.format(place, circle.name, circle.centre[0], -circle.centre[1], circle.radius)
+        for place, circle in links
+    )
+    drawn = Markup("\n").join([*_elements(scene), *leading])
+    # What is inside of an image is no link to a screen reader.
+    role = "group" if links else "img"
+    return _FIGURE.format(left, -bottom - height, width, height, role, scene.alt, drawn, notes)
 
 
 def _elements(scene: Scene) -> Iterator[Markup]:

@@ -1,6 +1,7 @@
 """Where the chain runs, how hard it pulls, what the shafts bear and what its joints lose."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from wearsim.chain.loop_forces import LoopForces
@@ -12,7 +13,10 @@ from wearsim.study.whole_drive.wheels import DRIVER
 def drive_forces(drive: DriveCase) -> LoopForces:
     """Return the forces in the loop under the highest load, of a cassette on the cog that runs longest."""
     found = drive.driver.drive
-    return found.forces(found.heaviest)
+    forces = found.forces(found.heaviest)
+    wheels = zip(forces.loop.wheels, loop_names(drive), strict=True)
+    loop = replace(forces.loop, wheels=tuple(replace(wheel, name=name) for wheel, name in wheels))
+    return replace(forces, loop=loop)
 
 
 def chain_speed(drive: DriveCase) -> float:
@@ -43,12 +47,12 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
                 "torque_N_m": 1e-3 * float(forces.torques[i]),
                 "power_kW": 1e-3 * watts * float(forces.shaft_pulls[i]),
             }
-            for i, (name, wheel) in enumerate(zip(_names(drive), loop.wheels, strict=True))
+            for i, (name, wheel) in enumerate(zip(loop_names(drive), loop.wheels, strict=True))
         ],
         "spans": [
             {
-                "from": _names(drive)[i],
-                "to": _names(drive)[(i + 1) % len(loop.wheels)],
+                "from": loop_names(drive)[i],
+                "to": loop_names(drive)[(i + 1) % len(loop.wheels)],
                 "length_mm": float(loop.span_lengths[i]),
                 "tension_N": float(forces.tensions[i]),
             }
@@ -60,7 +64,7 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
     }
 
 
-def _names(drive: DriveCase) -> list[str]:
+def loop_names(drive: DriveCase) -> list[str]:
     """Names of the sprockets in the order of the loop, which begins with the driver where none is placed."""
     wheels = drive.wheels
     if wheels[0].place.position_mm is None:

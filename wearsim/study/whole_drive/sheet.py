@@ -19,9 +19,9 @@ def drive_text(found: DriveLife, source: str) -> str:
     rows = [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *((name, _part(found, name)) for name in found.results),
-        ("First", _first(found)),
+        ("First", first_text(found)),
         ("Band", _band(found)),
-        ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else _within(driver)),
+        ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
         ("Worn most", _worn_most(found)),
         ("Warnings", _warnings(found)),
         ("Assumes", _assumes(found, source)),
@@ -57,7 +57,8 @@ def sprocket_ending(result: WearResult) -> str:
     return ending(result)
 
 
-def _first(found: DriveLife) -> str:
+def first_text(found: DriveLife) -> str:
+    """Return in words what is replaced first, and what then."""
     if not found.first:
         return f"nothing is to be replaced within {hours(found.life).lstrip('> ')}"
     after = sorted(
@@ -65,14 +66,15 @@ def _first(found: DriveLife) -> str:
         for name, life in found.parts.items()
         if isinstance(life, Life) and name != found.first
     )
-    text = f"replace the {_of(found.first)} at {hours(found.life)}"
+    text = f"replace the {part_name(found.first)} at {hours(found.life)}"
     if found.first == CHAIN:
         text += " and again after each such time"
-    then = ", ".join(f"the {_of(name)} at {grouped(life)} h" for life, name in after)
+    then = ", ".join(f"the {part_name(name)} at {grouped(life)} h" for life, name in after)
     return f"{text}; then {then}" if then else text
 
 
-def _of(name: str) -> str:
+def part_name(name: str) -> str:
+    """Return what a part is called in a sentence."""
     return name if name == CHAIN else f"sprocket {name!r}"
 
 
@@ -80,10 +82,11 @@ def _band(found: DriveLife) -> str:
     whose = found.first or next(iter(found.results))
     result = found.results[found.drive.driver.name if whose == CHAIN else whose]
     low, high = hours(result.life_low), hours(result.life_high)
-    return f"{low} to {high} for the {_of(whose)}, over the band of the wear coefficients"
+    return f"{low} to {high} for the {part_name(whose)}, over the band of the wear coefficients"
 
 
-def _within(result: WearResult) -> str:
+def within_text(result: WearResult) -> str:
+    """Return in words which rating of those that a drive keeps to is used most."""
     used = [one for one in result.ratings if not one.at_least and not one.name.startswith("elongation")]
     if not used:
         return "no rating applies"

@@ -1,0 +1,230 @@
+"""The sheet of a whole drive as one page of HTML that fetches nothing and prints on A4."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from wearsim._version import __version__
+from wearsim.files import new_folder, write_file
+from wearsim.geometry.scene import Circle, Scene
+from wearsim.mechanisms.wrap.loop_scene import loop_scene
+from wearsim.quantities import grouped
+from wearsim.report import html
+from wearsim.report.answer import hours, overload_text
+from wearsim.report.html.sketch import sketch
+from wearsim.report.text_lines import stated_and_defaults
+from wearsim.report.worn_flank import around_flank, worn_flanks
+from wearsim.result import WearResult
+from wearsim.study.whole_drive.keys import DriveCase
+from wearsim.study.whole_drive.layout import drive_forces, loop_names
+from wearsim.study.whole_drive.lives_bars import lives_bars
+from wearsim.study.whole_drive.model import DriveLife
+from wearsim.study.whole_drive.page_tables import (
+    PageTable,
+    chain_rows,
+    geometry_table,
+    life_table,
+    loss_text,
+    lubrication_rows,
+    plan_table,
+    rating_table,
+    shaft_table,
+    span_table,
+    wheel_of,
+)
+from wearsim.study.whole_drive.replacement_plan import plan_ends
+from wearsim.study.whole_drive.sheet import first_text, within_text
+
+_TEMPLATES = Path(__file__).parent / "templates"
+_STYLE = Path(html.__file__).with_name("style.css")
+
+_AROUND = 0.12
+"""Room around a flank, as a fraction of its extent."""
+
+
+@dataclass(frozen=True)
+class SheetHead:
+    """Who made a sheet of what, and when."""
+
+    on: date
+    project: str = ""
+    author: str = ""
+    drawing: str = ""
+
+    @property
+    def rows(self) -> list[tuple[str, str]]:
+        """What is known of it."""
+        named = (("project", self.project), ("drawing", self.drawing), ("author", self.author))
+        return [(name, text) for name, text in named if text] + [("date", self.on.isoformat())]
+
+
+@dataclass(frozen=True)
+class FlankPicture:
+    """The flank of one sprocket, new and worn."""
+
+    place: str  # of its element on the page
+    name: str
+    drawing: Markup
+
+
+@dataclass(frozen=True)
+class SheetPage:
+    """What stands on the sheet of a drive."""
+
+    title: str
+    head: list[tuple[str, str]]
+    life: str  # of what is replaced first
+    first: str
+    overloaded: str  # empty where it is not
+    within: str
+    layout: Markup
+    ratings: PageTable
+    rating_notes: tuple[str, ...]
+    chain: list[tuple[str, str]]
+    geometry: PageTable
+    shafts: PageTable
+    spans: PageTable
+    losses: str
+    lubrication: list[tuple[str, str]]
+    lives: PageTable
+    bars: Markup
+    plan: PageTable
+    plan_until: str
+    plan_more: int
+    flanks: list[FlankPicture]
+    warnings: list[str]
+    assumptions: list[str]
+    defaults: list[str]
+
+
+def save_sheet(found: DriveLife, head: SheetHead, out: Path, force: bool) -> Path:
+    """Write the page into a file that ends in .html, else as index.html of a folder; return its path."""
+    text = sheet_html(found, head)
+    if is_page(out):
+        write_file(out, text, force)
+        return out
+    with new_folder(out, force) as place:
+        (place / "index.html").write_text(text, encoding="utf-8", newline="\n")
+    return out / "index.html"
+
+
+def is_page(out: Path) -> bool:
+    """Tell whether a place is one for a page and not for a folder."""
+    return out.suffix.lower() in (".html", ".htm")
+
+
+def sheet_html(found: DriveLife, head: SheetHead) -> str:
+    """Return the page."""
+    environment = Environment(
+        loader=FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    style = _STYLE.read_text("utf-8") + (_TEMPLATES / "drive_sheet.css").read_text("utf-8")
+    return environment.get_template("drive_sheet.html.j2").render(
+        page=_page(found, head),
+        version=__version__,
+        style=Markup(style),  # noqa: S704
+    )
+
+
+def _page(found: DriveLife, head: SheetHead) -> SheetPage:
+    drive = found.drive
+    driver = found.results[drive.driver.name]
+    ratings, notes = rating_table(found)
+    plan, more = plan_table(found)
+    assumptions, defaults = _taken(found)
+    return SheetPage(
+        title=drive.title,
+        head=head.rows,
+        life=hours(found.life),
+        first=first_text(found),
+        overloaded=overload_text(driver),
+        within=within_text(driver),
+        layout=_layout(drive),
+        ratings=ratings,
+        rating_notes=notes,
+        chain=chain_rows(drive),
+        geometry=geometry_table(drive),
+        shafts=shaft_table(drive),
+        spans=span_table(drive),
+        losses=loss_text(drive),
+        lubrication=lubrication_rows(found),
+        lives=life_table(found),
+        bars=lives_bars(found),
+        plan=plan,
+        plan_until=_plan_until(found),
+        plan_more=more,
+        flanks=[
+            FlankPicture(_flank_place(number), name, sketch(_flank(result)))
+            for number, (name, result) in enumerate(found.results.items(), start=1)
+        ],
+        warnings=list(found.warnings),
+        assumptions=assumptions,
+        defaults=defaults,
+    )
+
+
+def _plan_until(found: DriveLife) -> str:
+    what, end = min(plan_ends(found).items(), key=lambda item: item[1])
+    return f"{grouped(end)} h, {what}"
+
+
+def _flank_place(number: int) -> str:
+    return f"flank-{number}"
+
+
+def _layout(drive: DriveCase) -> Markup:
+    """Return the drawing of the loop; a click on a sprocket leads to its flank, of a cassette the first."""
+    forces = drive_forces(drive)
+    of = [wheel.name for wheel in wheel_of(drive).values()]
+    links = [
+        (
+            _flank_place(of.index(name) + 1),
+            Circle("link", (float(x), float(y)), float(radius), f"flank of {name}"),
+        )
+        for name, (x, y), radius in zip(
+            loop_names(drive), forces.loop.centres, forces.loop.pitch_radii, strict=True
+        )
+    ]
+    return sketch(loop_scene(forces, 0.5 * drive.driver.drive.chain.roller_diameter), links)
+
+
+def _flank(result: WearResult) -> Scene:
+    """Return the flank of a sprocket, new and at the end of its own life."""
+    (flank,) = worn_flanks(result)
+    depth = flank.depth[-1]
+    between, new, worn, deepest = flank.strokes(flank.x[-1], flank.y[-1], depth)
+    room = _AROUND * flank.extent
+    low, high = new.vertices.min(axis=0) - room, new.vertices.max(axis=0) + room
+    box = float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
+    spots = [Circle("spot", (float(x), float(y)), 0.15 * room) for x, y in deepest.vertices]
+    depth_text = f"{float(depth.max()):.3g} mm deep at most"
+    return Scene(
+        box,
+        (*around_flank(result, flank), between, new, worn, *spots),
+        f"A gap of the sprocket new and worn, {depth_text}, drawn {flank.factor} times as deep.",
+        (f"{depth_text} after {grouped(result.hours_run)} h", f"drawn {flank.factor} times as deep"),
+    )
+
+
+def _taken(found: DriveLife) -> tuple[list[str], list[str]]:
+    """Return what is taken for granted, and the defaults, each once with the sprockets it is about."""
+    names: dict[str, list[str]] = {}
+    for name, result in found.results.items():
+        for text in result.assumptions:
+            names.setdefault(text, []).append(name)
+    stated, defaults = stated_and_defaults(tuple(names))
+    return [_about(text, names[text], found) for text in stated], [
+        _about(text, names[text], found) for text in defaults
+    ]
+
+
+def _about(text: str, names: Sequence[str], found: DriveLife) -> str:
+    return text if len(names) == len(found.results) else f"{', '.join(names)}: {text}"
