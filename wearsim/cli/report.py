@@ -10,7 +10,12 @@ from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
 @click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RUN_OR_CASE...")
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder.")
+@click.option(
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    help="New folder; of a whole drive also a file, *.html.",
+)
 @click.option(
     "--single-file", is_flag=True, help="Every page holds its script (about 5 MB each) and moves alone."
 )
@@ -21,7 +26,10 @@ from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
     show_default=True,
     help="brief: answer, tooth, margins, assumptions and warnings only.",
 )
-@click.option("--force", is_flag=True, help="Replace the folder.")
+@click.option("--project", default="", metavar="TEXT", help="On the sheet of a whole drive: what it is for.")
+@click.option("--drawing", default="", metavar="TEXT", help="On that sheet: the number of a drawing.")
+@click.option("--author", default="", metavar="TEXT", help="On that sheet: who made it.")
+@click.option("--force", is_flag=True, help="Replace the folder, or the file.")
 @overrides
 @common_options
 def report(
@@ -29,6 +37,9 @@ def report(
     out: Path,
     single_file: bool,
     detail: str,
+    project: str,
+    drawing: str,
+    author: str,
     force: bool,
     settings: tuple[str, ...],
 ) -> int:
@@ -36,10 +47,24 @@ def report(
 
     Open index.html of the folder: the page of the drive, or where there are several a page that
     compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
+
+    A case with [[sprocket]] twice is a whole drive: one page, a calculation sheet to print on A4.
     """
     from wearsim.extras import check_installed
     from wearsim.files import check_folder
+    from wearsim.study.whole_drive.command import alone
 
+    if alone(sources):
+        if single_file or detail != "full":
+            raise click.UsageError(
+                "a drive with [[sprocket]] takes neither --single-file, as its page is one, nor --detail"
+            )
+        from wearsim.study.whole_drive.command import report_sheet
+
+        report_sheet(sources[0], settings, out, force, project, drawing, author)
+        return 0
+    if project or drawing or author:
+        raise click.UsageError("--project, --drawing and --author belong to a drive with [[sprocket]]")
     check_installed(("jinja2", "plotly"), "report", "report")
     check_folder(out, force)
     found = results_of(sources, settings, False)

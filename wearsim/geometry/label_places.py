@@ -50,10 +50,7 @@ class FreePlaces:
         x, y = self._points.T
         edge = self._clearance
         lines = (
-            (x > left - edge)
-            & (x < left + width + edge)
-            & (y > bottom - edge)
-            & (y < bottom + height + edge)
+            (x > left - edge) & (x < left + width + edge) & (y > bottom - edge) & (y < bottom + height + edge)
         )
         labels = sum(_overlap(box, other, 0.3 * height) for other in self.boxes)
         return float(lines.sum()) + 1e3 * labels

@@ -67,7 +67,7 @@ class Scene:
         edge, text = _MARGIN * width, letters or letter_height(self.box)
         bar, y, tick = round_length(0.25 * width), bottom - 2.6 * text, 0.4 * text
         ends = [line("scale", [(x, y + tick), (x, y - tick)]) for x in (left, left + bar)]
-        label = Label("text", f"{bar:g} mm", (left + 0.5 * bar, y + 0.8 * tick), text)
+        label = Label("text", f"{bar:g} mm", (left + 0.5 * bar, y + 1.4 * tick), text)
         return replace(
             self,
             box=(left - edge, bottom - edge - 3.4 * text, width + 2 * edge, height + 2 * edge + 4.4 * text),

@@ -14,9 +14,7 @@ _FIGURE = Markup(
     "</figure>\n"
 )
 
-_LINK = Markup(
-    '<a href="#{}"><title>{}</title><circle class="link" cx="{:.2f}" cy="{:.2f}" r="{:.2f}"/></a>'
-)
+_LINK = Markup('<a href="#{}"><title>{}</title><circle class="link" cx="{:.2f}" cy="{:.2f}" r="{:.2f}"/></a>')
 
 
 def sketch(scene: Scene | None, links: Sequence[tuple[str, Circle]] = ()) -> Markup:

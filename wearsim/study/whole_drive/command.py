@@ -1,7 +1,8 @@
-"""``wearsim life`` and ``wearsim check`` of a drive with all of its sprockets."""
+"""``wearsim life``, ``check`` and ``report`` of a drive with all of its sprockets."""
 
 import json
 from collections.abc import Sequence
+from datetime import date
 from pathlib import Path
 
 import click
@@ -80,6 +81,25 @@ def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
         click.echo(f"  assumes  {text}")
     for text in warnings:
         click.echo(f"  warning  {text}")
+
+
+def report_sheet(
+    path: Path, settings: Sequence[str], out: Path, force: bool, project: str, drawing: str, author: str
+) -> None:
+    """Write the sheet of a drive, and print where it stands."""
+    from wearsim.extras import check_installed
+    from wearsim.files import check_folder
+
+    check_installed(("jinja2",), "report", "report")
+    from wearsim.study.whole_drive.model import drive_life
+    from wearsim.study.whole_drive.report_page import SheetHead, check_page, is_page, save_sheet
+
+    (check_page if is_page(out) else check_folder)(out, force)
+    drive = load_drive(path, settings)
+    with working(f"wearing {drive.title}") as report_progress:
+        found = drive_life(drive, progress=report_progress)
+    head = SheetHead(date.today(), project, author, drawing)
+    click.echo(save_sheet(found, head, out, force))
 
 
 def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> DriveCase:

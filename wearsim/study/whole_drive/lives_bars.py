@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 from markupsafe import Markup
 
@@ -13,27 +14,24 @@ from wearsim.result import Life
 from wearsim.study.whole_drive.model import DriveLife
 from wearsim.study.whole_drive.replacement_plan import plan_hours
 
-_ROW, _BAR, _AXIS = 34, 12, 36
+_ROW, _BAR, _AXIS = 29, 9, 36
 """Heights of a row, of the bar in it and of the axis [px]."""
 
 _END = 96.0
 """Where the plan ends, in percent of the width."""
 
-_BEYOND = 1.1
-"""What is shown at least, over the first life."""
+_BEYOND = 1.05
+"""What is shown over the longest life."""
 
 _TIMES = {1: "once", 2: "twice"}
 
-_MOST = 200
-"""Bars a row that can still be told apart."""
+_MOST = 25
+"""Lives of the part that is replaced most often that are shown at most."""
 
 
 def lives_bars(found: DriveLife) -> Markup:
-    """Return a bar for every part: each stretch is the life of one, up to the end of the plan.
-
-    Where nothing is replaced by then, up to a little more than the first life.
-    """
-    until = max(plan_hours(found), _BEYOND * found.life.hours_run)
+    """Return a bar for every part: each stretch is the life of one, dashed where nothing is known of it."""
+    until = _shown_hours(found)
     height = _ROW * len(found.parts) + _AXIS
     alt = f"Bars of the lives of {', '.join(found.parts)} over {grouped(until)} h."
     lines = [
@@ -45,24 +43,27 @@ def lives_bars(found: DriveLife) -> Markup:
     return Markup("\n").join(lines)
 
 
+def _shown_hours(found: DriveLife) -> float:
+    """Return the time that the bars cover: the plan, and beyond it the lives of all parts if they fit in."""
+    ended = [life.hours for life in found.parts.values() if isinstance(life, Life)]
+    lives = min(_BEYOND * max(ended), _MOST * min(ended)) if ended else 0.0
+    return max(plan_hours(found), lives)
+
+
 def _rows(found: DriveLife, until: float) -> Iterator[Markup]:
     for number, (name, life) in enumerate(found.parts.items()):
         top = _ROW * number
         count = math.floor(until / life.hours * (1.0 + 1e-9)) if isinstance(life, Life) else 0
         again = f", replaced {_TIMES.get(count, f'{count} times')}" if count else ""
-        yield Markup('<text x="0" y="{}">{}: {}{}</text>').format(top + 14, name, hours(life), again)
-        if isinstance(life, Life) and count < _MOST:
-            ends = [min(until, step * life.hours) for step in range(count + 2)]
-        else:
-            ends = [0.0, min(until, life.hours_run if count == 0 else until)]
-        for step, (start, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
-            look = ("bar", "bar next")[step % 2]
-            if not isinstance(life, Life):
-                look = "bar open"
+        yield Markup('<text x="0" y="{}">{}: {}{}</text>').format(top + 13, name, hours(life), again)
+        ends = [min(until, step * life.hours_run) for step in range(count + 2)]
+        for step, (start, end) in enumerate(pairwise(ends)):
             if end > start:
-                yield _bar(look, start / until, end / until, top + 19)
-        for end in ends[1:-1] if count else ():
-            yield _tick("replaced", end / until, top + 17, top + 21 + _BAR)
+                yield _bar(("bar", "bar next")[step % 2], start / until, end / until, top + 17)
+        if not isinstance(life, Life) and ends[-1] < until:
+            yield _bar("bar open", ends[-1] / until, 1.0, top + 17)
+        for end in ends[1:-1]:
+            yield _tick("replaced", end / until, top + 15, top + 19 + _BAR)
 
 
 def _bar(look: str, start: float, end: float, top: int) -> Markup:

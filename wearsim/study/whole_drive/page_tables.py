@@ -64,14 +64,20 @@ def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:
 def geometry_table(drive: DriveCase) -> PageTable:
     """Return the sizes of all sprockets, each cog of a cassette for itself."""
     wheels = wheel_of(drive)
-    head = ["sprocket", "role", "teeth", "pitch dia.", "root dia.", "tip dia.", "over pins", "wrap", "in mesh"]
-    hubs = [key for key in _HUB if any(getattr(wheel.place, key) for wheel in drive.wheels)]
-    rows = [
-        (*_sizes(one), *(_given(wheels[one.name], key) for key in hubs)) for one in drive.sprockets
+    head = [
+        "sprocket",
+        "role",
+        "teeth",
+        "pitch dia.",
+        "root dia.",
+        "tip dia.",
+        "over pins",
+        "wrap",
+        "in mesh",
     ]
-    return PageTable(
-        "Sprockets, mm and degrees", (*head, *(_HUB[key] for key in hubs)), tuple(rows), (0, 1)
-    )
+    hubs = [key for key in _HUB if any(getattr(wheel.place, key) for wheel in drive.wheels)]
+    rows = [(*_sizes(one), *(_given(wheels[one.name], key) for key in hubs)) for one in drive.sprockets]
+    return PageTable("Sprockets, mm and degrees", (*head, *(_HUB[key] for key in hubs)), tuple(rows), (0, 1))
 
 
 _HUB = {
@@ -108,7 +114,7 @@ def chain_rows(drive: DriveCase) -> list[tuple[str, str]]:
     layout, chain = wrap.layout, wrap.chain
     length = layout.links * layout.pitch
     mass = 1e3 * chain.mass_per_length * length  # mass in t/mm
-    rows = [
+    return [
         ("chain", f"{chain.in_words}, {chain.strands} strand{'s' if chain.strands > 1 else ''}"),
         ("pitch", f"{layout.pitch:g} mm"),
         ("length", f"{layout.links} links, {grouped(length, 5)} mm, {mass:.3g} kg"),
@@ -116,7 +122,6 @@ def chain_rows(drive: DriveCase) -> list[tuple[str, str]]:
         ("centre distances", _centres(found["sprockets"])),
         *_take_up(wrap.layout, wrap.joint.elongation_limit),
     ]
-    return rows
 
 
 def _centres(wheels: list[dict[str, Any]]) -> str:
@@ -131,9 +136,11 @@ def _centres(wheels: list[dict[str, Any]]) -> str:
 def _take_up(layout: DriveLayout | LoopLayout, limit: float) -> list[tuple[str, str]]:
     grown = f"grown by {100.0 * limit:.3g} %"
     if isinstance(layout, DriveLayout):
-        worn = layout_with_links(layout.pitch * (1.0 + limit), *layout.all_teeth, layout.links)
+        worn = layout_with_links(layout.pitch * (1.0 + limit), layout.teeth_1, layout.teeth_2, layout.links)
         more = worn.centre_distance - layout.centre_distance
-        return [("take-up", f"0 mm with a new chain, {more:.2f} mm more between the centres with one {grown}")]
+        return [
+            ("take-up", f"0 mm with a new chain, {more:.2f} mm more between the centres with one {grown}")
+        ]
     take_up = layout.drive.take_up
     if take_up is None:
         return [("take-up", "none")]
@@ -182,8 +189,8 @@ def loss_text(drive: DriveCase) -> str:
     """Return what holds beside the tensions, and what the joints lose."""
     found = layout_json(drive)
     return (
-        f"The chain's own speed adds {grouped(found['centrifugal_tension_N'], 3)} N to every span, which loads "
-        f"joints but no shaft. Joints turn {found['friction_heat_W']:.3g} W into heat: efficiency "
+        f"The chain's own speed adds {grouped(found['centrifugal_tension_N'], 3)} N to every span, which "
+        f"loads joints but no shaft. Joints turn {found['friction_heat_W']:.3g} W into heat: efficiency "
         f"{100.0 * found['efficiency']:.2f} %. Directions count from x (to the right) towards y (upwards); a "
         "power below 0 is taken from the chain. All at the highest load."
     )

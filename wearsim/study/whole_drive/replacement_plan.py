@@ -62,5 +62,3 @@ def chain_at(found: DriveLife, hours: float) -> int:
     if not isinstance(found.chain, Life):
         return 1
     return max(1, math.ceil(hours / found.chain.hours * (1.0 - _SAME)))
-
-

@@ -9,7 +9,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from wearsim._version import __version__
-from wearsim.files import new_folder, write_file
+from wearsim.errors import OutputError
+from wearsim.files import check_free, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
 from wearsim.mechanisms.wrap.loop_scene import loop_scene
 from wearsim.quantities import grouped
@@ -41,6 +42,9 @@ from wearsim.study.whole_drive.sheet import first_text, within_text
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
+
+_RATED = "outside a rating"
+"""What warnings say of what stands among the ratings."""
 
 _AROUND = 0.12
 """Room around a flank, as a fraction of its extent."""
@@ -117,6 +121,13 @@ def is_page(out: Path) -> bool:
     return out.suffix.lower() in (".html", ".htm")
 
 
+def check_page(out: Path, force: bool) -> None:
+    """Raise where a page cannot be written or replaced."""
+    check_free(out, force)
+    if out.is_dir():
+        raise OutputError(f"{out}: must be a file, but is a folder: choose another place")
+
+
 def sheet_html(found: DriveLife, head: SheetHead) -> str:
     """Return the page."""
     environment = Environment(
@@ -165,7 +176,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
             FlankPicture(_flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
         ],
-        warnings=list(found.warnings),
+        warnings=[text for text in found.warnings if _RATED not in text],
         assumptions=assumptions,
         defaults=defaults,
     )
