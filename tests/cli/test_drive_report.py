@@ -1,0 +1,341 @@
+"""The sheet of a whole drive: ``wearsim report`` of [[sprocket]]."""
+
+import math
+import re
+from dataclasses import replace
+from datetime import date, timedelta
+from html import unescape
+
+import pytest
+
+from wearsim.quantities import grouped
+from wearsim.report.answer import hours
+from wearsim.report.service import service_measures
+from wearsim.result import Life
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.layout import layout_json
+from wearsim.study.whole_drive.model import drive_life
+from wearsim.study.whole_drive.replacement_plan import plan_hours, replacements
+from wearsim.study.whole_drive.report_page import SheetHead, save_sheet, sheet_html
+
+DRIVE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+teeth = 17
+profile = "iso606"
+nodes = 61
+bore_mm = 20
+keyway_width_mm = 6
+keyway_depth_mm = 2.8
+hub_diameter_mm = 45
+hub_length_mm = 28
+[[sprocket]]
+name = "roll <1>"
+teeth = 20
+profile = "iso606"
+nodes = 61
+bore_mm = 25
+[drive]
+links = 110
+[load]
+power_kW = 1.3
+speed_rpm = 300
+[joint]
+specific_wear_rate_mm2_per_N = 4e-8
+[wear]
+specific_wear_rate_mm2_per_N = 2e-8
+[run]
+life_tolerance = 0.1
+[service]
+hours_per_day = 16
+start_date = "2027-01-04"
+"""
+
+LOOP = """\
+format_version = 1
+title = "Loop of three"
+[chain]
+designation = "08B-1"
+[[sprocket]]
+name = "motor"
+teeth = 17
+profile = "iso606"
+nodes = 61
+position_mm = [0, 0]
+[[sprocket]]
+name = "tensioner"
+role = "idler"
+teeth = 13
+profile = "iso606"
+nodes = 61
+position_mm = [62, 155]
+outside = true
+take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 60]}
+[[sprocket]]
+name = "cassette"
+profile = "iso606"
+nodes = 61
+position_mm = [200, 250]
+cog = [{teeth = 20, share_of_time = 0.6}, {teeth = 22, share_of_time = 0.4}]
+[load]
+power_kW = 1.3
+speed_rpm = 300
+[wear]
+condition = "hardened, oiled"
+[run]
+horizon_hours = 2
+life_tolerance = 0.1
+"""
+
+
+def written(path, text):
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture(scope="module")
+def lived(tmp_path_factory):
+    """The drive of two sprockets, worn."""
+    return drive_life(load_drive(written(tmp_path_factory.mktemp("drive") / "drive.toml", DRIVE)))
+
+
+HEAD = SheetHead(date(2026, 11, 24), "Line 4", "A. Author", "D-17")
+
+
+@pytest.fixture(scope="module")
+def page(lived):
+    return sheet_html(lived, HEAD)
+
+
+def tables(page):
+    """Rows of cells as text by the captions of the tables."""
+    found = {}
+    for table in re.findall(r"<table>.*?</table>", page, re.DOTALL):
+        caption = re.search(r"<caption[^>]*>(.*?)</caption>", table)[1]
+        found[caption] = [
+            [unescape(cell) for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row)]
+            for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table)
+        ]
+    return found
+
+
+def pairs(page):
+    return {
+        unescape(label): unescape(text) for label, text in re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", page)
+    }
+
+
+def test_the_head_says_what_it_is_of_and_when(page):
+    found = pairs(page)
+    assert [found[key] for key in ("project", "drawing", "author", "date")] == [
+        "Line 4",
+        "D-17",
+        "A. Author",
+        "2026-11-24",
+    ]
+    assert "<h1>08B-1, 17 to 20 teeth</h1>" in page
+    assert "roll &lt;1&gt;" in page and "roll <1>" not in page
+
+
+def test_the_page_fetches_nothing_and_has_no_script(page):
+    assert "<script" not in page
+    assert not re.search(r'(?:src|href)="(?!#|data:)', page)
+    assert "default-src 'none'" in page
+
+
+def test_ratings_come_first_with_their_margins(lived, page):
+    ratings = lived.results["driver"].ratings
+    rows = tables(page)["Ratings"][1:]
+    assert [row[0] for row in rows] == [one.name for one in ratings]
+    for row, one in zip(rows, ratings, strict=True):
+        unit = f" {one.unit}" if one.unit else ""
+        sign = "≥" if one.at_least else "≤"
+        assert row[1:4] == [
+            f"{grouped(one.value)}{unit}",
+            f"{sign} {grouped(one.limit)}{unit}",
+            f"{grouped(one.margin)}{unit}",
+        ]
+        assert row[4] == f"{grouped(100 * one.used, 3)} %"
+        assert row[5] == ("ok" if one.ok else "outside")
+        assert one.source in row[6]
+    assert page.index('id="ratings"') < page.index('id="layout"') < page.index('id="lives"')
+    assert page.index('id="flanks"') < page.index('id="warnings"') < page.index('id="assumptions"')
+
+
+def test_shafts_and_spans_are_those_of_the_layout(lived, page):
+    layout, found = layout_json(lived.drive), tables(page)
+    for row, one in zip(found["Shafts"][1:], layout["sprockets"], strict=True):
+        rpm = 300.0 * 17 / one["teeth"]
+        assert row == [
+            one["name"],
+            grouped(rpm),
+            grouped(one["torque_N_m"]),
+            grouped(one["power_kW"]),
+            grouped(one["shaft_load_N"]),
+            f"{one['shaft_direction_deg']:.1f}",
+        ]
+    for row, one in zip(found["Spans"][1:], layout["spans"], strict=True):
+        assert row == [f"{one['from']} to {one['to']}", f"{one['length_mm']:.1f}", grouped(one["tension_N"])]
+    text = unescape(page)
+    assert f"efficiency {100 * layout['efficiency']:.2f} %" in text
+    assert f"turn {layout['friction_heat_W']:.3g} W into heat" in text
+    assert f"adds {grouped(layout['centrifugal_tension_N'], 3)} N" in text
+    for span in layout["spans"]:
+        assert f">{grouped(span['tension_N'])} N</text>" in page
+
+
+def test_geometry_by_hand(lived, page):
+    rows = {row[0]: row for row in tables(page)["Sprockets, mm and degrees"][1:]}
+    layout = {one["name"]: one for one in layout_json(lived.drive)["sprockets"]}
+    for name, teeth in (("driver", 17), ("roll <1>", 20)):
+        # ISO 606, 08B: pitch 12.7 mm, roller 8.51 mm, which lies in a seat of 0.505 d1 about the pitch circle.
+        pitch = 12.7 / math.sin(math.pi / teeth)
+        seated = pitch - 2 * (0.505 - 0.5) * 8.51
+        across = seated if teeth % 2 == 0 else seated * math.cos(math.pi / (2 * teeth))
+        row = rows[name]
+        assert row[2:4] == [str(teeth), f"{pitch:.2f}"]
+        assert float(row[4]) == pytest.approx(pitch - 2 * 0.505 * 8.51, abs=0.0051)  # root
+        assert float(row[6]) == pytest.approx(across + 8.51, abs=0.0051)
+        assert row[7:9] == [f"{layout[name]['wrap_deg']:.1f}", f"{layout[name]['teeth_in_mesh']:.1f}"]
+    assert rows["driver"][9:] == ["20", "6", "2.8", "45", "28"]
+    assert rows["roll <1>"][9:] == ["25", "-", "-", "-", "-"]
+    assert float(rows["driver"][4]) < float(rows["driver"][3]) < float(rows["driver"][5])
+    found = pairs(page)
+    assert found["length"].startswith("110 links, 1397 mm, ")
+    first, other = layout.values()
+    assert found["centre distances"] == f"driver to roll <1> {other['x_mm'] - first['x_mm']:.2f} mm"
+    assert found["speed of the chain"] == f"{300 / 60 * 17 * 12.7e-3:.4g} m/s"
+
+
+def test_lives_are_on_one_clock_with_dates(lived, page):
+    rows = {row[0]: row for row in tables(page)["Lives"][1:]}
+    assert list(rows) == list(lived.parts)
+    for name, life in lived.parts.items():
+        assert rows[name][1] == hours(life)
+        measures = service_measures(lived.drive.inputs, life.hours_run)
+        assert rows[name][3:5] == [grouped(measures["days"]), measures["date"]]
+        assert measures["date"] == str(date(2027, 1, 4) + timedelta(days=int(life.hours_run / 16)))
+    first = lived.results["driver" if lived.first == "chain" else lived.first]
+    low, high = grouped(first.life_low.hours_run), grouped(first.life_high.hours_run)
+    assert rows[lived.first][2] == f"{low} to {high} h"
+    assert f'<p class="life">{hours(lived.life)}</p>' in page
+
+
+def test_the_plan_ends_with_the_third_chain(lived, page):
+    chain = lived.chain.hours
+    plan = replacements(lived)
+    assert plan_hours(lived) == 3 * chain
+    assert [row.hours for row in plan if "chain" in row.parts] == pytest.approx(
+        [chain, 2 * chain, 3 * chain], rel=1e-12
+    )
+    for name, life in lived.sprockets.items():
+        count = int(3 * chain / life.hours) if isinstance(life, Life) else 0
+        assert sum(name in row.parts for row in plan) == count
+    rows = tables(page)["Replacements"][1:]
+    assert [row[0] for row in rows] == [f"{grouped(row.hours)} h" for row in plan]
+    assert [row[3] for row in rows] == [", ".join(row.parts) for row in plan]
+    assert rows[0][-1] == "chain 1 comes off, chain 2 goes on"
+
+
+def test_ten_years_end_a_plan_of_long_lives(lived):
+    inputs = {**lived.drive.inputs, "service": {"hours_per_day": 1e-4 * lived.chain.hours}}
+    longer = replace(lived, drive=replace(lived.drive, inputs=inputs))
+    assert plan_hours(longer) == pytest.approx(0.36525 * lived.chain.hours)
+    assert replacements(longer) == ()
+    assert "Nothing by then" in sheet_html(longer, HEAD)
+
+
+def test_sprockets_of_the_drawing_lead_to_their_flanks(lived, page):
+    links = re.findall(r'<a href="#(flank-\d)"><title>(.*?)</title>', page)
+    assert [(place, unescape(title)) for place, title in links] == [
+        ("flank-1", "flank of driver"),
+        ("flank-2", "flank of roll <1>"),
+    ]
+    for number, (name, result) in enumerate(lived.results.items(), start=1):
+        place = page.split(f'id="flank-{number}"')[1].split('<div class="flank"')[0]
+        assert unescape(re.search(r"<h3>(.*?)</h3>", place)[1]) == name
+        depth = result.flank_columns["depth_mm"].max()
+        assert f"{depth:.3g} mm deep at most after {grouped(result.hours_run)} h" in place
+
+
+def test_every_assumption_stands_once(lived, page):
+    fine = unescape(page.split('<ol class="fine">')[1])
+    for result in lived.results.values():
+        for text in result.assumptions:
+            assert fine.count(f"{text}</li>") == 1
+
+
+def test_the_command_writes_a_file_or_a_folder(cli, tmp_path):
+    path = written(tmp_path / "loop.toml", LOOP)
+    sheet = tmp_path / "sheets" / "loop.html"
+    done = cli("report", path, "--out", sheet, "--project", "P & Q", "--author", "<me>")
+    assert (done.code, done.out) == (0, f"{sheet}\n")
+    text = sheet.read_text(encoding="utf-8")
+    found = pairs(text)
+    assert (found["project"], found["author"]) == ("P & Q", "<me>")
+    assert found["date"] in (str(date.today()), str(date.today() - timedelta(days=1)))
+    assert "drawing" not in found
+    assert "&gt; 2 h" in text and "nothing is to be replaced within 2 h" in text
+    rows = tables(text)["Lives"][1:]
+    assert [row[0] for row in rows] == ["chain", "motor", "tensioner", "cassette 20T", "cassette 22T"]
+    assert {row[1] for row in rows} == {"> 2 h"}
+    assert found["take-up"].startswith("tensioner: ") and "travel -25 to 60 mm" in found["take-up"]
+    assert 'href="#flank-3"><title>flank of cassette' in text
+
+    done = cli("report", path, "--out", sheet)
+    assert done.code == 2 and "--force" in done.err
+    assert sheet.read_text(encoding="utf-8") == text
+    done = cli("report", path, "--out", sheet, "--force", "--set", "title=Other")
+    assert done.code == 0 and "<h1>Other</h1>" in sheet.read_text(encoding="utf-8")
+
+
+def test_a_folder_holds_one_page(lived, tmp_path):
+    out = tmp_path / "out"
+    assert save_sheet(lived, HEAD, out, force=False) == out / "index.html"
+    assert {path.name for path in out.iterdir()} == {".wearsim", "index.html"}
+    assert (out / "index.html").read_text(encoding="utf-8") == sheet_html(lived, HEAD)
+
+
+def test_what_does_not_fit_is_refused(cli, drive, tmp_path):
+    path, out = written(tmp_path / "two.toml", DRIVE), tmp_path / "out"
+    for option in (["--single-file"], ["--detail", "brief"]):
+        done = cli("report", path, "--out", out, *option)
+        assert done.code == 2 and "a drive with [[sprocket]] takes neither" in done.err
+    done = cli("report", drive(), path, "--out", out)
+    assert done.code == 2 and "two.toml is a whole drive: give it alone" in done.err
+    done = cli("report", drive(), "--out", out, "--author", "me")
+    assert done.code == 2 and "belong to a drive with [[sprocket]]" in done.err
+    (tmp_path / "page.html").mkdir()
+    done = cli("report", path, "--out", tmp_path / "page.html", "--force")
+    assert done.code == 2 and "must be a file, but is a folder" in done.err
+    done = cli("report", path, "--out", out, "--set", "sprocket.2.teeth=3")
+    assert done.code == 2 and "sprocket.2.teeth" in done.err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "line", "message"),
+    [
+        ("bore_mm = 20", "bore_mm = 0", 8, "bore_mm"),
+        ("bore_mm = 20\n", "", 8, "a keyway lies in a bore: give bore_mm"),
+        ("keyway_width_mm = 6", "keyway_width_mm = 20", 9, "must be below the bore of 20 mm (got 20)"),
+        ("hub_diameter_mm = 45", "hub_diameter_mm = 25", 11, "bore with its keyway, 25.6 mm (got 25)"),
+        ("hub_diameter_mm = 45", "hub_diameter_mm = 61", 11, "root diameter of 17 teeth, 60.52 mm"),
+        ("hub_diameter_mm = 45\n", "", 11, "a hub needs hub_diameter_mm too"),
+        ("bore_mm = 25", "bore_mm = 73", 18, "root diameter of 20 teeth, 72.59 mm (reaches 73)"),
+    ],
+)
+def test_bad_bores_are_named_with_their_line(cli, tmp_path, before, after, line, message):
+    path = written(tmp_path / "drive.toml", DRIVE.replace(before, after, 1))
+    done = cli("check", path)
+    assert done.code == 2
+    assert f"drive.toml:{line}: " in done.err
+    assert message in done.err
+
+
+def test_a_keyway_that_cuts_the_teeth_is_named(cli, tmp_path):
+    text = DRIVE.replace("bore_mm = 25", "bore_mm = 70\nkeyway_depth_mm = 1.4")
+    done = cli("check", written(tmp_path / "drive.toml", text))
+    assert "sprocket.2.keyway_depth_mm" in done.err and "(reaches 72.8)" in done.err
