@@ -190,7 +190,7 @@ def test_geometry_by_hand(lived, page):
     rows = {row[0]: row for row in tables(page)["Sprockets, mm and degrees"][1:]}
     layout = {one["name"]: one for one in layout_json(lived.drive)["sprockets"]}
     for name, teeth in (("driver", 17), ("roll <1>", 20)):
-        # ISO 606, 08B: pitch 12.7 mm, roller 8.51 mm, which lies in a seat of 0.505 d1 about the pitch circle.
+        # ISO 606, 08B: pitch 12.7 mm, roller 8.51 mm, in seats of 0.505 d1 about the pitch circle.
         pitch = 12.7 / math.sin(math.pi / teeth)
         seated = pitch - 2 * (0.505 - 0.5) * 8.51
         across = seated if teeth % 2 == 0 else seated * math.cos(math.pi / (2 * teeth))
@@ -339,3 +339,10 @@ def test_a_keyway_that_cuts_the_teeth_is_named(cli, tmp_path):
     text = DRIVE.replace("bore_mm = 25", "bore_mm = 70\nkeyway_depth_mm = 1.4")
     done = cli("check", written(tmp_path / "drive.toml", text))
     assert "sprocket.2.keyway_depth_mm" in done.err and "(reaches 72.8)" in done.err
+
+
+def test_the_hub_of_a_cassette_fits_its_smallest_cog(cli, tmp_path):
+    text = LOOP.replace('name = "cassette"', 'name = "cassette"\nhub_diameter_mm = 80.2')
+    done = cli("check", written(tmp_path / "loop.toml", text))
+    assert done.err.count("sprocket.3.hub_diameter_mm") == 1
+    assert "root diameter of 20 teeth, 72.59 mm (reaches 80.2)" in done.err

@@ -22,8 +22,8 @@ def label_box(text: str, middle: Point, height: float) -> Box:
 
     Examples
     --------
-    >>> label_box("1234567890", (0.0, 0.0), 1.0)
-    (-2.8, -0.5, 5.6, 1.0)
+    >>> label_box("25 letters are 14 wide...", (7.0, 2.0), 1.0)[1:3]
+    (1.5, 14.000000000000002)
     """
     width = _LETTER * height * len(text)
     return middle[0] - 0.5 * width, middle[1] - 0.5 * height, width, height

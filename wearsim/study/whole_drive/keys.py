@@ -166,8 +166,10 @@ def _sprockets(
 
 
 def _check_hub(document: Document, wheel: DriveWheel, number: int, case: Case) -> None:
-    """Name a bore or a hub that would cut into the teeth."""
+    """Name a bore or a hub that would cut into the teeth, of a cassette into those of the smallest cog."""
     assert isinstance(case.drive, WrapDrive)
+    if case.drive.gaps > min((teeth for teeth, _ in wheel.cogs), default=case.drive.gaps):
+        return
     root, place = case.drive.root_diameter, wheel.place
     outer = (
         ("hub_diameter_mm", place.hub_diameter_mm or 0.0),
