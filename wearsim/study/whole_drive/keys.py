@@ -69,17 +69,6 @@ class DriveCase:
         return tuple(dict.fromkeys(text for one in self.sprockets for text in one.case.assumptions))
 
 
-def holds_sprockets(tables: Mapping[str, Any]) -> bool:
-    """Tell whether tables name the sprockets of a whole drive.
-
-    Examples
-    --------
-    >>> holds_sprockets({"sprocket": [{"teeth": 21}]}), holds_sprockets({"sprocket": {"teeth": 21}})
-    (True, False)
-    """
-    return isinstance(tables.get("sprocket"), list)
-
-
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     """Return the drive of an input file, of its text or of a mapping with the same tables.
 
