@@ -237,11 +237,10 @@ def test_steps_are_halved_where_the_error_asks_for_it():
 def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):
     """It ends where they were found last, with a bound for the life and the reason among the warnings."""
     whole = run_seated(contact(), LAW, LIMIT, 1e12, 0)
-    step, taken = SeatedBodies.step, []
+    step = SeatedBodies.step
 
     def losing(self, cycles):
-        taken.append(cycles)
-        if len(taken) > 20:
+        if self.updates >= 20:
             raise ConvergenceError("wear at cycle 1: the rollers must be found, but are not: use other nodes")
         return step(self, cycles)
 
@@ -252,7 +251,6 @@ def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):
     assert 0.0 < life(lost) < life(whole)
     place = int(np.searchsorted(whole.cycles, life(lost)))
     assert lost.depth[-1].max() == pytest.approx(whole.depth[place].max(), rel=1e-12)
-    taken.clear()
     found = wearsim.simulate(wearsim.load_case(TABLES))
     assert isinstance(found.parts["sprocket"], wearsim.LowerBound)
     assert any("so its life is longer than stated: wear at cycle 1" in text for text in found.warnings)
