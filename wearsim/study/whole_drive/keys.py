@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
 from wearsim.input.units import convert
-from wearsim.mechanisms.wrap.build import read
+from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.study.whole_drive.wheels import (
@@ -278,6 +279,12 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     }
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
+        # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
+        condition = _table({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        state = wear_conditions().get(condition or WELL_LUBRICATED)
+        if state is not None:
+            rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
+            tables["joint"] = {**rate, **_table(data, "joint")}
     if "material" in wheel.own:
         tables["material"] = {**_table(data, "material"), "sprocket": wheel.own["material"]}
     if wheel is not driver:
