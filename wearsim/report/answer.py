@@ -215,12 +215,9 @@ def years_and_months(days: float) -> str:
     >>> years_and_months(2082.0), years_and_months(366.0), years_and_months(729.0)
     ('5 years 8 months', '1 year', '2 years')
     """
-    months = round(12.0 * days / _DAYS_OF_YEAR)
-    years, rest = divmod(months, 12)
-    words = [
-        f"{count} {unit}{'' if count == 1 else 's'}" for count, unit in ((years, "year"), (rest, "month"))
-    ]
-    return " ".join(word for count, word in zip((years, rest), words, strict=True) if count)
+    years, months = divmod(round(12.0 * days / _DAYS_OF_YEAR), 12)
+    counted = {"year": years, "month": months}
+    return " ".join(f"{n} {unit}{'' if n == 1 else 's'}" for unit, n in counted.items() if n)
 
 
 def _service(result: WearResult) -> list[tuple[str, str]]:
