@@ -217,8 +217,7 @@ def test_lives_are_on_one_clock_with_dates(lived, page):
         measures = service_measures(lived.drive.inputs, life.hours_run)
         assert rows[name][3:5] == [grouped(measures["days"]), measures["date"]]
         assert measures["date"] == str(date(2027, 1, 4) + timedelta(days=int(life.hours_run / 16)))
-    first = lived.results["driver" if lived.first == "chain" else lived.first]
-    low, high = grouped(first.life_low.hours_run), grouped(first.life_high.hours_run)
+    low, high = (grouped(end.hours_run) for end in lived.band(lived.first))
     assert rows[lived.first][2] == f"{low} to {high} h"
     assert f'<p class="life">{hours(lived.life)}</p>' in page
 

@@ -2,9 +2,12 @@
 
 import json
 
+import pandas as pd
 import pytest
 
 import wearsim
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.model import drive_life
 
 DRIVE = """\
 format_version = 1
@@ -34,6 +37,9 @@ life_tolerance = 0.1
 hours_per_day = 16
 start_date = "2027-01-04"
 """
+
+
+POINTS = 'name = "roll"\nteeth = 20\nprofile = "points"\npoints_file = "gap.csv"\n'
 
 
 @pytest.fixture
@@ -105,6 +111,48 @@ def test_keys_of_one_sprocket_change_its_life_alone(cli, drive):
     softer = lives(cli, drive, "sprocket.1.material={youngs_modulus_MPa = 1e5, poissons_ratio = 0.3}")
     assert softer["driver"] != before["driver"]
     assert (softer["roll"], softer["chain"]) == (before["roll"], before["chain"])
+
+
+def test_the_wear_of_one_sprocket_leaves_the_joints_of_the_chain_alone(cli, tmp_path):
+    """Joints take the state of the drive, at every sprocket, as there is one chain."""
+    path = tmp_path / "drive.toml"
+    text = DRIVE.replace("[joint]\nspecific_wear_rate_mm2_per_N = 1e-8\n", "")
+    text = text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "unhardened, dry"')
+    path.write_text(text.replace('name = "roll"', 'name = "roll"\nwear = {condition = "hardened, oiled"}'))
+    found = drive_life(load_drive(path))
+    chains = [result.parts["chain"].hours_run for result in found.results.values()]
+    assert chains[0] == pytest.approx(chains[1], rel=1e-12)
+    joint = found.drive.driver.drive.joint
+    # 7e-9 mm2/N, from 1.1e-9 to 4.4e-8, by the table of wear conditions.
+    assert (joint.low, joint.high) == (1.1e-9, 4.4e-8)
+    low, high = found.band("chain")
+    assert high.hours_run / low.hours_run == pytest.approx(40.0)
+    assert low.hours_run == pytest.approx(chains[0] * joint.coefficient / 4.4e-8)
+
+
+def test_folder_of_a_drive_runs_again(cli, tmp_path):
+    gap = tmp_path / "gap.csv"
+    case = wearsim.load_case(own_case(20, 17, "driven", 255.0))
+    outline = case.drive.outline
+    rows = "".join(f"{x:.12g},{y:.12g}\n" for x, y in zip(outline.x, outline.y, strict=True))
+    gap.write_text("x_mm,y_mm\n" + rows)
+    path, out = tmp_path / "drive.toml", tmp_path / "out"
+    text = DRIVE.replace('name = "roll"\nteeth = 20\nprofile = "iso606"\n', POINTS)
+    path.write_text(text)
+    assert cli("life", path, "--out", out, "--set", "load.power_kW=1.4").code == 0
+    assert cli("life", path, "--out", out).code == 2
+    stored = json.loads((out / "drive.json").read_text())
+    again = json.loads(cli("life", out / "drive.lock.toml", "--json").out)
+    assert again["chain_life_hours"] == stored["chain_life_hours"]
+    assert [one["sprocket_life_hours"] for one in again["sprockets"]] == [
+        one["sprocket_life_hours"] for one in stored["sprockets"]
+    ]
+    history = pd.read_csv(out / "history.csv")
+    assert list(dict.fromkeys(history["sprocket"])) == ["driver", "roll"]
+    last = history[history["sprocket"] == "roll"].iloc[-1]
+    assert last["time_hours"] == pytest.approx(stored["sprockets"][1]["sprocket_life_hours"], rel=1e-9)
+    flank = pd.read_csv(out / "flank.csv")
+    assert set(flank["sprocket"]) == {"driver", "roll"}
 
 
 def test_torque_is_that_of_the_driver(cli, drive, tmp_path):
@@ -189,7 +237,7 @@ def test_required_hours_are_those_of_every_part(cli, drive):
     assert "life of the chain" in done.err
 
 
-@pytest.mark.parametrize("option", [["--out", "run"], ["--xlsx", "run.xlsx"], ["--verify-grid"]])
+@pytest.mark.parametrize("option", [["--xlsx", "run.xlsx"], ["--verify-grid"]])
 def test_options_of_one_sprocket_are_refused(cli, drive, option):
     done = cli("life", drive, *option)
     assert done.code == 2

@@ -4,20 +4,24 @@ import json
 from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from wearsim.command.options import NOT_MET, error_json, print_json, warn, working
 from wearsim.errors import CaseError, WearsimError
+from wearsim.files import check_folder
 from wearsim.input.document import read_document
 from wearsim.result import Life
-from wearsim.study.whole_drive.keys import DriveCase, holds_sprockets, load_drive
+
+if TYPE_CHECKING:
+    from wearsim.study.whole_drive.keys import DriveCase
 
 
 def is_drive(path: Path) -> bool:
     """Tell whether an input names the sprockets of a whole drive; one that cannot be read does not."""
     try:
-        return holds_sprockets(read_document(path, ()).data)
+        return isinstance(read_document(path, ()).data.get("sprocket"), list)
     except CaseError:
         return False
 
@@ -30,11 +34,22 @@ def alone(cases: Sequence[Path]) -> bool:
     return bool(drives)
 
 
-def live(path: Path, settings: Sequence[str], as_json: bool, hours: float | None, strict: bool) -> int:
-    """Print how long every part of a drive lives; return the exit code."""
+def live(
+    path: Path,
+    settings: Sequence[str],
+    as_json: bool,
+    hours: float | None,
+    strict: bool,
+    out: Path | None = None,
+    force: bool = False,
+) -> int:
+    """Print how long every part of a drive lives, and write its folder; return the exit code."""
+    from wearsim.study.whole_drive.folder import write_drive
     from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.sheet import drive_json, drive_text
 
+    if out is not None:
+        check_folder(out, force)
     drive = _loaded(path, settings, as_json)
     try:
         with working(f"wearing {drive.title}") as report_progress:
@@ -43,6 +58,8 @@ def live(path: Path, settings: Sequence[str], as_json: bool, hours: float | None
         if as_json:
             click.echo(error_json(path.stem, error))
         raise
+    if out is not None:
+        write_drive(found, out, force)
     if as_json:
         print_json(drive_json(found), path, found.warnings)
     else:
@@ -88,9 +105,9 @@ def report_sheet(
 ) -> None:
     """Write the sheet of a drive, and print where it stands."""
     from wearsim.extras import check_installed
-    from wearsim.files import check_folder
 
     check_installed(("jinja2",), "report", "report")
+    from wearsim.study.whole_drive.keys import load_drive
     from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.report_page import SheetHead, check_page, is_page, save_sheet
 
@@ -102,7 +119,9 @@ def report_sheet(
     click.echo(save_sheet(found, head, out, force))
 
 
-def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> DriveCase:
+def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":
+    from wearsim.study.whole_drive.keys import load_drive
+
     try:
         return load_drive(path, settings)
     except CaseError as error:

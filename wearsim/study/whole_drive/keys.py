@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
 from wearsim.input.units import convert
-from wearsim.mechanisms.wrap.build import read
+from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.study.whole_drive.wheels import (
@@ -69,17 +70,6 @@ class DriveCase:
         return tuple(dict.fromkeys(text for one in self.sprockets for text in one.case.assumptions))
 
 
-def holds_sprockets(tables: Mapping[str, Any]) -> bool:
-    """Tell whether tables name the sprockets of a whole drive.
-
-    Examples
-    --------
-    >>> holds_sprockets({"sprocket": [{"teeth": 21}]}), holds_sprockets({"sprocket": {"teeth": 21}})
-    (True, False)
-    """
-    return isinstance(tables.get("sprocket"), list)
-
-
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     """Return the drive of an input file, of its text or of a mapping with the same tables.
 
@@ -116,6 +106,10 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
 
 def _check_tables(document: Document) -> None:
     drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
+    kind = _table(document.data, "mechanism").get("kind", "wrap")
+    if kind != "wrap":
+        message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
+        document.faults.add("mechanism.kind", message)
     if isinstance(drive, dict) and _GIVEN_BY_WHEELS in drive:
         document.faults.add(f"drive.{_GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
     if isinstance(load, dict) and "duty_file" in load:
@@ -307,6 +301,12 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     }
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
+        # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
+        condition = _table({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        state = wear_conditions().get(condition or WELL_LUBRICATED)
+        if state is not None:
+            rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
+            tables["joint"] = {**rate, **_table(data, "joint")}
     if "material" in wheel.own:
         tables["material"] = {**_table(data, "material"), "sprocket": wheel.own["material"]}
     if wheel is not driver:

@@ -7,6 +7,7 @@ from typing import Any
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.errors import CaseError, GeometryError
+from wearsim.mechanisms.wrap.drive import JointInput
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.service import service_measures
@@ -212,11 +213,18 @@ def lubrication_rows(found: DriveLife) -> list[tuple[str, str]]:
             ("wear of the teeth" if len(states) == 1 else f"wear of {', '.join(names)}", text)
             for text, names in states.items()
         ),
-        ("wear of the joints", f"{drive.joint.coefficient:.3g} mm2/N"),
+        ("wear of the joints", _joint_wear(drive.joint)),
         ("service factor f1", f"{drive.service_factor:g}, on the power in the ratings"),
         ("joint application factor K_e", f"{drive.joint_application_factor:g}, on the joint pressure"),
         ("friction of the joints", f"{drive.joint_friction or 0.0:g}"),
     ]
+
+
+def _joint_wear(joint: JointInput) -> str:
+    text = f"{joint.coefficient:.3g} mm2/N"
+    if joint.low is None or joint.high is None:
+        return text
+    return f"{text}, band {joint.low:.3g} to {joint.high:.3g} mm2/N"
 
 
 def life_table(found: DriveLife) -> PageTable:
@@ -248,15 +256,16 @@ def _measured(found: DriveLife, life: Life | LowerBound, measure: str) -> str:
 
 
 def _band(found: DriveLife, name: str, life: Life | LowerBound) -> str:
-    """Lives at both ends of the band, in proportion to those of the part that ends the run first."""
+    """Lives at both ends of the band, of a sprocket in proportion to those of what ends its run first."""
     if not isinstance(life, Life):
         return "-"
-    result = found.results[found.drive.driver.name if name == CHAIN else name]
-    low, high = (
-        grouped(end.hours_run / result.life.hours_run * life.hours)
-        for end in (result.life_low, result.life_high)
-    )
-    return f"{low} to {high} h"
+    if name == CHAIN:
+        ends = [end.hours_run for end in found.band(CHAIN)]
+    else:
+        result = found.results[name]
+        scale = life.hours / result.life.hours_run
+        ends = [scale * end.hours_run for end in (result.life_low, result.life_high)]
+    return f"{grouped(ends[0])} to {grouped(ends[1])} h"
 
 
 def _ends(found: DriveLife, name: str, life: Life | LowerBound) -> str:

@@ -80,9 +80,8 @@ def part_name(name: str) -> str:
 
 def _band(found: DriveLife) -> str:
     whose = found.first or next(iter(found.results))
-    result = found.results[found.drive.driver.name if whose == CHAIN else whose]
-    low, high = hours(result.life_low), hours(result.life_high)
-    return f"{low} to {high} for the {part_name(whose)}, over the band of the wear coefficients"
+    low, high = (hours(life) for life in found.band(whose))
+    return f"{low} to {high} for the {part_name(whose)}, over the band of its wear coefficient"
 
 
 def within_text(result: WearResult) -> str:
