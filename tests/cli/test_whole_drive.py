@@ -5,6 +5,8 @@ import json
 import pytest
 
 import wearsim
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.model import drive_life
 
 DRIVE = """\
 format_version = 1
@@ -105,6 +107,23 @@ def test_keys_of_one_sprocket_change_its_life_alone(cli, drive):
     softer = lives(cli, drive, "sprocket.1.material={youngs_modulus_MPa = 1e5, poissons_ratio = 0.3}")
     assert softer["driver"] != before["driver"]
     assert (softer["roll"], softer["chain"]) == (before["roll"], before["chain"])
+
+
+def test_the_wear_of_one_sprocket_leaves_the_joints_of_the_chain_alone(cli, tmp_path):
+    """Joints take the state of the drive, at every sprocket, as there is one chain."""
+    path = tmp_path / "drive.toml"
+    text = DRIVE.replace("[joint]\nspecific_wear_rate_mm2_per_N = 1e-8\n", "")
+    text = text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "unhardened, dry"')
+    path.write_text(text.replace('name = "roll"', 'name = "roll"\nwear = {condition = "hardened, oiled"}'))
+    found = drive_life(load_drive(path))
+    chains = [result.parts["chain"].hours_run for result in found.results.values()]
+    assert chains[0] == pytest.approx(chains[1], rel=1e-12)
+    joint = found.drive.driver.drive.joint
+    # 7e-9 mm2/N, from 1.1e-9 to 4.4e-8, by the table of wear conditions.
+    assert (joint.low, joint.high) == (1.1e-9, 4.4e-8)
+    low, high = found.band("chain")
+    assert high.hours_run / low.hours_run == pytest.approx(40.0)
+    assert low.hours_run == pytest.approx(chains[0] * joint.coefficient / 4.4e-8)
 
 
 def test_torque_is_that_of_the_driver(cli, drive, tmp_path):

@@ -8,13 +8,14 @@ import wearsim
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.contact.resting_engagement import NEW_CHAIN
 from wearsim.contact.stop_limits import depth_limit
-from wearsim.errors import ContactError
+from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels import wrap_seats as seats
 from wearsim.kernels import wrap_stage as stage
 from wearsim.mechanisms.wrap.seating import phases_of_pitch
 from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov, power
 from wearsim.wear.resting_bodies import WornBodies
+from wearsim.wear.seated_bodies import SeatedBodies
 from wearsim.wear.settled_run import advance_resting, run_together
 
 TABLES = {
@@ -231,3 +232,34 @@ def test_steps_are_halved_where_the_error_asks_for_it():
     tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
+
+
+def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):
+    """It ends where they were found last, with a bound for the life and the reason among the warnings."""
+    whole = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    step = SeatedBodies.step
+
+    def losing(self, cycles):
+        if self.updates >= 20:
+            raise ConvergenceError("wear at cycle 1: the rollers must be found, but are not: use other nodes")
+        return step(self, cycles)
+
+    monkeypatch.setattr(SeatedBodies, "step", losing)
+    lost = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    assert lost.met is None
+    assert lost.lost.startswith("wear at cycle 1")
+    assert 0.0 < life(lost) < life(whole)
+    place = int(np.searchsorted(whole.cycles, life(lost)))
+    assert lost.depth[-1].max() == pytest.approx(whole.depth[place].max(), rel=1e-12)
+    found = wearsim.simulate(wearsim.load_case(TABLES))
+    assert isinstance(found.parts["sprocket"], wearsim.LowerBound)
+    assert any("so its life is longer than stated: wear at cycle 1" in text for text in found.warnings)
+
+
+def test_a_run_that_never_finds_its_rollers_fails(monkeypatch):
+    def losing(self, cycles):
+        raise ConvergenceError("the rollers must be found, but are not")
+
+    monkeypatch.setattr(SeatedBodies, "step", losing)
+    with pytest.raises(ConvergenceError, match="must be found"):
+        run_seated(contact(), LAW, LIMIT, 1e12, 0)

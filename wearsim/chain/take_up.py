@@ -5,7 +5,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import brentq
 
 from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_path import Floats
@@ -95,6 +94,8 @@ def fitting_travel(loop: ChainLoop, take_up: TakeUp, links: int, elongation: flo
     >>> round(fitting_travel(loop, TakeUp("driven", (1.0, 0.0), 0.0, 50.0), 82), 6)
     10.0
     """
+    from scipy.optimize import brentq
+
     worn = replace(loop, elongation=elongation)
 
     def excess(travel: float) -> float:

@@ -338,16 +338,19 @@ def _joint(case: ChainRecord, chain: Chain, layout: DriveLayout | LoopLayout) ->
         limit = float(f"{min(most, 200.0 / max(layout.all_teeth)):.4g}")
         why = f"{most:g} %{' as nothing takes up' if fixed else ''}, or 200 % over the larger number of teeth"
         case.take("stop.elongation_percent", limit, why)
+    coefficient, low, high = _joint_rates(case, table.specific_wear_rate_mm2_per_N)
     return JointInput(
-        coefficient=_joint_rate(case, table.specific_wear_rate_mm2_per_N),
+        coefficient=coefficient,
+        low=low,
+        high=high,
         bearing_area=chain.bearing_area,
         alternating=_alternating(case),
         elongation_limit=0.01 * limit,
     )
 
 
-def _joint_rate(case: ChainRecord, given: float | None) -> float:
-    """Return the wear rate of the joints: the user's, or that of the state that the teeth are in."""
+def _joint_rates(case: ChainRecord, given: float | None) -> tuple[float, float | None, float | None]:
+    """Return the wear rate of the joints and its band: the user's, or that of the state of the teeth."""
     name = case.tables.wear.condition
     state = wear_conditions()[name or WELL_LUBRICATED]
     if given is None:
@@ -357,10 +360,10 @@ def _joint_rate(case: ChainRecord, given: float | None) -> float:
             state.joint_typical,
             f"{of}: {state.joint_low:g} to {state.joint_high:g}; {state.joint_source}",
         )
-        return state.joint_typical
+        return state.joint_typical, state.joint_low, state.joint_high
     if name is not None:
         _warn_of_joint_rate(case, state, given)
-    return given
+    return given, None, None
 
 
 def _warn_of_joint_rate(case: ChainRecord, state: WearCondition, given: float) -> None:

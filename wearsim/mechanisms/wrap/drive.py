@@ -49,6 +49,9 @@ class JointInput:
     """Wear of the chain's joints."""
 
     coefficient: float  # specific wear rate of pin and bush together [mm2/N]
+    # low, high: ends of its band [mm2/N]; none for that of a user, who gives a single number
+    low: float | None
+    high: float | None
     bearing_area: float  # projected area of pin in bush [mm2]
     alternating: bool  # whether wear lengthens every other link only, as it does
     elongation_limit: float  # relative elongation at which the chain's life ends

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,13 +11,15 @@ from wearsim.command.options import NOT_MET, error_json, print_json, warn, worki
 from wearsim.errors import CaseError, WearsimError
 from wearsim.input.document import read_document
 from wearsim.result import Life
-from wearsim.study.whole_drive.keys import DriveCase, holds_sprockets, load_drive
+
+if TYPE_CHECKING:
+    from wearsim.study.whole_drive.keys import DriveCase
 
 
 def is_drive(path: Path) -> bool:
     """Tell whether an input names the sprockets of a whole drive; one that cannot be read does not."""
     try:
-        return holds_sprockets(read_document(path, ()).data)
+        return isinstance(read_document(path, ()).data.get("sprocket"), list)
     except CaseError:
         return False
 
@@ -112,7 +115,9 @@ def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
         click.echo(f"  warning  {text}")
 
 
-def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> DriveCase:
+def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":
+    from wearsim.study.whole_drive.keys import load_drive
+
     try:
         return load_drive(path, settings)
     except CaseError as error:

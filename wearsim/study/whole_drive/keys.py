@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
 from wearsim.input.units import convert
-from wearsim.mechanisms.wrap.build import read
+from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.study.whole_drive.wheels import (
@@ -71,17 +72,6 @@ class DriveCase:
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted of any sprocket, each once."""
         return tuple(dict.fromkeys(text for one in self.sprockets for text in one.case.assumptions))
-
-
-def holds_sprockets(tables: Mapping[str, Any]) -> bool:
-    """Tell whether tables name the sprockets of a whole drive.
-
-    Examples
-    --------
-    >>> holds_sprockets({"sprocket": [{"teeth": 21}]}), holds_sprockets({"sprocket": {"teeth": 21}})
-    (True, False)
-    """
-    return isinstance(tables.get("sprocket"), list)
 
 
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
@@ -304,6 +294,12 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     }
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
+        # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
+        condition = _table({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        state = wear_conditions().get(condition or WELL_LUBRICATED)
+        if state is not None:
+            rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
+            tables["joint"] = {**rate, **_table(data, "joint")}
     if wheel.place.price is not None:
         tables["maintenance"] = {**_table(data, "maintenance"), "sprocket_price": wheel.place.price}
     if "material" in wheel.own:

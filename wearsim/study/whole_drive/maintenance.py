@@ -60,7 +60,7 @@ def check_plan_keys(source: CaseSource, settings: tuple[str, ...]) -> None:
 
 
 def drive_plan(found: DriveLife) -> DrivePlan:
-    """Return the rules by which the parts of a drive can be replaced, and their cost where prices are given."""
+    """Return the rules by which the parts of a drive can be replaced, and their cost if prices are given."""
     lives = part_lives(found)
     rules = replacement_rules(
         lives[CHAIN].hours_run,

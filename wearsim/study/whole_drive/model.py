@@ -49,6 +49,24 @@ class DriveLife:
         parts = self.parts
         return parts[self.first] if self.first else min(parts.values(), key=lambda life: life.hours_run)
 
+    def band(self, name: str) -> tuple[Life | LowerBound, Life | LowerBound]:
+        """Return the life of a part at the high and at the low end of its wear coefficient.
+
+        The chain's is that of its joints where they take that of a wear condition, else that of the teeth.
+        """
+        driver = self.drive.driver
+        joint, result = driver.drive.joint, self.results[driver.name if name == CHAIN else name]
+        if name != CHAIN:
+            return result.life_low, result.life_high
+        if joint.low is None or joint.high is None:
+            wear = driver.case.wear
+            factors = wear.high, wear.low
+        else:
+            factors = joint.high / joint.coefficient, joint.low / joint.coefficient
+        chain = self.chain
+        low, high = (type(chain)(chain.cycles_run / factor, chain.hours_run / factor) for factor in factors)
+        return low, high
+
     def chains_with(self, name: str) -> int:
         """Return how many chains run on a sprocket in its life."""
         return int(self.results[name].history_columns["chain"][-1])

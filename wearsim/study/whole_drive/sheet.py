@@ -119,9 +119,8 @@ def _of(name: str) -> str:
 
 def _band(found: DriveLife) -> str:
     whose = found.first or next(iter(found.results))
-    result = found.results[found.drive.driver.name if whose == CHAIN else whose]
-    low, high = hours(result.life_low), hours(result.life_high)
-    return f"{low} to {high} for the {_of(whose)}, over the band of the wear coefficients"
+    low, high = (hours(life) for life in found.band(whose))
+    return f"{low} to {high} for the {_of(whose)}, over the band of its wear coefficient"
 
 
 def _within(result: WearResult) -> str:
