@@ -50,7 +50,7 @@ class ReplacementRule:
     name: str
     every: Mapping[str, float]  # hours from one replacement of a part to the next, their mean in the long run
     stop_rate: float  # stops in an hour
-    schedule: tuple[Stop, ...]  # the first stops; none of parts that outlived their run
+    schedule: tuple[Stop, ...]  # the first stops, as far as the run of a part that outlived it goes
     at_most: frozenset[str] = frozenset()  # parts that outlived their run: replaced so often at most
     stops_at_most: bool = False  # whether some stops are only for such parts
     cost: float | None = None  # in an hour, at most where a part outlived its run; None without prices
@@ -145,7 +145,10 @@ def _each_at_its_end(
         "each part at its own end",
         every,
         _stop_rate(every.values()),
-        _schedule(_ends(name, hours) for name, hours in every.items() if name not in outlived),
+        _schedule(
+            (_ends(name, hours) for name, hours in every.items() if name not in outlived),
+            _known(every, outlived),
+        ),
         outlived,
         bool(outlived),
     )
@@ -171,9 +174,12 @@ def _with_chains(chain: float, sprockets: Mapping[str, float], outlived: frozens
         every,
         (1.0 + len(_distinct(within))) / chain,
         _schedule(
-            _ends_within(name, between[name], chain) if name in between else _ends(name, hours)
-            for name, hours in every.items()
-            if name not in outlived
+            (
+                _ends_within(name, between[name], chain) if name in between else _ends(name, hours)
+                for name, hours in every.items()
+                if name not in outlived
+            ),
+            _known(sprockets, outlived),
         ),
         outlived & every.keys(),
         bool(outlived & between.keys()),
@@ -187,7 +193,7 @@ def _together(chain: float, sprockets: Mapping[str, float]) -> list[ReplacementR
         return [_all_every("all parts with the first sprocket", shortest, shortest, sprockets)]
     return [
         _all_every(
-            "all parts with every chain" if chains == 1 else f"all parts with every {chains} chains",
+            "all sprockets with every chain" if chains == 1 else f"all sprockets every {chains} chains",
             chain,
             chains * chain,
             sprockets,
@@ -218,13 +224,18 @@ def _ends_within(name: str, life: float, chain: float) -> Iterator[tuple[float, 
         yield (number + 1) * chain, name
 
 
-def _schedule(ends: Iterable[Iterator[tuple[float, str]]]) -> tuple[Stop, ...]:
+def _known(lives: Mapping[str, float], outlived: frozenset[str]) -> float:
+    """Return the hours up to which it is known when every part is replaced."""
+    return min((life for name, life in lives.items() if name in outlived), default=math.inf)
+
+
+def _schedule(ends: Iterable[Iterator[tuple[float, str]]], known: float = math.inf) -> tuple[Stop, ...]:
     """Return the first stops; parts that end at the same time share one, the chain first of them."""
     found: list[Stop] = []
     for hours, name in heapq.merge(*ends):
         if found and hours - found[-1].hours <= _SAME * hours:
             found[-1] = replace(found[-1], parts=(*found[-1].parts, name))
-        elif len(found) == STOPS:
+        elif len(found) == STOPS or hours > known:
             break
         else:
             found.append(Stop(hours, (name,)))

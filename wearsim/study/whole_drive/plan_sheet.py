@@ -178,8 +178,11 @@ def _stops(plan: DrivePlan, rule: ReplacementRule) -> str:
         day = service_measures(plan.drive.driver.case.inputs, stop.hours).get("date")
         when = f"{grouped(stop.hours)} h" + (f" ({day})" if day else "")
         texts.append(f"{when} {', '.join(stop.parts)}")
-    more = "; and so on" if len(rule.schedule) > _MAX_STOPS else ""
-    return ("; ".join(texts) or "none within the run") + more
+    text = "; ".join(texts)
+    if len(rule.schedule) > _MAX_STOPS:
+        return f"{text}; and so on"
+    outlived = [life.hours_run for name, life in plan.lives.items() if name in rule.at_most]
+    return f"{text or 'none'}; not known after {grouped(min(outlived))} h" if outlived else text
 
 
 def _not_known(plan: DrivePlan) -> list[str]:
