@@ -2,6 +2,7 @@
 
 import json
 
+import pandas as pd
 import pytest
 
 import wearsim
@@ -36,6 +37,9 @@ life_tolerance = 0.1
 hours_per_day = 16
 start_date = "2027-01-04"
 """
+
+
+POINTS = 'name = "roll"\nteeth = 20\nprofile = "points"\npoints_file = "gap.csv"\n'
 
 
 @pytest.fixture
@@ -126,6 +130,31 @@ def test_the_wear_of_one_sprocket_leaves_the_joints_of_the_chain_alone(cli, tmp_
     assert low.hours_run == pytest.approx(chains[0] * joint.coefficient / 4.4e-8)
 
 
+def test_folder_of_a_drive_runs_again(cli, tmp_path):
+    gap = tmp_path / "gap.csv"
+    case = wearsim.load_case(own_case(20, 17, "driven", 255.0))
+    outline = case.drive.outline
+    rows = "".join(f"{x:.12g},{y:.12g}\n" for x, y in zip(outline.x, outline.y, strict=True))
+    gap.write_text("x_mm,y_mm\n" + rows)
+    path, out = tmp_path / "drive.toml", tmp_path / "out"
+    text = DRIVE.replace('name = "roll"\nteeth = 20\nprofile = "iso606"\n', POINTS)
+    path.write_text(text)
+    assert cli("life", path, "--out", out, "--set", "load.power_kW=1.4").code == 0
+    assert cli("life", path, "--out", out).code == 2
+    stored = json.loads((out / "drive.json").read_text())
+    again = json.loads(cli("life", out / "drive.lock.toml", "--json").out)
+    assert again["chain_life_hours"] == stored["chain_life_hours"]
+    assert [one["sprocket_life_hours"] for one in again["sprockets"]] == [
+        one["sprocket_life_hours"] for one in stored["sprockets"]
+    ]
+    history = pd.read_csv(out / "history.csv")
+    assert list(dict.fromkeys(history["sprocket"])) == ["driver", "roll"]
+    last = history[history["sprocket"] == "roll"].iloc[-1]
+    assert last["time_hours"] == pytest.approx(stored["sprockets"][1]["sprocket_life_hours"], rel=1e-9)
+    flank = pd.read_csv(out / "flank.csv")
+    assert set(flank["sprocket"]) == {"driver", "roll"}
+
+
 def test_torque_is_that_of_the_driver(cli, drive, tmp_path):
     power = lives(cli, drive)
     text = DRIVE.replace("power_kW = 1.3", 'torque_N_m = "41.380285203892786 Nm"')
@@ -208,7 +237,7 @@ def test_required_hours_are_those_of_every_part(cli, drive):
     assert "life of the chain" in done.err
 
 
-@pytest.mark.parametrize("option", [["--out", "run"], ["--xlsx", "run.xlsx"], ["--verify-grid"]])
+@pytest.mark.parametrize("option", [["--xlsx", "run.xlsx"], ["--verify-grid"]])
 def test_options_of_one_sprocket_are_refused(cli, drive, option):
     done = cli("life", drive, *option)
     assert done.code == 2

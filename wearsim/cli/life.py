@@ -86,19 +86,19 @@ def life(
     A CASE with [[sprocket]] twice is a whole drive: chain and both sprockets on one clock.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
-    flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases.
+    flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases. That of a
+    whole drive holds drive.json, drive.lock.toml, and both tables of all sprockets.
     """
     if method is not None:
         settings = (*settings, f"run.method={method}")
     if _is_drive(cases):
-        if out or parquet or xlsx or key or verify_grid:
+        if parquet or xlsx or key or verify_grid:
             raise click.UsageError(
-                "a drive with [[sprocket]] takes neither --out, --parquet, --xlsx, --solve-for nor "
-                "--verify-grid"
+                "a drive with [[sprocket]] takes neither --parquet, --xlsx, --solve-for nor --verify-grid"
             )
         from wearsim.study.whole_drive.command import live
 
-        return live(cases[0], settings, as_json, require_hours, strict, explain)
+        return live(cases[0], settings, as_json, require_hours, strict, out, force, explain)
     if key is not None:
         if verify_grid or explain or strict or parquet or xlsx:
             raise click.UsageError(

@@ -29,6 +29,7 @@ _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
 _AT_END = "at the end of the life"
+_DAYS_OF_YEAR = 365.25
 
 _LEAST_AREA = 1e-10
 """Area that is lost in the digits of the points of a flank [mm2]."""
@@ -224,10 +225,30 @@ def _limits_in_short(result: WearResult) -> str:
 def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0) -> str:
     """Return a life in the measures that a case gives factors for, in words."""
     text = ", ".join(
-        f"until {value}" if isinstance(value, str) else f"{grouped(value)} {name}"
-        for name, value in service_measures(inputs, life.hours_run, before).items()
+        _measure(name, value) for name, value in service_measures(inputs, life.hours_run, before).items()
     )
     return f"more than {text}" if text and isinstance(life, LowerBound) else text
+
+
+def _measure(name: str, value: float | str) -> str:
+    if isinstance(value, str):
+        return f"until {value}"
+    if name == "days" and value >= _DAYS_OF_YEAR:
+        return years_and_months(value)
+    return f"{grouped(value)} {name}"
+
+
+def years_and_months(days: float) -> str:
+    """Return days as years and months, months of the twelfth of a year.
+
+    Examples
+    --------
+    >>> years_and_months(2082.0), years_and_months(366.0), years_and_months(729.0)
+    ('5 years 8 months', '1 year', '2 years')
+    """
+    years, months = divmod(round(12.0 * days / _DAYS_OF_YEAR), 12)
+    counted = {"year": years, "month": months}
+    return " ".join(f"{n} {unit}{'' if n == 1 else 's'}" for unit, n in counted.items() if n)
 
 
 def _service(result: WearResult) -> list[tuple[str, str]]:

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import Table, all_differ
 from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
@@ -249,6 +249,8 @@ class PlaceTable(Table):
         if self.cog and abs(sum(cog.share_of_time for cog in self.cog) - 1.0) > 1e-6:
             total = sum(cog.share_of_time for cog in self.cog)
             found.append(("cog", f"share_of_time of all cogs must sum to 1 (got {total:.9g})"))
+        if self.cog and not all_differ([cog.teeth for cog in self.cog]):
+            found.append(("cog", "cogs must have different teeth: put those of the same into one"))
         return found
 
 

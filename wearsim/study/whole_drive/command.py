@@ -9,6 +9,7 @@ import click
 
 from wearsim.command.options import NOT_MET, error_json, print_json, warn, working
 from wearsim.errors import CaseError, WearsimError
+from wearsim.files import check_folder
 from wearsim.input.document import read_document
 from wearsim.result import Life
 
@@ -33,12 +34,22 @@ def alone(cases: Sequence[Path]) -> bool:
 
 
 def live(
-    path: Path, settings: Sequence[str], as_json: bool, hours: float | None, strict: bool, explain: bool
+    path: Path,
+    settings: Sequence[str],
+    as_json: bool,
+    hours: float | None,
+    strict: bool,
+    out: Path | None = None,
+    force: bool = False,
+    explain: bool = False,
 ) -> int:
-    """Print how long every part of a drive lives; return the exit code."""
+    """Print how long every part of a drive lives, and write its folder; return the exit code."""
+    from wearsim.study.whole_drive.folder import write_drive
     from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.sheet import drive_json, drive_text
 
+    if out is not None:
+        check_folder(out, force)
     drive = _loaded(path, settings, as_json)
     try:
         with working(f"wearing {drive.title}") as report_progress:
@@ -47,6 +58,8 @@ def live(
         if as_json:
             click.echo(error_json(path.stem, error))
         raise
+    if out is not None:
+        write_drive(found, out, force)
     if as_json:
         print_json(drive_json(found), path, found.warnings)
     else:

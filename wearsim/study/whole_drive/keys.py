@@ -111,6 +111,10 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
 
 def _check_tables(document: Document) -> None:
     drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
+    kind = _table(document.data, "mechanism").get("kind", "wrap")
+    if kind != "wrap":
+        message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
+        document.faults.add("mechanism.kind", message)
     if isinstance(drive, dict) and _GIVEN_BY_WHEELS in drive:
         document.faults.add(f"drive.{_GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
     if isinstance(load, dict) and "duty_file" in load:
