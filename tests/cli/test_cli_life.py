@@ -61,19 +61,41 @@ def test_answer_on_screen(cli, drive):
     assert float(hours.replace(" ", "")) == pytest.approx(life.hours, rel=1e-3)
     for part in (
         "cycles at 100 rpm) until 0.02 mm is worn off; numerical error < 0.1 %",
-        "With the wear coefficient at its low / high end: ",
-        "('hardened, oiled': typical: ",
+        "Band ",
+        " over the band of the wear coefficient",
         "Worn most at ",
         " from the root",
         "MPa",
-        "Assumes 1 the roller does not turn",
-        "run.horizon_hours = 1e+06",
+        " defaults: --explain shows them",
         "Warnings ",
         f"Next wearsim compare {path} --out reports/drive",
     ):
         assert part in text
     assert max(map(len, done.out.splitlines()[:-1])) <= 110
     assert done.err == ""
+
+
+def test_explain_prints_what_is_counted_otherwise(cli, drive):
+    path = drive()
+    brief, all_of_it = cli("life", path).out, cli("life", path, "--explain").out
+    counts = re.search(r"\n  Assumes    (\d+) assumptions and (\d+) defaults: --explain shows them\n", brief)
+    stated, defaults = map(int, counts.groups())
+    text = " ".join(all_of_it.split())
+    for part in (
+        "Assumes 1 the roller does not turn",
+        f"; {stated + 1} defaults: ",
+        "run.horizon_hours = 1e+06",
+        "Band from 'hardened, oiled': typical: ",
+        "Removed ",
+    ):
+        assert part in text
+        assert part not in " ".join(brief.split())
+    # The lines before and after are the same.
+    assert all_of_it.splitlines()[:3] == brief.splitlines()[:3]
+    assert all_of_it.splitlines()[-1] == brief.splitlines()[-1]
+    json_lines = [cli("life", path, "--json", *more).out for more in ((), ("--explain",))]
+    assert json_lines[0] == json_lines[1]
+    assert len(strict(json_lines[0])["assumptions"]) == stated + defaults
 
 
 def test_limit_not_reached_is_a_bound(cli, drive):

@@ -40,7 +40,7 @@ def gears(tmp_path):
 
 
 def test_life_in_words(cli, gears):
-    done = cli("life", gears())
+    done = cli("life", gears(), "--explain")
     assert done.code == 0
     assert done.out.startswith("Test gears\n  Life ")
     assert "wheel_critical_depth_mm" in done.out

@@ -83,7 +83,7 @@ def limits(line):
 
 
 def test_answer_on_screen(cli, wrapped):
-    done = cli("life", wrapped)
+    done = cli("life", wrapped, "--explain")
     text = " ".join(done.out.split())
     found = answer(cli, wrapped)
     assert (done.code, done.err) == (0, "")
@@ -153,7 +153,7 @@ def test_tip_land_is_watched(cli, wrapped):
 def test_gaps_of_two_kinds(cli, wrapped, tmp_path):
     """Alternating links on 20 teeth and 114 links: flank.csv tells both gaps."""
     folder = tmp_path / "out"
-    done = cli("life", wrapped, *SHORT, "--set", "joint.pitch=alternating", "--out", folder)
+    done = cli("life", wrapped, *SHORT, "--explain", "--set", "joint.pitch=alternating", "--out", folder)
     assert "teeth of two kinds" in " ".join(done.out.split())
     kinds = WearResult.load(folder).flank_columns["gap_kind"]
     assert set(np.unique(kinds)) == {1.0, 2.0}

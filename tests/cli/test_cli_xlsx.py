@@ -367,7 +367,7 @@ def test_screen_json_and_workbook_agree(cli, case, drive, tmp_path, name, settin
     }
     empty = [name for name in found if found[name] is None]
     assert all(name not in answer or answer[name][1] is None for name in empty)
-    lives = ["life_hours", "life_hours_high", "life_hours_low"]
+    lives = ["life_hours", "life_hours_low", "life_hours_high"]
     lives += ["chain_life_hours", "sprocket_life_hours"] if name == "wrap" else []
     told = numbers(re.sub(r"\([^()]*\)", "", screen))[: len(lives)]
     assert len(told) == len(lives)

@@ -60,6 +60,9 @@ if TYPE_CHECKING:
     help="per_cycle: the source's equations 10 to 13, cycle by cycle; as --set run.method=...",
 )
 @click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
+@click.option(
+    "--explain", is_flag=True, help="Print every assumption and default, and where the band is from."
+)
 @click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
 @overrides
 @common_options
@@ -74,10 +77,11 @@ def life(
     key: str | None,
     method: str | None,
     verify_grid: bool,
+    explain: bool,
     strict: bool,
     settings: tuple[str, ...],
 ) -> int:
-    """Print how long the sprocket of each CASE (.toml) lives, and what that rests on.
+    """Print how long the sprocket of each CASE (.toml) lives, and how sure that is.
 
     A CASE with [[sprocket]] twice is a whole drive: chain and both sprockets on one clock.
 
@@ -94,10 +98,12 @@ def life(
             )
         from wearsim.study.whole_drive.command import live
 
-        return live(cases[0], settings, as_json, require_hours, strict, out, force)
+        return live(cases[0], settings, as_json, require_hours, strict, out, force, explain)
     if key is not None:
-        if verify_grid or strict or parquet or xlsx:
-            raise click.UsageError("--solve-for takes neither --verify-grid, --strict, --parquet nor --xlsx")
+        if verify_grid or explain or strict or parquet or xlsx:
+            raise click.UsageError(
+                "--solve-for takes neither --verify-grid, --explain, --strict, --parquet nor --xlsx"
+            )
         return _solve(cases, key, require_hours, settings, out, force, as_json)
     _check_parquet(out, parquet)
     check_workbook(out, xlsx, force)
@@ -120,7 +126,7 @@ def life(
                 click.echo(error_json(path.stem, error))
             show_error(error, path)
             continue
-        _show(result, grid, path, as_json)
+        _show(result, grid, path, as_json, explain)
         results[path] = result
         missed = _missed(result, require_hours, strict) or missed
     if xlsx is not None and results:
@@ -198,7 +204,7 @@ def _verified(case: "Case") -> "GridStudy":
         return verify_grid(case)
 
 
-def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: bool) -> None:
+def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: bool, explain: bool) -> None:
     if as_json:
         from wearsim.report.service import life_json
 
@@ -211,7 +217,7 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
     else:
         from wearsim.report.answer import answer, grid_text
 
-        click.echo(answer(result, str(path)))
+        click.echo(answer(result, str(path), explain))
         if grid is not None:
             from wearsim.report.answer import grid_text
 

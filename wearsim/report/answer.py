@@ -8,23 +8,27 @@ from typing import TYPE_CHECKING, Any
 from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
 from wearsim.report.service import service_measures
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
 
-BAND, LIMITS = "With the wear coefficient at its low / high end:", "Limits"
+BAND, LIMITS = "Band", "Limits"
 OVERLOADED = "Overloaded:"
 """Labels of findings that a page shows in its own way."""
 
 JUMPING = "min_slack_tension_N"
 """Limit of which the margin is a factor: what is needed lies far below it on most drives."""
 
+REMOVED = "Removed"
+"""Label of a check of the run, which ``--explain`` prints."""
+
 _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
+_AT_END = "at the end of the life"
 _DAYS_OF_YEAR = 365.25
 
 _LEAST_AREA = 1e-10
@@ -77,18 +81,28 @@ def jumping(needed: float, limit: float, whose: str = "there") -> str:
     Examples
     --------
     >>> jumping(5.0, 60.0)
-    'jumping: safe, margin 12 times (slack tension: 5 N needed, 60 N there)'
+    'jumping: safe (slack tension: 5 N needed, 60 N there)'
     >>> jumping(4e-6, 60.0)
-    'jumping: safe, margin more than 1000 times (slack tension: below 0.06 N needed, 60 N there)'
+    'jumping: safe (slack tension: below 0.06 N needed, 60 N there)'
+    """
+    amount = slack_needed(needed, limit)
+    margin = jumping_margin(needed, limit)
+    return f"jumping: {margin} (slack tension: {amount} N needed, {grouped(limit, 3)} N {whose})"
+
+
+def jumping_margin(needed: float, limit: float) -> str:
+    """Return the margin against jumping: safe from twice the slack tension on that is needed.
+
+    Examples
+    --------
+    >>> jumping_margin(4e-6, 60.0), jumping_margin(50.0, 56.0), jumping_margin(60.0, 60.0)
+    ('safe', '12 % above what is needed', 'no margin')
     """
     if needed >= limit * (1.0 - 1e-9):
-        margin = "no margin"
-    else:
-        called = "safe, margin" if _SAFE * needed <= limit else "margin only"
-        factor = grouped(limit / needed, 2) if needed * _FAR > limit else f"more than {_FAR:.0f}"
-        margin = f"{called} {factor} times"
-    amount = slack_needed(needed, limit)
-    return f"jumping: {margin} (slack tension: {amount} N needed, {grouped(limit, 3)} N {whose})"
+        return "no margin"
+    if _SAFE * needed <= limit:
+        return "safe"
+    return f"{grouped(100.0 * (limit / needed - 1.0), 2)} % above what is needed"
 
 
 def slack_needed(needed: float, limit: float) -> str:
@@ -96,11 +110,17 @@ def slack_needed(needed: float, limit: float) -> str:
     return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
 
 
-def answer(result: WearResult, source: str) -> str:
-    """Return the answer of one case as ``wearsim life`` prints it."""
+def answer(result: WearResult, source: str, explain: bool = False) -> str:
+    """Return the answer of one case as ``wearsim life`` prints it, on request with all that it rests on."""
+    found = findings(result)
+    if explain:
+        found += [("Band from", result.band), ("Assumes", numbered_assumptions(result.assumptions))]
+    else:
+        short = {LIMITS: _limits_in_short(result)}
+        found = [(label, short.get(label, text)) for label, text in found if label != REMOVED]
+        found.append(("Assumes", counted_assumptions(result.assumptions)))
     rows = [
-        *findings(result),
-        ("Assumes", numbered_assumptions(result.assumptions)),
+        *found,
         ("Warnings", "; ".join(result.warnings) or "none"),
         ("Next", f"{_compare(result, source)}     (pictures)"),
     ]
@@ -117,7 +137,7 @@ def findings(result: WearResult) -> list[tuple[str, str]]:
         *((("Governs", governing_text(result)),) if result.fatigue else ()),
         *_parts(result),
         ("Worn most", _worst(result)),
-        ("Removed", _removed(result)),
+        (REMOVED, _removed(result)),
     ]
 
 
@@ -182,13 +202,24 @@ def _parts(result: WearResult) -> list[tuple[str, str]]:
     if len(result.limits) < 2:
         return []
     used = ", ".join(limit_state(state, result.inputs) for state in result.limits)
-    limits = [(LIMITS, f"at the end of the life {used}")]
+    limits = [(LIMITS, f"{_AT_END} {used}")]
     if "chain" not in result.parts:
         return limits
     lives = ", ".join(f"{name} {hours(result.parts[name])}" for name in ("chain", "sprocket"))
     chains = int(result.history_columns["chain"][-1])
     more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
     return [("Of which", f"{lives}{more}"), *limits]
+
+
+def _limits_in_short(result: WearResult) -> str:
+    """Say how far every limit is used, of jumping only whether it is safe."""
+    used = ", ".join(
+        f"jumping: {jumping_margin(state.value, state.limit)}"
+        if state.name == JUMPING
+        else limit_state(state, result.inputs)
+        for state in result.limits
+    )
+    return f"{_AT_END} {used}"
 
 
 def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0) -> str:
@@ -272,7 +303,8 @@ def _compare(result: WearResult, source: str) -> str:
 
 
 def _band(result: WearResult) -> str:
-    return f"{hours(result.life_high)} / {hours(result.life_low)}   ({result.band})"
+    low, high = hours(result.life_low), hours(result.life_high)
+    return f"{low} to {high}, over the band of the wear coefficient"
 
 
 def _worst(result: WearResult) -> str:

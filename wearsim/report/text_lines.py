@@ -2,7 +2,7 @@
 
 import re
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 _WIDTH = 100
 _LABEL = 13
@@ -35,6 +35,22 @@ def numbered_assumptions(assumptions: tuple[str, ...]) -> str:
     if defaults:
         shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
+
+
+def counted_assumptions(assumptions: tuple[str, ...]) -> str:
+    """Return how many assumptions and defaults there are.
+
+    Examples
+    --------
+    >>> counted_assumptions(("alike", "run.method = advance (default)", "wear.law = power (default)"))
+    '1 assumption and 2 defaults: --explain shows them'
+    """
+    stated, defaults = stated_and_defaults(assumptions)
+    return f"{_counted(stated, 'assumption')} and {_counted(defaults, 'default')}: --explain shows them"
+
+
+def _counted(texts: Collection[str], name: str) -> str:
+    return f"{len(texts)} {name}" if len(texts) == 1 else f"{len(texts)} {name}s"
 
 
 def stated_and_defaults(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:

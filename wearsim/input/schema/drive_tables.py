@@ -230,6 +230,7 @@ class PlaceTable(Table):
     torque_N_m: Positive | None = None
     take_up: TakeUpTable | None = None
     cog: Annotated[list[CogTable], Field(min_length=2, max_length=20)] | None = None
+    price: PositiveNumber | None = None
     wear: WearTable | None = None
     material: MaterialTable | None = None
     bore_mm: Positive | None = None

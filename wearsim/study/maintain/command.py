@@ -12,7 +12,7 @@ from wearsim.command.options import common_options, error_json, load_cases, over
 from wearsim.errors import WearsimError
 
 
-@click.command(short_help="When to replace the chain: chains, hours, cost.")
+@click.command(short_help="When to replace chain and sprockets: hours, cost.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture.")
 @click.option("--force", is_flag=True, help="Replace what --out names.")
@@ -24,7 +24,15 @@ def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings:
 
     Elongations, prices and whether the sprocket is turned stand in [maintenance]. Tooth and
     link counts near the case's own follow, with the lives of four of them.
+
+    A CASE with [[sprocket]] twice is a whole drive: when to replace which of its parts, by the
+    life of each and the prices in [maintenance].
     """
+    from wearsim.study.whole_drive.command import is_drive, planned
+
+    if is_drive(case):
+        planned(case, settings, as_json, out, force)
+        return
     (loaded,) = load_cases([case], settings, as_json)
     from wearsim.files import check_folder
     from wearsim.study.maintain.model import maintain as compare_policies

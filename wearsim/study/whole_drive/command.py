@@ -1,4 +1,4 @@
-"""``wearsim life``, ``check`` and ``report`` of a drive with all of its sprockets."""
+"""``wearsim life``, ``check``, ``maintain`` and ``report`` of a drive with all of its sprockets."""
 
 import json
 from collections.abc import Sequence
@@ -42,6 +42,7 @@ def live(
     strict: bool,
     out: Path | None = None,
     force: bool = False,
+    explain: bool = False,
 ) -> int:
     """Print how long every part of a drive lives, and write its folder; return the exit code."""
     from wearsim.study.whole_drive.folder import write_drive
@@ -63,7 +64,7 @@ def live(
     if as_json:
         print_json(drive_json(found), path, found.warnings)
     else:
-        click.echo(drive_text(found, str(path)))
+        click.echo(drive_text(found, str(path), explain))
     missed = False
     for name, life in found.parts.items():
         if hours is not None and isinstance(life, Life) and life.hours < hours:
@@ -73,6 +74,34 @@ def live(
         warn(f"{drive.name}: {len(found.warnings)} warning(s) and --strict")
         missed = True
     return NOT_MET if missed else 0
+
+
+def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | None, force: bool) -> None:
+    """Print when to replace the parts of a drive and what that costs; with ``out`` write it too."""
+    from wearsim.files import check_folder
+    from wearsim.study.whole_drive.maintenance import check_plan_keys, drive_plan
+    from wearsim.study.whole_drive.model import drive_life
+    from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text, save_plan
+
+    drive = _loaded(path, settings, as_json)
+    try:
+        check_plan_keys(path, settings)
+        if out is not None:
+            check_folder(out, force)
+        with working(f"wearing {drive.title}") as report_progress:
+            plan = drive_plan(drive_life(drive, progress=report_progress))
+    except WearsimError as error:
+        if as_json:
+            click.echo(error_json(path.stem, error))
+        raise
+    if out is not None:
+        save_plan(plan, out, force)
+    if as_json:
+        print_json(plan_json(plan), path, plan.found.warnings)
+    else:
+        click.echo(plan_text(plan, str(path)))
+    if out is not None:
+        warn(f"written to {out}")
 
 
 def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:

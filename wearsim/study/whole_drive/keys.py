@@ -64,6 +64,10 @@ class DriveCase:
         """The sprocket that drives the chain."""
         return next(one for one in self.sprockets if one.role == DRIVER)
 
+    def parts_of(self, wheel: DriveWheel) -> tuple[str, ...]:
+        """Return the names under which a sprocket is run: its own, or those of all cogs of a cassette."""
+        return tuple(f"{wheel.name} {teeth}T" for teeth, _ in wheel.cogs) or (wheel.name,)
+
     @property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted of any sprocket, each once."""
@@ -95,6 +99,7 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     _check_tables(document)
     wheels = drive_wheels(document)
     document.faults.check()
+    _check_prices(document, wheels)
     shares = power_shares(document, wheels)
     check_block_shares(document, wheels)
     document.faults.check()
@@ -120,6 +125,16 @@ def _check_tables(document: Document) -> None:
                 document.faults.add(
                     f"duty.{number}.power_share", "the only driven sprocket has all of the power: remove this"
                 )
+
+
+def _check_prices(document: Document, wheels: Sequence[DriveWheel]) -> None:
+    if "chain_price" in _table(document.data, "maintenance"):
+        return
+    for number, wheel in enumerate(wheels, start=1):
+        if wheel.place.price is not None:
+            document.faults.add(
+                f"sprocket.{number}.price", "the cost needs maintenance.chain_price too: give both or none"
+            )
 
 
 def _title(wheels: Sequence[DriveWheel], first: Case) -> str:
@@ -307,6 +322,8 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
         if state is not None:
             rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
             tables["joint"] = {**rate, **_table(data, "joint")}
+    if wheel.place.price is not None:
+        tables["maintenance"] = {**_table(data, "maintenance"), "sprocket_price": wheel.place.price}
     if "material" in wheel.own:
         tables["material"] = {**_table(data, "material"), "sprocket": wheel.own["material"]}
     if wheel is not driver:

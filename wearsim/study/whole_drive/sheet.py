@@ -1,32 +1,72 @@
 """The answer for a whole drive, as text of a dozen lines and as JSON."""
 
+import shlex
+from collections.abc import Sequence
 from typing import Any
 
 from wearsim.quantities import grouped
 from wearsim.report.answer import ending, hours, overload_text, service_text
 from wearsim.report.service import service_keys
-from wearsim.report.text_lines import row, stated_and_defaults
+from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 
 _MAX_WARNINGS = 1
+_MAX_ROWS = 4
+"""Sprockets with a row of their own; the cogs of a cassette share one where there are more."""
+_MAX_THEN = 2
+"""Parts that are named after the first one to be replaced."""
 
 
-def drive_text(found: DriveLife, source: str) -> str:
-    """Return what ``wearsim life`` prints of a whole drive."""
+def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
+    """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
     driver = found.results[found.drive.driver.name]
     rows = [
         (CHAIN.capitalize(), _part(found, CHAIN)),
-        *((name, _part(found, name)) for name in found.results),
+        *(_all_sprockets(found) if explain else _sprockets(found)),
         ("First", first_text(found)),
         ("Band", _band(found)),
         ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
-        ("Worn most", _worn_most(found)),
-        ("Warnings", _warnings(found)),
-        ("Assumes", _assumes(found, source)),
+        ("Worn most", _worn_most(found, explain)),
+        *((("Band from", _band_source(found)),) if explain else ()),
+        ("Warnings", _warnings(found, explain)),
+        ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
+        ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
     ]
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
+
+
+def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
+    return [(name, _part(found, name)) for name in found.results]
+
+
+def _sprockets(found: DriveLife) -> list[tuple[str, str]]:
+    """Return a row for each of few sprockets; of more, the cogs of a cassette share one, then all others."""
+    if len(found.results) <= _MAX_ROWS:
+        return _all_sprockets(found)
+    cogs = {wheel.name: found.drive.parts_of(wheel) for wheel in found.drive.wheels if wheel.cogs}
+    in_cassette = {name for names in cogs.values() for name in names}
+    single = [name for name in found.results if name not in in_cassette]
+    together = [
+        (name, _lives(found, names, [one.removeprefix(f"{name} ") for one in names]))
+        for name, names in cogs.items()
+    ]
+    if len(single) + len(together) <= _MAX_ROWS:
+        return [*((name, _part(found, name)) for name in single), *together]
+    return [("Sprockets", _lives(found, single, single)), *together]
+
+
+def _lives(found: DriveLife, names: Sequence[str], shown: Sequence[str]) -> str:
+    """Return the lives of several sprockets, and which of them dies first."""
+    parts = found.parts
+    text = ", ".join(f"{label} {hours(parts[name])}" for name, label in zip(names, shown, strict=True))
+    ended = {
+        label: life.hours
+        for name, label in zip(names, shown, strict=True)
+        if isinstance(life := parts[name], Life)
+    }
+    return f"{text}: {min(ended, key=ended.__getitem__)} dies first" if ended else text
 
 
 def _part(found: DriveLife, name: str) -> str:
@@ -69,8 +109,9 @@ def first_text(found: DriveLife) -> str:
     text = f"replace the {part_name(found.first)} at {hours(found.life)}"
     if found.first == CHAIN:
         text += " and again after each such time"
-    then = ", ".join(f"the {part_name(name)} at {grouped(life)} h" for life, name in after)
-    return f"{text}; then {then}" if then else text
+    then = ", ".join(f"the {part_name(name)} at {grouped(life)} h" for life, name in after[:_MAX_THEN])
+    more = f", and {len(after) - _MAX_THEN} more" if len(after) > _MAX_THEN else ""
+    return f"{text}; then {then}{more}" if then else text
 
 
 def part_name(name: str) -> str:
@@ -93,8 +134,21 @@ def within_text(result: WearResult) -> str:
     return f"within all of them; most used is {most.name}, {grouped(100.0 * most.used)} %"
 
 
-def _worn_most(found: DriveLife) -> str:
-    places = "; ".join(f"{name} {_worn(result)}" for name, result in found.results.items())
+def _band_source(found: DriveLife) -> str:
+    sources: dict[str, list[str]] = {}
+    for name, result in found.results.items():
+        sources.setdefault(result.band, []).append(name)
+    if len(sources) == 1:
+        return next(iter(sources))
+    return "; ".join(f"{', '.join(names)}: {band}" for band, names in sources.items())
+
+
+def _worn_most(found: DriveLife, explain: bool) -> str:
+    results = found.results
+    if len(results) > _MAX_ROWS and not explain:
+        deepest = max(results, key=lambda name: results[name].max_depth)
+        return f"{deepest} {_worn(results[deepest])} from the gap's right tip"
+    places = "; ".join(f"{name} {_worn(result)}" for name, result in results.items())
     return f"{places} from the gap's right tip"
 
 
@@ -103,20 +157,18 @@ def _worn(result: WearResult) -> str:
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
-def _warnings(found: DriveLife) -> str:
+def _warnings(found: DriveLife, explain: bool) -> str:
     # What is outside of a rating stands beside the ratings.
     warnings = [text for text in found.warnings if not text.startswith("outside a rating")]
-    if not warnings:
-        return "none"
+    if explain or not warnings:
+        return "; ".join(warnings) or "none"
     shown = warnings[:_MAX_WARNINGS]
     more = len(warnings) - len(shown)
-    return "; ".join(shown) + (f"; and {more} more (--json)" if more else "")
+    return "; ".join(shown) + (f"; and {more} more (--explain)" if more else "")
 
 
-def _assumes(found: DriveLife, source: str) -> str:
-    each = tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
-    stated, defaults = stated_and_defaults(each)
-    return f"{len(stated)} assumptions and {len(defaults)} defaults: wearsim check {source}"
+def _assumptions(found: DriveLife) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
 
 
 def drive_json(found: DriveLife) -> dict[str, Any]:

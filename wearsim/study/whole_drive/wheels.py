@@ -106,6 +106,8 @@ def _wheel(number: int, table: Mapping[str, Any], count: int, faults: Faults) ->
 def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     names = [wheel.name for wheel in wheels]
     for number, wheel in enumerate(wheels, start=1):
+        if wheel.name == "chain":
+            faults.add(f"sprocket.{number}.name", "must be another one: the chain is a part of its own")
         if wheel.name in names[: number - 1]:
             faults.add(
                 f"sprocket.{number}.name", f"sprockets need different names (got {wheel.name!r} twice)"

@@ -1,0 +1,342 @@
+"""``wearsim maintain`` of a whole drive: when to replace which part, and what that costs."""
+
+import csv
+import json
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from wearsim.result import Life, LowerBound
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.maintenance import part_lives
+from wearsim.study.whole_drive.plan import Prices, cheapest, replacement_rules
+
+DRIVE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+teeth = 17
+profile = "iso606"
+nodes = 61
+[[sprocket]]
+name = "roll"
+teeth = 20
+profile = "iso606"
+nodes = 61
+[drive]
+links = 110
+[load]
+power_kW = 1.3
+speed_rpm = 300
+[joint]
+specific_wear_rate_mm2_per_N = 3e-9
+[wear]
+specific_wear_rate_mm2_per_N = 1e-9
+[run]
+life_tolerance = 0.1
+[service]
+hours_per_day = 16
+start_date = "2027-01-04"
+"""
+
+PRICED = f"""{DRIVE}
+[maintenance]
+chain_price = 40
+sprocket_price = 100
+downtime_hours = 2
+downtime_cost_per_hour = 30
+"""
+
+CASSETTE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[[sprocket]]
+name = "ring"
+teeth = 38
+profile = "iso606"
+nodes = 61
+[[sprocket]]
+name = "cassette"
+profile = "iso606"
+nodes = 61
+cog = [
+    {teeth = 13, share_of_time = 0.25},
+    {teeth = 15, share_of_time = 0.25},
+    {teeth = 17, share_of_time = 0.25},
+    {teeth = 19, share_of_time = 0.25},
+]
+[drive]
+links = 110
+[load]
+power_kW = 0.8
+speed_rpm = 100
+[wear]
+specific_wear_rate_mm2_per_N = 1e-9
+[joint]
+specific_wear_rate_mm2_per_N = 1e-9
+[run]
+life_tolerance = 0.1
+"""
+
+LIVES = {"driver": 2500.0, "roll": 10_000.0}
+PRICES = Prices(chain=40.0, sprockets={"driver": 100.0, "roll": 200.0}, stop=60.0)
+"""A chain lives 1000 h; a stop takes 2 h of 30."""
+
+
+def per_1000_h(rule):
+    """Parts, stops and cost of a rule in 1000 h."""
+    parts = {name: 1000.0 / hours for name, hours in rule.every.items()}
+    return parts, 1000.0 * rule.stop_rate, 1000.0 * rule.cost
+
+
+def test_all_numbers_by_hand():
+    """In 10 000 h: 10 chains; 4 drivers at their ends, 2500, 5000, 7500 and 10 000 h; 1 roll."""
+    own, with_chain, every, every_2 = replacement_rules(1000.0, LIVES, PRICES)
+    # 2500 h and 7500 h are stops of their own beside those of 10 chains; 400 + 400 + 200 + 12*60 = 1720.
+    assert per_1000_h(own) == ({"chain": 1.0, "driver": 0.4, "roll": 0.1}, 1.2, pytest.approx(172.0))
+    # The driver goes with every second chain, the roll with the tenth: 400 + 500 + 200 + 10*60 = 1700.
+    assert per_1000_h(with_chain) == ({"chain": 1.0, "driver": 0.5, "roll": 0.1}, 1.0, pytest.approx(170.0))
+    # 40 + 100 + 200 + 60; and 80 + 100 + 200 + 120 in 2000 h. A third chain would outlive the driver.
+    assert per_1000_h(every) == ({"chain": 1.0, "driver": 1.0, "roll": 1.0}, 1.0, pytest.approx(400.0))
+    assert per_1000_h(every_2) == ({"chain": 1.0, "driver": 0.5, "roll": 0.5}, 1.0, pytest.approx(250.0))
+    assert cheapest([own, with_chain, every, every_2]) == (1, True)
+
+
+def test_schedules_by_hand():
+    own, with_chain, _, every_2 = (
+        [(stop.hours, *stop.parts) for stop in rule.schedule] for rule in replacement_rules(1000.0, LIVES)
+    )
+    assert own[:6] == [
+        (1000.0, "chain"),
+        (2000.0, "chain"),
+        (2500.0, "driver"),
+        (3000.0, "chain"),
+        (4000.0, "chain"),
+        (5000.0, "chain", "driver"),
+    ]
+    assert own[11] == (10_000.0, "chain", "driver", "roll")
+    assert with_chain[:2] == [(1000.0, "chain"), (2000.0, "chain", "driver")]
+    assert with_chain[9] == (10_000.0, "chain", "driver", "roll")
+    assert every_2[:2] == [(1000.0, "chain"), (2000.0, "chain", "driver", "roll")]
+
+
+def test_cheap_stops_favour_each_part_at_its_end():
+    """With stops of 10: 400 + 400 + 200 + 120 = 1120 against 400 + 500 + 200 + 100 = 1200."""
+    rules = replacement_rules(1000.0, LIVES, Prices(40.0, PRICES.sprockets, 10.0))
+    assert [1000.0 * rule.cost for rule in rules[:2]] == pytest.approx([112.0, 120.0])
+    assert cheapest(rules) == (0, True)
+
+
+def test_without_prices_there_are_counts_only():
+    rules = replacement_rules(1000.0, LIVES)
+    assert [rule.cost for rule in rules] == [None] * 4
+    assert cheapest(rules) is None
+
+
+def test_a_sprocket_that_does_not_outlive_a_chain():
+    """400 h and 700 h: stops at 400, 700, 800 and 1000 h of each chain, 3 and 2 sprockets for it."""
+    lives = {"driver": 400.0, "roll": 700.0}
+    own, with_chain, together = replacement_rules(1000.0, lives, PRICES)
+    # In 14 000 h 14 + 35 + 20 ends, less those that two parts share, each 2800 h, 2000 h and 7000 h; at
+    # 14 000 h three are taken off of the three that fall together, one of them is a stop.
+    assert 14_000.0 * own.stop_rate == pytest.approx(14 + 35 + 20 - 5 - 7 - 2 + 1)
+    assert per_1000_h(with_chain)[:2] == ({"chain": 1.0, "driver": 3.0, "roll": 2.0}, 4.0)
+    assert [(stop.hours, *stop.parts) for stop in with_chain.schedule[:5]] == [
+        (400.0, "driver"),
+        (700.0, "roll"),
+        (800.0, "driver"),
+        (1000.0, "chain", "driver", "roll"),
+        (1400.0, "driver"),
+    ]
+    # All with the first sprocket: 2.5 times in 1000 h.
+    assert per_1000_h(together) == (
+        {"chain": 2.5, "driver": 2.5, "roll": 2.5},
+        2.5,
+        pytest.approx(2.5 * (40.0 + 100.0 + 200.0 + 60.0)),
+    )
+
+
+def test_lives_that_never_meet_share_no_stop():
+    life = 1000.0 * math.pi
+    (own, *_) = replacement_rules(1000.0, {"driver": life, "roll": life})
+    assert own.stop_rate == pytest.approx(1.0 / 1000.0 + 1.0 / life, rel=1e-12)
+
+
+def test_a_part_that_outlived_its_run_is_a_bound():
+    """The roll lives 10 000 h at least: all it costs is at most that, and nothing if it lives for ever."""
+    own, with_chain, *together = replacement_rules(1000.0, LIVES, PRICES, frozenset({"roll"}))
+    assert (own.at_most, own.stops_at_most) == ({"roll"}, True)
+    assert (with_chain.at_most, with_chain.stops_at_most) == ({"roll"}, False)
+    assert 1000.0 * own.cost == pytest.approx(172.0)
+    # 10 chains, 4 drivers, and 12 stops, of which those at 5000 h and 10 000 h are chain changes too.
+    assert 1000.0 * own.least_cost == pytest.approx(40.0 + 40.0 + 72.0)
+    assert 1000.0 * with_chain.least_cost == pytest.approx(40.0 + 50.0 + 60.0)
+    # After 10 000 h nobody knows when the roll is due.
+    assert [rule.schedule[-1].hours for rule in (own, with_chain)] == [10_000.0, 10_000.0]
+    assert all("roll" not in stop.parts for rule in (own, with_chain) for stop in rule.schedule)
+    # With every second chain the roll goes early: that is a number, not a bound.
+    assert [(rule.at_most, rule.cost == rule.least_cost) for rule in together] == [(frozenset(), True)] * 2
+    assert cheapest([own, with_chain, *together]) == (1, False)
+
+
+def test_without_the_life_of_the_chain_there_is_one_rule():
+    rules = replacement_rules(1000.0, {"roll": 400.0}, Prices(40.0, {"roll": 100.0}), frozenset({"chain"}))
+    assert [rule.name for rule in rules] == ["each part at its own end"]
+    assert cheapest(rules) is None
+
+
+@pytest.fixture
+def drive(tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(PRICED)
+    return path
+
+
+def test_text_json_and_files_agree(cli, drive, tmp_path):
+    done = cli("maintain", drive, "--json", "--out", tmp_path / "plan")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    lives = {one["part"]: one["life_hours"] for one in found["parts"]}
+    assert list(lives) == ["chain", "driver", "roll"]
+    own = found["policies"][0]
+    assert own["policy"] == "each part at its own end"
+    stops = sum(1000.0 / life for life in lives.values())
+    assert own["stops_per_1000_h"] == pytest.approx(stops)
+    price = 40.0 / lives["chain"] + 100.0 / lives["driver"] + 100.0 / lives["roll"]
+    assert own["cost_per_1000_h"] == pytest.approx(1000.0 * price + 60.0 * stops)
+    costs = [one["cost_per_1000_h"] for one in found["policies"]]
+    assert costs[found["cheapest"]] == min(costs)
+    assert found["cheapest_is_certain"] is True
+    first = own["schedule"][0]
+    assert first["hours"] == min(lives.values())
+    # 16 h a day from 4 January 2027 on.
+    assert first["days"] == pytest.approx(first["hours"] / 16.0)
+    assert first["date"] > "2027-01-04"
+
+    def read(name):
+        with (tmp_path / "plan" / name).open() as file:
+            return list(csv.DictReader(file))
+
+    assert [float(row["cost_per_1000_h"]) for row in read("policies.csv")] == costs
+    assert [row["part"] for row in read("parts.csv")][:3] == ["chain", "driver", "roll"]
+    assert read("schedule.csv")[0]["parts"] == ", ".join(first["parts"])
+    assert cli("maintain", drive, "--out", tmp_path / "plan").code == 2
+
+    text = cli("maintain", drive).out
+    lines = text.splitlines()
+    assert lines[0] == "08B-1, 17 to 20 teeth"
+    assert lines[1].startswith("  Lives      chain ")
+    assert lines[2].split() == ["in", "1000", "h", "stops", "chain", "driver", "roll", "cost"]
+    assert "  Cheapest   " in text
+    assert first["date"] in text or found["cheapest"] != 0
+    assert max(map(len, lines)) <= 100
+
+
+def test_a_sprocket_has_its_own_price(cli, drive):
+    before, after = (
+        json.loads(cli("maintain", drive, "--json", *more).out)
+        for more in ((), ("--set", "sprocket.2.price=300"))
+    )
+    life = next(one["life_hours"] for one in before["parts"] if one["part"] == "roll")
+    costs = [found["policies"][0]["cost_per_1000_h"] for found in (before, after)]
+    assert costs[1] - costs[0] == pytest.approx(1000.0 * 200.0 / life)
+
+
+def test_own_prices_need_no_common_one(cli, tmp_path):
+    path = tmp_path / "drive.toml"
+    text = PRICED.replace("sprocket_price = 100\n", "")
+    path.write_text(text.replace("nodes = 61\n", "nodes = 61\nprice = 100\n"))
+    assert cli("check", path).code == 0
+    path.write_text(text.replace("nodes = 61\n[drive]", "nodes = 61\nprice = 100\n[drive]"))
+    assert "the cost needs sprocket_price too" in cli("check", path).err
+    path.write_text(DRIVE.replace("nodes = 61\n[drive]", "nodes = 61\nprice = 100\n[drive]"))
+    done = cli("check", path)
+    assert done.code == 2
+    assert "drive.toml:13: sprocket.2.price: the cost needs maintenance.chain_price too" in done.err
+
+
+def test_what_the_run_did_not_reach_is_a_bound(cli, drive):
+    """With hardly any wear of the teeth in 2000 h only the chain is worn out."""
+    few = ("--set", "run.horizon_hours=2000", "--set", "wear.specific_wear_rate_mm2_per_N=1e-11")
+    text = cli("maintain", drive, *few).out
+    assert "driver >= 2 000 h, roll >= 2 000 h" in text
+    table = next(line for line in text.splitlines() if line.startswith("  each part at its own end"))
+    assert table.count("<= ") == 4
+    assert "  Not known  when to replace driver, roll: worn out in no run" in text
+    assert "at most" in text
+    assert "as far as is known" in text
+    found = json.loads(cli("maintain", drive, *few, "--json").out)
+    own = found["policies"][0]
+    assert own["cost_per_1000_h"] is None
+    assert own["cost_per_1000_h_at_most"] > 0.0
+    assert found["cheapest_is_certain"] is False
+    nothing = cli("maintain", drive, *few, "--set", "joint.specific_wear_rate_mm2_per_N=1e-11").out
+    assert "chain >= 2 000 h" in nothing
+    assert "sprockets with a chain change" not in nothing
+    assert "each part at its own end: none; not known after 2 000 h" in nothing
+
+
+def test_without_prices_no_cost_is_printed(cli, tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(DRIVE)
+    done = cli("maintain", path)
+    assert done.code == 0
+    assert "  Cost       not known without maintenance.chain_price and a price of every sprocket" in done.out
+    assert "Cheapest" not in done.out
+
+
+@pytest.mark.parametrize("setting", ["turn_sprocket=true", "replace_at_percent=[2]"])
+def test_keys_of_one_sprocket_are_refused(cli, drive, setting):
+    done = cli("maintain", drive, "--set", f"maintenance.{setting}")
+    assert done.code == 2
+    assert f"maintenance.{setting.split('=')[0]}: is for the case of one sprocket" in done.err
+    assert cli("check", drive, "--set", f"maintenance.{setting}").code == 0
+
+
+def test_no_sprocket_is_called_chain(cli, drive):
+    done = cli("check", drive, "--set", "sprocket.2.name=chain")
+    assert done.code == 2
+    assert "the chain is a part of its own" in done.err
+
+
+def test_a_cassette_is_one_part(tmp_path):
+    path = tmp_path / "cassette.toml"
+    path.write_text(CASSETTE)
+    sprockets = {
+        "ring": LowerBound(1.0, 9000.0),
+        "cassette 13T": Life(1.0, 5000.0),
+        "cassette 15T": Life(1.0, 4000.0),
+        "cassette 17T": LowerBound(1.0, 9000.0),
+        "cassette 19T": LowerBound(1.0, 9000.0),
+    }
+    found = SimpleNamespace(drive=load_drive(path), chain=Life(1.0, 7000.0), sprockets=sprockets)
+    lives = part_lives(found)
+    assert {name: (type(life), life.hours_run) for name, life in lives.items()} == {
+        "chain": (Life, 7000.0),
+        "ring": (LowerBound, 9000.0),
+        "cassette": (Life, 4000.0),
+    }
+
+
+def test_cogs_of_a_cassette_share_a_line(cli, tmp_path):
+    path = tmp_path / "cassette.toml"
+    path.write_text(CASSETTE)
+    lines = cli("life", path, "--set", "run.horizon_hours=16000").out.splitlines()
+    assert sum(line[2] != " " for line in lines[1:]) <= 12
+    cassette = next(line for line in lines if line.startswith("  cassette "))
+    assert cassette.startswith("  cassette   13T ")
+    assert cassette.endswith("17T > 16 000 h, 19T > 16 000 h: 13T dies first")
+    assert " ".join(done.out.split()).endswith(f"Next wearsim report {path} --out sheet.html")
+
+
+def test_explain_prints_what_is_counted(cli, drive):
+    brief = cli("life", drive).out
+    text = cli("life", drive, "--explain").out
+    assert " defaults: --explain shows them" in brief
+    assert "--explain shows them" not in text
+    assert "Assumes    1 rollers sit where" in text
+    assert "Band from  factor 3 to either side" in text
+    assert text.splitlines()[:4] == brief.splitlines()[:4]

@@ -1,0 +1,195 @@
+"""The plan of a drive as text, JSON and CSV files."""
+
+from pathlib import Path
+from typing import Any
+
+from wearsim.files import new_folder
+from wearsim.quantities import grouped
+from wearsim.report.answer import hours
+from wearsim.report.service import service_measures
+from wearsim.report.text_lines import row
+from wearsim.result import LowerBound, life_keys
+from wearsim.study.whole_drive.maintenance import DrivePlan
+from wearsim.study.whole_drive.model import CHAIN
+from wearsim.study.whole_drive.plan import ReplacementRule, Stop, chains_in_life
+
+_PER = 1000.0
+"""Hours for which parts, stops and cost are given."""
+
+_MAX_COLUMNS = 4
+"""Sprockets with a column of their own; more are summed up in one."""
+
+_MAX_STOPS = 6
+_FIRST, _MAX_RULES = 4, 6
+"""Rules that are always shown, and most rows: of more, the first ones and the last."""
+
+
+def plan_json(plan: DrivePlan) -> dict[str, Any]:
+    """Return the plan as ``wearsim maintain --json`` prints it."""
+    best = plan.cheapest
+    return {
+        "schema_version": 1,
+        "case": plan.drive.name,
+        "title": plan.drive.title,
+        "parts": [{"part": name, **life_keys("life_hours", life)} for name, life in plan.lives.items()],
+        "policies": [
+            {
+                **_numbers(rule),
+                "parts": _parts(rule),
+                "schedule": [_stop(plan, stop) for stop in rule.schedule],
+            }
+            for rule in plan.rules
+        ],
+        "cheapest": None if best is None else best[0],
+        "cheapest_is_certain": None if best is None else best[1],
+        "assumptions": [*plan.conventions, *plan.drive.assumptions],
+        "warnings": list(plan.found.warnings),
+    }
+
+
+def save_plan(plan: DrivePlan, folder: Path, force: bool) -> None:
+    """Write policies, their parts and their first stops into a folder, all of it or nothing."""
+    import pandas as pd
+
+    rules = plan.rules
+    parts = [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)]
+    stops = [
+        {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
+        for rule in rules
+        for stop in rule.schedule
+    ]
+    with new_folder(folder, force) as place:
+        pd.DataFrame([_numbers(rule) for rule in rules]).to_csv(place / "policies.csv", index=False)
+        pd.DataFrame(parts).to_csv(place / "parts.csv", index=False)
+        pd.DataFrame(stops).to_csv(place / "schedule.csv", index=False)
+
+
+def _numbers(rule: ReplacementRule) -> dict[str, Any]:
+    cost = None if rule.cost is None else _PER * rule.cost
+    return {
+        "policy": rule.name,
+        **_bounded("stops_per_1000_h", _PER * rule.stop_rate, rule.stops_at_most),
+        **_bounded("cost_per_1000_h", cost, bool(rule.at_most)),
+    }
+
+
+def _parts(rule: ReplacementRule) -> list[dict[str, Any]]:
+    return [
+        {"part": name, **_bounded("parts_per_1000_h", _PER / every, name in rule.at_most)}
+        for name, every in rule.every.items()
+    ]
+
+
+def _bounded(key: str, value: float | None, at_most: bool) -> dict[str, float | None]:
+    return {key: None if at_most else value, f"{key}_at_most": value if at_most else None}
+
+
+def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
+    return {
+        "hours": stop.hours,
+        **service_measures(plan.drive.driver.case.inputs, stop.hours),
+        "parts": list(stop.parts),
+    }
+
+
+def plan_text(plan: DrivePlan, source: str) -> str:
+    """Return the plan as ``wearsim maintain`` prints it."""
+    lives = ", ".join(f"{name} {hours(life).replace('> ', '>= ')}" for name, life in plan.lives.items())
+    best = plan.cheapest
+    shown = plan.rules[best[0]] if best else plan.rules[min(1, len(plan.rules) - 1)]
+    rows = [
+        *_cheapest(plan),
+        *(("Intervals", text) for text in _intervals(plan)),
+        ("Stops", f"{shown.name}: {_stops(plan, shown)}"),
+        *(("Not known", text) for text in _not_known(plan)),
+        ("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
+        ("Warnings", "; ".join(plan.found.warnings) or "none"),
+    ]
+    return "\n".join(
+        [plan.drive.title, row("Lives", lives), *_table(plan), *(row(label, text) for label, text in rows)]
+    )
+
+
+def _table(plan: DrivePlan) -> list[str]:
+    """Return parts, stops and cost of every rule in 1000 h, in columns."""
+    sprockets = [name for name in plan.lives if name != CHAIN]
+    columns = [[CHAIN], *([name] for name in sprockets)]
+    heads = [CHAIN, *sprockets]
+    if len(sprockets) > _MAX_COLUMNS:
+        columns, heads = [[CHAIN], sprockets], [CHAIN, "sprockets"]
+    lines = [["in 1000 h", "stops", *heads, *(["cost"] if plan.rules[0].cost is not None else [])]]
+    rules = plan.rules
+    if len(rules) > _MAX_RULES:
+        rules = (*rules[:_FIRST], rules[-1])
+    for rule in rules:
+        counts = [
+            _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
+            for names in columns
+        ]
+        cost = [] if rule.cost is None else [_limited(_PER * rule.cost, bool(rule.at_most))]
+        lines.append([rule.name, _limited(_PER * rule.stop_rate, rule.stops_at_most), *counts, *cost])
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  "
+        + "  ".join(
+            [f"{cells[0]:<{widths[0]}}"]
+            + [f"{cell:>{width}}" for cell, width in zip(cells[1:], widths[1:], strict=True)]
+        )
+        for cells in lines
+    ]
+
+
+def _limited(value: float, at_most: bool) -> str:
+    return f"<= {grouped(value)}" if at_most else grouped(value)
+
+
+def _cheapest(plan: DrivePlan) -> list[tuple[str, str]]:
+    best = plan.cheapest
+    if best is None:
+        if plan.rules[0].cost is not None:
+            return []
+        return [("Cost", "not known without maintenance.chain_price and a price of every sprocket")]
+    rule = plan.rules[best[0]]
+    assert rule.cost is not None
+    most = "at most " if rule.at_most else ""
+    text = f"{rule.name}, {most}{grouped(_PER * rule.cost)} in 1000 h"
+    certain = "" if best[1] else ", as far as is known: a longer run may name another"
+    return [("Cheapest", text + certain)]
+
+
+def _intervals(plan: DrivePlan) -> list[str]:
+    """Say with which chain a sprocket is replaced where it goes with a chain change."""
+    chain = plan.lives[CHAIN]
+    if isinstance(chain, LowerBound):
+        return []
+    texts = []
+    for name, life in plan.lives.items():
+        chains = chains_in_life(life.hours_run, chain.hours)
+        later = " or later" if isinstance(life, LowerBound) else ""
+        if name != CHAIN:
+            with_chain = "every chain" if chains == 1 else f"every {chains} chains"
+            texts.append(f"{name} with {with_chain}{later}" if chains else f"{name} before its chain")
+    return [f"with a chain change: {', '.join(texts)}"]
+
+
+def _stops(plan: DrivePlan, rule: ReplacementRule) -> str:
+    texts = []
+    for stop in rule.schedule[:_MAX_STOPS]:
+        day = service_measures(plan.drive.driver.case.inputs, stop.hours).get("date")
+        when = f"{grouped(stop.hours)} h" + (f" ({day})" if day else "")
+        texts.append(f"{when} {', '.join(stop.parts)}")
+    text = "; ".join(texts)
+    if len(rule.schedule) > _MAX_STOPS:
+        return f"{text}; and so on"
+    outlived = [life.hours_run for name, life in plan.lives.items() if name in rule.at_most]
+    return f"{text or 'none'}; not known after {grouped(min(outlived))} h" if outlived else text
+
+
+def _not_known(plan: DrivePlan) -> list[str]:
+    outlived = [name for name, life in plan.lives.items() if isinstance(life, LowerBound)]
+    if not outlived:
+        return []
+    text = f"when to replace {', '.join(outlived)}: worn out in no run; a longer run.horizon_hours may tell"
+    if CHAIN in outlived:
+        text += ", and what goes with a chain change"
+    return [text]
