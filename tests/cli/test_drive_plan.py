@@ -324,7 +324,8 @@ def test_a_cassette_is_one_part(tmp_path):
 def test_cogs_of_a_cassette_share_a_line(cli, tmp_path):
     path = tmp_path / "cassette.toml"
     path.write_text(CASSETTE)
-    lines = cli("life", path, "--set", "run.horizon_hours=16000").out.splitlines()
+    done = cli("life", path, "--set", "run.horizon_hours=16000")
+    lines = done.out.splitlines()
     assert sum(line[2] != " " for line in lines[1:]) <= 12
     cassette = next(line for line in lines if line.startswith("  cassette "))
     assert cassette.startswith("  cassette   13T ")
