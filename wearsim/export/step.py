@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wearsim.geometry.outline import Outline
 from wearsim.geometry.outline_stretch import OutlineStretch
 from wearsim.geometry.profile_points import Vector
-from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape
+from wearsim.geometry.wheel_outline import State, WheelShape
 
 if TYPE_CHECKING:
     from build123d import Edge, Solid
@@ -30,7 +31,7 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     for shape in shapes:
         for state in states:
             (chain,) = shape.chains(state)
-            body = solid(chain, shape.width)
+            body = _with_hub(solid(chain.stretches, shape.width), shape)
             body.label = f"{shape.name} {state}"
             solids.append(body)
     stream = io.BytesIO()
@@ -39,13 +40,33 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     return stream.getvalue()
 
 
-def solid(chain: OutlineChain, width: float) -> "Solid":
+def solid(stretches: Sequence[OutlineStretch], width: float) -> "Solid":
     """Return an outline extruded along z."""
     from build123d import Face, Solid, Wire
     from build123d import Vector as Direction
 
-    edges = [edge for stretch in chain.stretches for edge in _edges(stretch)]
+    edges = [edge for stretch in stretches for edge in _edges(stretch)]
     return Solid.extrude(Face(Wire(edges)), Direction(0.0, 0.0, width))
+
+
+def _with_hub(body: "Solid", shape: WheelShape) -> "Solid":
+    """Return a wheel with its hub added above the face and its bore cut through both."""
+    from build123d import Pos, SkipClean
+
+    # Cleaning would join the edges of the teeth into longer ones.
+    with SkipClean():
+        if shape.hub_outline is not None:
+            hub = solid([_whole(shape.hub_outline)], shape.hub.hub_length)
+            body = body.fuse(Pos(Z=shape.width) * hub)
+        if shape.bore is not None:
+            body = body.cut(solid([_whole(shape.bore)], shape.width + shape.hub.hub_length))
+    return body
+
+
+def _whole(outline: Outline) -> OutlineStretch:
+    """Return a closed outline as one stretch."""
+    ends = np.concatenate([outline.vertices, outline.vertices[:1]])
+    return OutlineStretch("hub", ends, outline.bulges)
 
 
 def _edges(stretch: OutlineStretch) -> "list[Edge]":
