@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.geometry.outline import Outline
 from wearsim.geometry.outline_stretch import OutlineStretch
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.wheel_outline import State, WheelShape
@@ -51,22 +50,21 @@ def solid(stretches: Sequence[OutlineStretch], width: float) -> "Solid":
 
 def _with_hub(body: "Solid", shape: WheelShape) -> "Solid":
     """Return a wheel with its hub added above the face and its bore cut through both."""
-    from build123d import Pos, SkipClean
+    from build123d import Pos, SkipClean, Solid
 
+    hub, bore, (x, y) = shape.hub, shape.bore, shape.centre
+    length = shape.width + hub.hub_length
     # Cleaning would join the edges of the teeth into longer ones.
     with SkipClean():
-        if shape.hub_outline is not None:
-            hub = solid([_whole(shape.hub_outline)], shape.hub.hub_length)
-            body = body.fuse(Pos(Z=shape.width) * hub)
-        if shape.bore is not None:
-            body = body.cut(solid([_whole(shape.bore)], shape.width + shape.hub.hub_length))
+        if hub.hub_diameter:
+            cylinder = Solid.make_cylinder(0.5 * hub.hub_diameter, hub.hub_length)
+            body = body.fuse(Pos(x, y, shape.width) * cylinder)
+        if bore is not None and hub.keyway_width:
+            ends = np.concatenate([bore.vertices, bore.vertices[:1]])
+            body = body.cut(solid([OutlineStretch("bore", ends, bore.bulges)], length))
+        elif bore is not None:
+            body = body.cut(Pos(x, y, 0.0) * Solid.make_cylinder(0.5 * hub.bore, length))
     return body
-
-
-def _whole(outline: Outline) -> OutlineStretch:
-    """Return a closed outline as one stretch."""
-    ends = np.concatenate([outline.vertices, outline.vertices[:1]])
-    return OutlineStretch("hub", ends, outline.bulges)
 
 
 def _edges(stretch: OutlineStretch) -> "list[Edge]":
