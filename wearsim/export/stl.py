@@ -13,7 +13,6 @@ from wearsim.geometry.wheel_outline import State, WheelShape
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
-
 SURFACE_TOLERANCE = 1e-3
 """Distance [mm] of the surface of a wheel from its arcs and curves."""
 

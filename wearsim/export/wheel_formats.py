@@ -17,9 +17,9 @@ from wearsim.result import WearResult
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
     """Return the wheels of a case as the content of a file."""
     shapes = wheel_shapes(case, result)
-    _check_hubs(case, shapes, states)
     if form == "csv":
         return wheel_points(shapes, states).to_csv(index=False).encode()
+    _check_hubs(case, shapes, states)
     if form == "step":
         from wearsim.export.step import step_bytes
 

@@ -39,7 +39,7 @@ class Hub:
 
     @property
     def reach(self) -> float:
-        """Greatest distance from the axis of what is not cut from the plate [mm]."""
+        """Greatest distance of bore, keyway and hub from the axis [mm]."""
         return max(self.bore_reach, 0.5 * self.hub_diameter)
 
     @property
