@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
 
-_FORMATS = ("dxf", "svg", "csv", "step")
+_FORMATS = ("dxf", "svg", "csv", "step", "stl")
 _GAUGES = ("pdf", "svg", "dxf")
 
 _STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
@@ -54,7 +54,8 @@ def export(
     """Write the wheel of a case (.toml) or of a run (folder of life --out) for CAD.
 
     DXF and SVG hold outlines on layers of their own, circles and a note; CSV the points; STEP a
-    solid (pip install 'wearsim[step]'). A worn wheel of a case is worn first, until its limit.
+    solid (pip install 'wearsim[step]'), STL its surface. Bore, keyway and hub come from [sprocket].
+    A worn wheel of a case is worn first, until its limit.
     --template writes a gauge of the gap at the wear limit, with a bar to check the print.
     """
     if out is None and template is None:
@@ -70,6 +71,8 @@ def export(
     case, result = _loaded(source, settings)
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
+    if kind == "stl" and len(states) > 1:
+        raise click.UsageError("an STL file holds one state of the wheel: give --state new or --state worn")
     _check_shapes(case, kind)
     if result is None and ("worn" in states or template is not None):
         result = worn(case)
@@ -91,7 +94,7 @@ def _check_shapes(case: "Case", kind: str | None) -> None:
     from wearsim.report.worn_flank import wheel_shapes
 
     shapes = wheel_shapes(case, None)
-    if kind == "step" and not all(shape.new[0].rooted for shape in shapes):
+    if kind in ("step", "stl") and not all(shape.new[0].rooted for shape in shapes):
         message = (
             "the outline of both gears must be closed to be solids, but the case tells no root of their "
             "teeth: take --format dxf, svg or csv, which hold the flanks"

@@ -10,7 +10,7 @@ import numpy as np
 
 from wearsim.geometry.outline_stretch import OutlineStretch
 from wearsim.geometry.profile_points import Vector
-from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape
+from wearsim.geometry.wheel_outline import State, WheelShape
 
 if TYPE_CHECKING:
     from build123d import Edge, Solid
@@ -30,7 +30,7 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     for shape in shapes:
         for state in states:
             (chain,) = shape.chains(state)
-            body = solid(chain, shape.width)
+            body = _with_hub(solid(chain.stretches, shape.width), shape)
             body.label = f"{shape.name} {state}"
             solids.append(body)
     stream = io.BytesIO()
@@ -39,13 +39,32 @@ def step_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
     return stream.getvalue()
 
 
-def solid(chain: OutlineChain, width: float) -> "Solid":
+def solid(stretches: Sequence[OutlineStretch], width: float) -> "Solid":
     """Return an outline extruded along z."""
     from build123d import Face, Solid, Wire
     from build123d import Vector as Direction
 
-    edges = [edge for stretch in chain.stretches for edge in _edges(stretch)]
+    edges = [edge for stretch in stretches for edge in _edges(stretch)]
     return Solid.extrude(Face(Wire(edges)), Direction(0.0, 0.0, width))
+
+
+def _with_hub(body: "Solid", shape: WheelShape) -> "Solid":
+    """Return a wheel with its hub added above the face and its bore cut through both."""
+    from build123d import Pos, SkipClean, Solid
+
+    hub, bore, (x, y) = shape.hub, shape.bore, shape.centre
+    length = shape.width + hub.hub_length
+    # Cleaning would join the edges of the teeth into longer ones.
+    with SkipClean():
+        if hub.hub_diameter:
+            cylinder = Solid.make_cylinder(0.5 * hub.hub_diameter, hub.hub_length)
+            body = body.fuse(Pos(x, y, shape.width) * cylinder)
+        if bore is not None and hub.keyway_width:
+            ends = np.concatenate([bore.vertices, bore.vertices[:1]])
+            body = body.cut(solid([OutlineStretch("bore", ends, bore.bulges)], length))
+        elif bore is not None:
+            body = body.cut(Pos(x, y, 0.0) * Solid.make_cylinder(0.5 * hub.bore, length))
+    return body
 
 
 def _edges(stretch: OutlineStretch) -> "list[Edge]":

@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.export.dxf_writer import Layers
 from wearsim.geometry.outline import along_ways
-from wearsim.geometry.scene import Circle, Label, Scene, Shape, around, line
+from wearsim.geometry.scene import Circle, Label, Scene, Shape, Stroke, around, line
 from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape
 
 if TYPE_CHECKING:
@@ -24,6 +24,9 @@ _OTHERS: Layers = {
     "centre": (8, 13, "CENTER"),
     "notes": (8, 13, "Continuous"),
 }
+_ABOUT_THE_AXIS: Layers = {"bore": (7, 25, "Continuous"), "hub": (7, 25, "Continuous")}
+"""Both are seen: the hub lies on the side of the face that is drawn."""
+
 _CROSS = 0.05
 _LETTERS = 0.015
 _LINE = 1.7
@@ -42,6 +45,9 @@ def wheel_scene(
             layers[role] = _STATES[state]
             drawn += [chain.stroke(role) for chain in shape.chains(state)]
     for shape in shapes:
+        drawn += _about_the_axis(shape)
+    layers |= {shape.role: _ABOUT_THE_AXIS[shape.role] for shape in drawn if shape.role in _ABOUT_THE_AXIS}
+    for shape in shapes:
         drawn += _axes(shape)
     # A tenth of the largest radius is left free.
     free = 0.1 * max(shape.tip_radius for shape in shapes)
@@ -52,6 +58,19 @@ def wheel_scene(
     below = _LINE * (len(lines) + 1) * letters
     low, size = (math.floor(left), math.floor(bottom - below)), (math.ceil(width), math.ceil(height + below))
     return Scene((*low, size[0] + 1, size[1] + 1), tuple(drawn)), {**layers, **_OTHERS}
+
+
+def _about_the_axis(shape: WheelShape) -> list[Shape]:
+    """Bore, a whole circle where it has no keyway, and hub."""
+    hub, bore = shape.hub, shape.bore
+    found: list[Shape] = []
+    if bore is not None and hub.keyway_width:
+        found.append(Stroke("bore", bore.vertices, bore.bulges.tolist(), closed=True))
+    elif bore is not None:
+        found.append(Circle("bore", shape.centre, 0.5 * hub.bore))
+    if hub.hub_diameter:
+        found.append(Circle("hub", shape.centre, 0.5 * hub.hub_diameter))
+    return found
 
 
 def _axes(shape: WheelShape) -> list[Shape]:

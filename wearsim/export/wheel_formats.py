@@ -1,19 +1,17 @@
 """Wheels of a case or run in the formats of CAD."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
 from wearsim.export.printed_page import drawing_bytes
 from wearsim.export.wheel_drawing import wheel_points, wheel_scene
+from wearsim.geometry.hub import NO_HUB
 from wearsim.geometry.wheel_outline import State, WheelShape
 from wearsim.quantities import grouped
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
-
-if TYPE_CHECKING:
-    pass
 
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
@@ -21,12 +19,33 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
     shapes = wheel_shapes(case, result)
     if form == "csv":
         return wheel_points(shapes, states).to_csv(index=False).encode()
+    _check_hubs(case, shapes, states)
     if form == "step":
         from wearsim.export.step import step_bytes
 
         return step_bytes(shapes, states)
+    if form == "stl":
+        from wearsim.export.stl import stl_bytes
+
+        (state,) = states
+        return stl_bytes(shapes, state)
     scene, layers = wheel_scene(shapes, states, wheel_note(case, result, shapes, states))
     return drawing_bytes(scene, layers, form)
+
+
+def _check_hubs(case: Case, shapes: Sequence[WheelShape], states: Sequence[State]) -> None:
+    """Raise where the gaps are worn down to the bore or to the hub."""
+    for shape in shapes:
+        if "worn" not in states or shape.hub == NO_HUB:
+            continue
+        root = min(space.root_radius for space in set(shape.worn))
+        if shape.hub.reach >= root:
+            key = "hub_diameter_mm" if shape.hub.hub_diameter else "bore_mm"
+            message = (
+                f"must stay below the root diameter of the worn gaps, {2.0 * root:.5g} mm, but reaches to "
+                f"{2.0 * shape.hub.reach:.5g} mm: give a smaller one, or --state new"
+            )
+            raise CaseError([Fault(message, f"sprocket.{key}", case.name)])
 
 
 def wheel_note(

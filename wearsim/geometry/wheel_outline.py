@@ -13,12 +13,16 @@ from typing import Literal
 import numpy as np
 import shapely
 
-from wearsim.geometry.outline import Outline, along_ways
+from wearsim.geometry.hub import NO_HUB, Hub, circle
+from wearsim.geometry.outline import Outline, along_ways, rotated
 from wearsim.geometry.outline_stretch import APART, OutlineStretch, along_points, arc_about_axis, line
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Stroke
 
 State = Literal["new", "worn"]
+
+_ROOT_TOLERANCE = 1e-6
+"""Distance of chords from their arcs [mm] where the root is looked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +32,15 @@ class ToothSpace:
     right: tuple[OutlineStretch, ...]  # from the tip on the right on
     left: tuple[OutlineStretch, ...]  # to the tip on the left
     rooted: bool = True  # whether `left` starts where `right` ends; else the root is not known
+
+    @property
+    def root_radius(self) -> float:
+        """Least distance from the axis [mm]."""
+        axis, found = shapely.Point(0.0, 0.0), []
+        for part in (*self.right, *self.left):
+            points, _ = along_ways(part.vertices[:-1], part.vertices[1:], part.bulges, _ROOT_TOLERANCE)
+            found.append(shapely.LineString([*points, part.vertices[-1]]).distance(axis))
+        return float(min(found))
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,11 +176,27 @@ class WheelShape:
     turn: float = 0.0  # angle by which the first space is turned from +y counterclockwise [rad]
     centre: tuple[float, float] = (0.0, 0.0)  # where the axis lies [mm]
     worn_most: int = 0  # index of a space that is worn most
+    hub: Hub = NO_HUB  # bore, keyway and hub
 
     def chains(self, state: State) -> tuple[OutlineChain, ...]:
         """Return the outline in one state, where it lies in the drawing."""
         spaces = self.new if state == "new" else self.worn
         return tuple(chain.moved(self.centre) for chain in ring(spaces, self.turn))
+
+    @property
+    def bore(self) -> Outline | None:
+        """The bore with its keyway, where it lies in the drawing; None without one."""
+        return self._placed(self.hub.bore_outline)
+
+    @property
+    def hub_outline(self) -> Outline | None:
+        """The circle of the hub, where it lies in the drawing; None without one."""
+        return self._placed(circle(self.hub.hub_diameter) if self.hub.hub_diameter else None)
+
+    def _placed(self, outline: Outline | None) -> Outline | None:
+        if outline is None:
+            return None
+        return replace(outline, vertices=rotated(outline.vertices, self.turn) + self.centre)
 
     def sketched(self, role: str, fineness: float = 5e-3) -> Stroke:
         """Return the new outline by a few chords, which deviate by a part of the pitch."""

@@ -173,6 +173,11 @@ class SprocketTable(Table):
     contact_end_mm: Positive | None = None
     back_flank: Literal["relieved", "mirrored"] = "relieved"
     nodes: Annotated[int, Field(ge=11, le=20001)] | None = None
+    bore_mm: Positive | None = None
+    keyway_width_mm: Positive | None = None
+    keyway_depth_mm: Positive | None = None
+    hub_diameter_mm: Positive | None = None
+    hub_length_mm: Positive | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -1,9 +1,11 @@
 """From the tables of a sprocket on a straight strand to its drive."""
 
 import math
+from functools import partial
 
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block
 from wearsim.case.table_inputs import (
     FLANK_NODES,
@@ -15,6 +17,7 @@ from wearsim.case.table_inputs import (
 )
 from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
+from wearsim.geometry.blank import tooth_space
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.mechanisms.strand.drive import StrandDrive
@@ -45,12 +48,15 @@ def strand_drive(
         if table.profile == "evolute"
         else points_tooth(case, table, chain, centrode, nodes)
     )
+    hub = hub_input(
+        case, table, None if tooth_and_range is None else partial(tooth_space, tooth_and_range[0])
+    )
     if tooth_and_range is None or blocks is None:
         return None
     tooth, contact_end, contact_start = tooth_and_range
     fraction = slip_fraction(case)
     evolute = table.profile == "evolute"
-    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain, evolute)
+    return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain, evolute, hub)
 
 
 def _blocks(

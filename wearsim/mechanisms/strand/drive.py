@@ -9,6 +9,7 @@ from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space
+from wearsim.geometry.hub import NO_HUB, Hub
 from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.tooth import Tooth
@@ -30,6 +31,7 @@ class StrandDrive(Drive):
     slip_fraction: float  # sliding as a fraction of that of a roller that does not turn
     chain: Chain
     evolute: bool  # whether the flank is an evolute profile, so that its evolute is known exactly
+    hub: Hub = NO_HUB  # bore, keyway and hub
 
     has_tooth = True
 

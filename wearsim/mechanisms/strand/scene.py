@@ -39,10 +39,10 @@ def strand_wheel(
     notes = (
         "seat and tip are arcs, the tip about the axis; back flank and seat do not wear",
         worn_alike(every),
+        *drive.hub.notes,
     )
-    return WheelShape(
-        "sprocket", (new,) * tooth.teeth, worn, tooth.strand.centrode_radius, drive.face_width, notes
-    )
+    radius = tooth.strand.centrode_radius
+    return WheelShape("sprocket", (new,) * tooth.teeth, worn, radius, drive.face_width, notes, hub=drive.hub)
 
 
 def strand_scene(drive: "StrandDrive", engaged_every: int) -> Scene:

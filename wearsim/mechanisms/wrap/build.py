@@ -5,6 +5,7 @@ from functools import partial
 
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.case.table_inputs import effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
@@ -13,6 +14,7 @@ from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_w
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
+from wearsim.geometry.blank import gap_space
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable, JointTable
@@ -54,7 +56,9 @@ def wrapped_drive(
     given = tables.drive or DriveTable()
     layout = laid_out(case, chain, given, place) if place else _layout(case, chain, given)
     shape = gap_shape(case, table, chain)
-    if layout is None or shape is None or duty is None or faults.count > before:
+    sound = faults.count == before
+    hub = hub_input(case, table, None if shape is None else partial(gap_space, shape.outline, shape.gap))
+    if layout is None or shape is None or duty is None or not sound:
         return None
     driver = table.role != "driven"
     if isinstance(layout, LoopLayout):
@@ -107,6 +111,7 @@ def wrapped_drive(
         ),
         chain=chain,
         joint_friction=_joint_friction(case),
+        hub=hub,
     )
 
 

@@ -19,6 +19,7 @@ from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
 from wearsim.geometry.gap import Gap
+from wearsim.geometry.hub import NO_HUB, Hub
 from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, roller_path
 from wearsim.geometry.scene import Scene, Stroke
@@ -100,6 +101,7 @@ class WrapDrive(Drive):
     chain: Chain
     joint_friction: float | None = None  # coefficient of friction of pin and bush, where the case has one
     time_share: float = 1.0  # part of the time in which the chain runs on this sprocket, of several cogs
+    hub: Hub = NO_HUB  # bore, keyway and hub
 
     rests = True
     has_tooth = True

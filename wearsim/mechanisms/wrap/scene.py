@@ -40,9 +40,15 @@ def wrap_wheel(
             notes.append("gaps that meet inner links and gaps that meet outer ones in turn")
         else:
             notes.append(worn_alike(math.gcd(drive.gaps, engaged_every)))
-    radius = 0.5 * drive.layout.pitch / math.sin(0.5 * drive.pitch_angle)
     return WheelShape(
-        "sprocket", (new,) * drive.gaps, worn, radius, drive.face_width, tuple(notes), worn_most=worn_most
+        name="sprocket",
+        new=(new,) * drive.gaps,
+        worn=worn,
+        pitch_radius=0.5 * drive.layout.pitch / math.sin(0.5 * drive.pitch_angle),
+        width=drive.face_width,
+        notes=(*notes, *drive.hub.notes),
+        worn_most=worn_most,
+        hub=drive.hub,
     )
 
 
