@@ -238,15 +238,10 @@ class PlaceTable(Table):
     price: PositiveNumber | None = None
     wear: WearTable | None = None
     material: MaterialTable | None = None
-    bore_mm: Positive | None = None
-    keyway_width_mm: Positive | None = None
-    keyway_depth_mm: Positive | None = None
-    hub_diameter_mm: Positive | None = None
-    hub_length_mm: Positive | None = None
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        found = self._hub_conflicts()
+        found = []
         if self.position_mm is not None and len(self.position_mm) != 2:
             found.append(("position_mm", f"must be x and y of the centre (got {list(self.position_mm)})"))
         found += [
@@ -262,32 +257,6 @@ class PlaceTable(Table):
         if self.cog and not all_differ([cog.teeth for cog in self.cog]):
             found.append(("cog", "cogs must have different teeth: put those of the same into one"))
         return found
-
-    def _hub_conflicts(self) -> list[tuple[str, str]]:
-        found = []
-        keyway = {key: getattr(self, key) for key in ("keyway_width_mm", "keyway_depth_mm")}
-        if self.bore_mm is None:
-            found += [
-                (key, "a keyway lies in a bore: give bore_mm, or remove this")
-                for key, value in keyway.items()
-                if value is not None
-            ]
-        else:
-            if self.keyway_width_mm is not None and not self.keyway_width_mm < self.bore_mm:
-                message = f"must be below the bore of {self.bore_mm:g} mm (got {self.keyway_width_mm:g})"
-                found.append(("keyway_width_mm", message))
-            if self.hub_diameter_mm is not None and not self.reach < self.hub_diameter_mm:
-                what = "bore" if self.keyway_depth_mm is None else "bore with its keyway"
-                message = f"must be above the {what}, {self.reach:g} mm (got {self.hub_diameter_mm:g})"
-                found.append(("hub_diameter_mm", message))
-        if self.hub_length_mm is not None and self.hub_diameter_mm is None:
-            found.append(("hub_length_mm", "a hub needs hub_diameter_mm too: give it, or remove this"))
-        return found
-
-    @property
-    def reach(self) -> float:
-        """Diameter of the circle that bore and keyway lie in [mm], 0 without a bore."""
-        return (self.bore_mm or 0.0) + 2.0 * (self.keyway_depth_mm or 0.0)
 
 
 class PlacedSprocketTable(PlaceTable, SprocketTable):

@@ -165,30 +165,12 @@ def _sprockets(
             ]
             case = _case(document, running, shares, number, seen)
             if case is not None:
-                _check_hub(document, wheel, number, case)
                 name = f"{wheel.name} {teeth}T" if wheel.cogs else wheel.name
                 found.append(DriveSprocket(name, wheel.role, case))
     place = next((place for place, wheel in enumerate(wheels) if wheel.cogs), None)
     if place is None or document.faults.count:
         return found
     return _sharing_time(found, wheels[place], place)
-
-
-def _check_hub(document: Document, wheel: DriveWheel, number: int, case: Case) -> None:
-    """Name a bore or a hub that would cut into the teeth, of a cassette into those of the smallest cog."""
-    assert isinstance(case.drive, WrapDrive)
-    if case.drive.gaps > min((teeth for teeth, _ in wheel.cogs), default=case.drive.gaps):
-        return
-    root, place = case.drive.root_diameter, wheel.place
-    outer = (
-        ("hub_diameter_mm", place.hub_diameter_mm or 0.0),
-        ("keyway_depth_mm" if place.keyway_depth_mm else "bore_mm", place.reach),
-    )
-    for key, diameter in outer:
-        if diameter >= root:
-            message = f"must stay below the root diameter of {case.drive.gaps} teeth, {root:.2f} mm"
-            document.faults.add(f"sprocket.{number + 1}.{key}", f"{message} (reaches {diameter:g})")
-            return
 
 
 def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: int) -> list[DriveSprocket]:

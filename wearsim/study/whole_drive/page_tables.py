@@ -64,7 +64,6 @@ def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:
 
 def geometry_table(drive: DriveCase) -> PageTable:
     """Return the sizes of all sprockets, each cog of a cassette for itself."""
-    wheels = wheel_of(drive)
     head = [
         "sprocket",
         "role",
@@ -76,17 +75,17 @@ def geometry_table(drive: DriveCase) -> PageTable:
         "wrap",
         "in mesh",
     ]
-    hubs = [key for key in _HUB if any(getattr(wheel.place, key) for wheel in drive.wheels)]
-    rows = [(*_sizes(one), *(_given(wheels[one.name], key) for key in hubs)) for one in drive.sprockets]
+    hubs = [key for key in _HUB if any(getattr(one.drive.hub, key) for one in drive.sprockets)]
+    rows = [(*_sizes(one), *(_given(one, key) for key in hubs)) for one in drive.sprockets]
     return PageTable("Sprockets, mm and degrees", (*head, *(_HUB[key] for key in hubs)), tuple(rows), (0, 1))
 
 
 _HUB = {
-    "bore_mm": "bore",
-    "keyway_width_mm": "keyway width",
-    "keyway_depth_mm": "keyway depth",
-    "hub_diameter_mm": "hub dia.",
-    "hub_length_mm": "hub length",
+    "bore": "bore",
+    "keyway_width": "keyway width",
+    "keyway_depth": "keyway depth",
+    "hub_diameter": "hub dia.",
+    "hub_length": "hub length",
 }
 
 
@@ -104,9 +103,9 @@ def _sizes(one: DriveSprocket) -> tuple[str, ...]:
     )
 
 
-def _given(wheel: DriveWheel, key: str) -> str:
-    value = getattr(wheel.place, key)
-    return "-" if value is None else f"{value:g}"
+def _given(one: DriveSprocket, key: str) -> str:
+    value: float = getattr(one.drive.hub, key)
+    return f"{value:g}" if value else "-"
 
 
 def chain_rows(drive: DriveCase) -> list[tuple[str, str]]:
