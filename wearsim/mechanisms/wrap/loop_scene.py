@@ -93,7 +93,7 @@ def chain_path(loop: ChainLoop) -> Vector:
     >>> loop = ChainLoop(10.0, (Wheel("driver", (0.0, 0.0), 20), Wheel("driven", (300.0, 0.0), 20)))
     >>> path = chain_path(loop)
     >>> steps = np.hypot(*np.diff(path, axis=0, append=path[:1]).T)
-    >>> abs(steps.sum() / loop.circle_length - 1.0) < 1e-3
+    >>> bool(abs(steps.sum() / loop.circle_length - 1.0) < 1e-3)
     True
     """
     parts = []
