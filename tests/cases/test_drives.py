@@ -51,11 +51,6 @@ def test_each_is_complete_without_warnings_of_its_own(name: str) -> None:
         assert not sprocket.case.warnings, (name, sprocket.name)
 
 
-def test_a_loop_runs_on_few_points() -> None:
-    drive = load_drive(PATHS["camshaft-loop"], [f"sprocket.{number}.nodes=61" for number in range(1, 5)])
-    _lives_as_practice_has_it(drive_life(drive), "camshaft-loop")
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PATHS)
 def test_parts_live_as_practice_has_it(name: str) -> None:
