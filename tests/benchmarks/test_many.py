@@ -51,7 +51,7 @@ def best_of(rounds, run):
 @pytest.mark.parametrize(("nodes", "tolerance"), [(200, 1e-2), (401, 1e-4)])
 def test_threads(benchmark, cases, nodes, tolerance):
     given = list(cases(nodes, tolerance, LIVES))
-    rounds, found = 5 if nodes == 200 else 2, {}
+    rounds, found = 5 if nodes == 200 else 1, {}
     for threads in (1, 2):
         found[threads] = best_of(rounds, lambda n=threads: deque(wearsim.simulate_many(given, n), 0))
     few = given[::100]
