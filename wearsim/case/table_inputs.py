@@ -1,5 +1,6 @@
 """What cases of all kinds complete alike: materials, wear law, fatigue and how the life is calculated."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -193,6 +194,19 @@ def effective_pull(block: GivenLoad, speed: float, lever: float) -> float:
     if block.kind == "power_kW":
         return 1e6 * block.value / speed
     return 1e3 * block.value / lever
+
+
+def chain_speed(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
+    """Return the speed of the chain in a block [mm/s]."""
+    table = case.tables.sprocket
+    assert table is not None
+    return chain.pitch * table.teeth * block.speed_rpm / (60.0 * table.engaged_every)
+
+
+def chain_pull(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
+    """Return the force that the load of a block asks of a chain round the sprocket [N]."""
+    speed = chain_speed(case, chain, block)
+    return effective_pull(block, speed, 60.0 * speed / (2.0 * math.pi * block.speed_rpm))
 
 
 def within_strength(case: ChainRecord, pull: float, chain: Chain, key: str) -> bool:

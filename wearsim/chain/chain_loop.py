@@ -9,6 +9,7 @@ Spans are tangents of the pitch circles. On a wheel the chain counts z pitches a
 (pi/z)/sin(pi/z). How the length changes while a tooth passes, since links are a polygon, is left out.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -107,6 +108,11 @@ class ChainLoop:
     def pitch_radii(self) -> Floats:
         """Radii of the circles through the joints [mm], shape (n,)."""
         return np.array([0.5 * pitch_diameter(self.chain_pitch, wheel.teeth) for wheel in self.wheels])
+
+    @property
+    def tip_radii(self) -> Floats:
+        """Radii of the tips [mm], shape (n,), with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1."""
+        return 0.5 * self.pitch * (0.6 + 1.0 / np.tan(math.pi / self.teeth))
 
     @property
     def mean_radii(self) -> Floats:

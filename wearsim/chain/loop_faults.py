@@ -39,7 +39,7 @@ def number_faults(loop: "ChainLoop") -> Iterator[str]:
 
 def overlap_faults(loop: "ChainLoop") -> Iterator[str]:
     """Yield the pairs of wheels whose tips overlap; all others have tangents."""
-    tips = 0.5 * loop.pitch * (0.6 + 1.0 / np.tan(math.pi / loop.teeth))
+    tips = loop.tip_radii
     for i, j in combinations(range(len(loop.wheels)), 2):
         distance, least = math.dist(loop.centres[i], loop.centres[j]), tips[i] + tips[j]
         if not distance >= least:

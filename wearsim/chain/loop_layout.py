@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
+from wearsim.chain.chain_length import even_links
 from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_forces import LoopForces, SpanLevel, inclination, loop_forces, looser_span
 from wearsim.chain.span_tension import catenary_tension
@@ -178,7 +179,7 @@ def loop_layout(drive: LoopDrive, links: int | None = None) -> LoopLayout:
                 continue
             return LoopLayout(drive, take_up.moved(drive.loop, travel), number, travel)
         raise refused[0]
-    number = links if links is not None else 2 * math.ceil(0.5 * fits - 1e-9)
+    number = links if links is not None else even_links(fits)
     layout = LoopLayout(drive, drive.loop, number, 0.0)
     loosest = looser_span(drive.loop, drive.shares)
     sag = layout.sag(loosest)

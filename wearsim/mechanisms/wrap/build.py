@@ -7,7 +7,7 @@ from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, WearInput, heaviest_block
-from wearsim.case.table_inputs import effective_pull, face_width, slip_fraction, within_strength
+from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
@@ -214,7 +214,7 @@ def _tensions(
     for load in duty.blocks:
         if load.power_share:
             case.faults.add(load.key, "a case of one sprocket has no others to share its power with")
-    slack = _slack(case, chain, layout, max(_pull(case, chain, load) for load in duty.rated))
+    slack = _slack(case, chain, layout, max(chain_pull(case, chain, load) for load in duty.rated))
     if slack is None:
         return None
     rated = [_block(case, chain, load, slack) for load in duty.rated]
@@ -252,12 +252,12 @@ def _range(values: list[float], digits: int) -> str:
 
 def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> WrapLoad:
     """Return a load with its tensions; that of a log is at least the slack one."""
-    pull = _pull(case, chain, load)
+    pull = chain_pull(case, chain, load)
     whole = pull if load.kind == "tension_N" else pull + slack
     tight = whole - (1.0 - load.part) * (whole - slack)
     if load.measured:
         tight = max(tight, slack)
-    centrifugal = centrifugal_tension(chain.mass_per_length, _speed(case, chain, load))
+    centrifugal = centrifugal_tension(chain.mass_per_length, chain_speed(case, chain, load))
     return WrapLoad(
         share=load.share,
         speed_rpm=load.speed_rpm,
@@ -277,18 +277,6 @@ def _fault_slack(case: ChainRecord, key: str, tight: float, slack: float) -> Non
     case.faults.add(
         key, f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)"
     )
-
-
-def _speed(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
-    """Return the speed of the chain in a block [mm/s]."""
-    table = case.tables.sprocket
-    assert table is not None
-    return chain.pitch * table.teeth * block.speed_rpm / (60.0 * table.engaged_every)
-
-
-def _pull(case: ChainRecord, chain: Chain, block: GivenLoad) -> float:
-    speed = _speed(case, chain, block)
-    return effective_pull(block, speed, 60.0 * speed / (2.0 * math.pi * block.speed_rpm))
 
 
 def _slack(case: ChainRecord, chain: Chain, layout: DriveLayout, pull: float) -> float | None:

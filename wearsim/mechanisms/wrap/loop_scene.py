@@ -37,7 +37,7 @@ def loop_scene(forces: LoopForces, roller_radius: float, worn: Sequence[Shape] =
         Which sprocket that is, -1 for none.
     """
     loop = forces.loop
-    tips = 0.5 * loop.pitch * (0.6 + 1.0 / np.tan(math.pi / loop.teeth))
+    tips = loop.tip_radii
     centres = [(float(x), float(y)) for x, y in loop.centres]
     box = around(
         [

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.table_inputs import effective_pull, within_strength
+from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.loop_forces import LoopForces, SpanLevel
@@ -200,15 +200,11 @@ def loop_loads(
 def _forces(
     case: ChainRecord, chain: Chain, layout: LoopLayout, load: GivenLoad, level: SpanLevel, table: DriveTable
 ) -> LoopForces:
-    sprocket = case.tables.sprocket
-    assert sprocket is not None
-    speed = chain.pitch * sprocket.teeth * load.speed_rpm / (60.0 * sprocket.engaged_every)
-    pull = effective_pull(load, speed, 60.0 * speed / (2.0 * math.pi * load.speed_rpm))
     return layout.forces(
-        load.part * pull,
+        load.part * chain_pull(case, chain, load),
         level,
         0.5 * chain.pin_diameter * (table.joint_friction or 0.0),
-        centrifugal_tension(chain.mass_per_length, speed),
+        centrifugal_tension(chain.mass_per_length, chain_speed(case, chain, load)),
         _shares(layout, load.power_share),
     )
 

@@ -32,8 +32,7 @@ def _lock(found: DriveLife, place: Path) -> str:
     """Return the input of a drive as TOML, its files beside it."""
     inputs: dict[str, Any] = copy.deepcopy(dict(found.drive.inputs))
     for number, (wheel, table) in enumerate(zip(found.drive.wheels, inputs["sprocket"], strict=True), 1):
-        name = f"{wheel.name} {wheel.cogs[0][0]}T" if wheel.cogs else wheel.name
-        own = found.results[name].input_files
+        own = found.results[wheel.parts[0]].input_files
         for key in _FILES:
             if key in table:
                 file = Path(table[key]).name

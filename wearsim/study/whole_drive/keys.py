@@ -10,7 +10,6 @@ from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
-from wearsim.input.units import convert
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
@@ -22,6 +21,7 @@ from wearsim.study.whole_drive.wheels import (
     check_block_shares,
     drive_wheels,
     place_of,
+    plain_number,
     power_shares,
 )
 
@@ -63,10 +63,6 @@ class DriveCase:
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""
         return next(one for one in self.sprockets if one.role == DRIVER)
-
-    def parts_of(self, wheel: DriveWheel) -> tuple[str, ...]:
-        """Return the names under which a sprocket is run: its own, or those of all cogs of a cassette."""
-        return tuple(f"{wheel.name} {teeth}T" for teeth, _ in wheel.cogs) or (wheel.name,)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -159,13 +155,13 @@ def _sprockets(
     seen: set[tuple[str, str]] = set()
     found = []
     for number, wheel in enumerate(wheels):
-        for teeth, _ in wheel.cogs or ((int(wheel.table["teeth"]), 1.0),):
+        all_teeth = [teeth for teeth, _ in wheel.cogs] or [int(wheel.table["teeth"])]
+        for name, teeth in zip(wheel.parts, all_teeth, strict=True):
             running = [
                 replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
             ]
             case = _case(document, running, shares, number, seen)
             if case is not None:
-                name = f"{wheel.name} {teeth}T" if wheel.cogs else wheel.name
                 found.append(DriveSprocket(name, wheel.role, case))
     place = next((place for place, wheel in enumerate(wheels) if wheel.cogs), None)
     if place is None or document.faults.count:
@@ -328,12 +324,7 @@ def _turned(load: Mapping[str, Any], ratio: float) -> dict[str, Any]:
     """Return a load of the driver as that of a sprocket that turns by ``ratio`` times its speed."""
     turned = dict(load)
     for key, unit, factor in (("speed_rpm", "rpm", ratio), ("torque_N_m", "N*m", 1.0 / ratio)):
-        value = load.get(key)
-        if isinstance(value, str):
-            try:
-                value = convert(value, unit)
-            except ValueError:
-                continue
-        if isinstance(value, int | float) and not isinstance(value, bool):
+        value = plain_number(load.get(key), unit)
+        if value is not None:
             turned[key] = value * factor
     return turned

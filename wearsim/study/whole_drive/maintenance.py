@@ -75,7 +75,7 @@ def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
     """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first."""
     lives = {CHAIN: found.chain}
     for wheel in found.drive.wheels:
-        cogs = [found.sprockets[name] for name in found.drive.parts_of(wheel)]
+        cogs = [found.sprockets[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
     return lives
 
@@ -86,7 +86,7 @@ def _prices(drive: DriveCase) -> Prices | None:
     prices = {
         wheel.name: price
         for wheel in drive.wheels
-        if (price := tables[drive.parts_of(wheel)[0]].sprocket_price) is not None
+        if (price := tables[wheel.parts[0]].sprocket_price) is not None
     }
     if first.chain_price is None or len(prices) < len(drive.wheels):
         return None

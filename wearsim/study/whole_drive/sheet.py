@@ -45,7 +45,7 @@ def _sprockets(found: DriveLife) -> list[tuple[str, str]]:
     """Return a row for each of few sprockets; of more, the cogs of a cassette share one, then all others."""
     if len(found.results) <= _MAX_ROWS:
         return _all_sprockets(found)
-    cogs = {wheel.name: found.drive.parts_of(wheel) for wheel in found.drive.wheels if wheel.cogs}
+    cogs = {wheel.name: wheel.parts for wheel in found.drive.wheels if wheel.cogs}
     in_cassette = {name for names in cogs.values() for name in names}
     single = [name for name in found.results if name not in in_cassette]
     together = [

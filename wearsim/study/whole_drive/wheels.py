@@ -51,6 +51,11 @@ class DriveWheel:
         return tuple((cog.teeth, cog.share_of_time) for cog in self.place.cog or ())
 
     @property
+    def parts(self) -> tuple[str, ...]:
+        """Names under which it is run: its own, or those of all cogs of a cassette."""
+        return tuple(f"{self.name} {teeth}T" for teeth, _ in self.cogs) or (self.name,)
+
+    @property
     def turning(self) -> float:
         """Joints that turn on it while the chain goes round, over the angle of one: 1/z, a mean over time."""
         if not self.cogs:
@@ -214,21 +219,29 @@ def _shares_by_torque(
 
 def _work_of_driver(load: Mapping[str, Any], rollers: float) -> float | None:
     """Return the work of the driver while the chain goes on by one pitch [N m]."""
-    values = {}
-    for key, unit in (("power_kW", "kW"), ("torque_N_m", "N*m"), ("speed_rpm", "rpm")):
-        value = load.get(key)
-        if isinstance(value, str):
-            try:
-                value = convert(value, unit)
-            except ValueError:
-                return None
-        if isinstance(value, int | float) and not isinstance(value, bool) and value > 0.0:
-            values[key] = float(value)
-    if "torque_N_m" in values:
-        return 2.0 * math.pi * values["torque_N_m"] / rollers
-    if {"power_kW", "speed_rpm"} <= values.keys():
-        return 6e4 * values["power_kW"] / (values["speed_rpm"] * rollers)
+    units = (("power_kW", "kW"), ("torque_N_m", "N*m"), ("speed_rpm", "rpm"))
+    power, torque, speed = (plain_number(load.get(key), unit) or 0.0 for key, unit in units)
+    if torque > 0.0:
+        return 2.0 * math.pi * torque / rollers
+    if power > 0.0 and speed > 0.0:
+        return 6e4 * power / (speed * rollers)
     return None
+
+
+def plain_number(value: object, unit: str) -> float | None:
+    """Return a number, or a text with a unit in another one; None where it is neither.
+
+    Examples
+    --------
+    >>> plain_number("2 kW", "kW"), plain_number(3, "kW"), plain_number("fast", "rpm")
+    (2.0, 3, None)
+    """
+    if isinstance(value, str):
+        try:
+            return convert(value, unit)
+        except ValueError:
+            return None
+    return value if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
 def check_block_shares(document: Document, wheels: Sequence[DriveWheel]) -> None:
