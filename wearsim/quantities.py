@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+DAYS_OF_YEAR = 365.25
+"""Mean length of a year."""
+
 
 @dataclass(frozen=True)
 class Quantity:

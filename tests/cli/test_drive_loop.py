@@ -9,79 +9,6 @@ import wearsim
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
 
-LOOP = """\
-format_version = 1
-[chain]
-designation = "08B-1"
-[[sprocket]]
-name = "motor"
-teeth = 17
-profile = "iso606"
-nodes = 61
-position_mm = [0, 0]
-[[sprocket]]
-name = "tensioner"
-role = "idler"
-teeth = 13
-profile = "iso606"
-nodes = 61
-position_mm = [62, 155]
-outside = true
-take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}
-[[sprocket]]
-name = "pump"
-teeth = 20
-profile = "iso606"
-nodes = 61
-position_mm = [200, 250]
-power_share = 0.7
-[[sprocket]]
-name = "fan"
-teeth = 25
-profile = "iso606"
-nodes = 61
-position_mm = [306, 0]
-power_share = 0.3
-[drive]
-links = 92
-[load]
-power_kW = 1.3
-speed_rpm = 300
-[wear]
-specific_wear_rate_mm2_per_N = 1e-9
-[joint]
-specific_wear_rate_mm2_per_N = 1e-9
-[run]
-life_tolerance = 0.1
-"""
-
-CASSETTE = """\
-format_version = 1
-[chain]
-designation = "08B-1"
-[[sprocket]]
-name = "ring"
-teeth = 38
-profile = "iso606"
-nodes = 61
-[[sprocket]]
-name = "cassette"
-profile = "iso606"
-nodes = 61
-cog = [{teeth = 13, share_of_time = 0.25}, {teeth = 17, share_of_time = 0.75}]
-[drive]
-links = 110
-[load]
-power_kW = 0.8
-speed_rpm = 100
-[wear]
-specific_wear_rate_mm2_per_N = 1e-9
-[joint]
-specific_wear_rate_mm2_per_N = 1e-9
-[run]
-life_tolerance = 0.1
-"""
-
 
 def checked(cli, tmp_path, text):
     path = tmp_path / "drive.toml"
@@ -91,8 +18,8 @@ def checked(cli, tmp_path, text):
     return json.loads(done.out)["layout"]
 
 
-def test_layout_and_forces_balance(cli, tmp_path):
-    found = checked(cli, tmp_path, LOOP)
+def test_layout_and_forces_balance(cli, tmp_path, loop):
+    found = checked(cli, tmp_path, loop)
     power = {one["name"]: one["power_kW"] for one in found["sprockets"]}
     heat = 1e-3 * found["friction_heat_W"]
     assert power["motor"] == pytest.approx(-power["pump"] - power["fan"] + heat, rel=1e-6)
@@ -123,8 +50,8 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("before", "after", "what"), CHANGES)
-def test_every_key_changes_something(cli, tmp_path, before, after, what):
-    changed = LOOP.replace(before, after).replace(
+def test_every_key_changes_something(cli, tmp_path, before, after, what, loop):
+    changed = loop.replace(before, after).replace(
         "power_share = 0.3", "power_share = 0.2" if "0.8" in after else "power_share = 0.3"
     )
     looks = {
@@ -133,21 +60,21 @@ def test_every_key_changes_something(cli, tmp_path, before, after, what):
         "places": lambda found: [one["x_mm"] for one in found["sprockets"]],
         "heat": lambda found: found["friction_heat_W"],
     }
-    first, then = (looks[what](checked(cli, tmp_path, text)) for text in (LOOP, changed))
+    first, then = (looks[what](checked(cli, tmp_path, text)) for text in (loop, changed))
     assert first != then
 
 
-def test_torques_in_place_of_shares(cli, tmp_path):
+def test_torques_in_place_of_shares(cli, tmp_path, loop):
     """The chain has the same power; what the joints of the idler lose is shared as the torques are."""
     torques = [1e3 * 1.3 * share / (math.pi * 10.0 * 17 / teeth) for share, teeth in ((0.7, 20), (0.3, 25))]
-    text = LOOP.replace("power_share = 0.7", f"torque_N_m = {torques[0]}")
+    text = loop.replace("power_share = 0.7", f"torque_N_m = {torques[0]}")
     text = text.replace("power_share = 0.3", f"torque_N_m = {torques[1]}")
-    by_share, by_torque = (checked(cli, tmp_path, one)["spans"] for one in (LOOP, text))
+    by_share, by_torque = (checked(cli, tmp_path, one)["spans"] for one in (loop, text))
     for one, other in zip(by_share, by_torque, strict=True):
         assert one["tension_N"] == pytest.approx(other["tension_N"], rel=1e-9)
 
 
-def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path):
+def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path, loop):
     duty = """\
 [[duty]]
 share_of_time = 0.5
@@ -160,16 +87,16 @@ speed_rpm = 300
 power_share = {pump = 0.1, fan = 0.9}
 """
     path = tmp_path / "duty.toml"
-    path.write_text(LOOP.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    path.write_text(loop.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
     pump = next(one for one in load_drive(path).sprockets if one.name == "pump").drive
     taken = [block.tension - block.slack for block in pump.blocks]
     assert taken[1] == pytest.approx(taken[0] / 7.0, rel=1e-9)
     assert [block.share for block in pump.blocks] == [0.5, 0.5]
 
 
-def test_all_sprockets_live_with_the_same_chain(tmp_path):
+def test_all_sprockets_live_with_the_same_chain(tmp_path, loop):
     path = tmp_path / "drive.toml"
-    path.write_text(LOOP)
+    path.write_text(loop)
     found = drive_life(load_drive(path))
     chains = [result.parts["chain"].hours for result in found.results.values()]
     assert chains == pytest.approx([chains[0]] * 4, rel=1e-9)
@@ -191,9 +118,9 @@ def test_all_sprockets_live_with_the_same_chain(tmp_path):
     assert len(set(lives.values())) == 4
 
 
-def test_cogs_share_the_time_and_the_chain(tmp_path):
+def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
     path = tmp_path / "drive.toml"
-    path.write_text(CASSETTE)
+    path.write_text(cassette)
     drive = load_drive(path)
     assert [one.name for one in drive.sprockets] == ["ring", "cassette 13T", "cassette 17T"]
     found = drive_life(drive)
@@ -244,10 +171,10 @@ def test_cogs_share_the_time_and_the_chain(tmp_path):
         ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be pulled"),
     ],
 )
-def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line, message):
+def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line, message, loop):
     path = tmp_path / "drive.toml"
-    assert before in LOOP
-    path.write_text(LOOP.replace(before, after))
+    assert before in loop
+    path.write_text(loop.replace(before, after))
     done = cli("check", path)
     assert done.code == 2, done.out
     assert message in done.err
@@ -256,8 +183,8 @@ def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line
     assert f"drive.toml:{line}: " in at
 
 
-def test_without_a_take_up_the_links_decide(cli, tmp_path):
-    fixed = LOOP.replace("take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}\n", "")
+def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
+    fixed = loop.replace("take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}\n", "")
     path = tmp_path / "drive.toml"
     path.write_text(fixed)
     done = cli("check", path)
@@ -271,7 +198,7 @@ def test_without_a_take_up_the_links_decide(cli, tmp_path):
     assert "without a take_up the links give the sag" in cli("check", path).err
 
 
-def test_cassettes_are_checked(cli, tmp_path):
+def test_cassettes_are_checked(cli, tmp_path, cassette):
     path = tmp_path / "drive.toml"
     for before, after, message in (
         ("share_of_time = 0.75", "share_of_time = 0.7", "share_of_time of all cogs must sum to 1 (got 0.95)"),
@@ -280,7 +207,7 @@ def test_cassettes_are_checked(cli, tmp_path):
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
         ("[run]", '[mechanism]\nkind = "strand"\n[run]', "the chain of a drive wraps its sprockets"),
     ):
-        path.write_text(CASSETTE.replace(before, after))
+        path.write_text(cassette.replace(before, after))
         done = cli("check", path)
         assert done.code == 2
         assert message in done.err

@@ -7,41 +7,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from wearsim.quantities import grouped
 from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.maintenance import part_lives
 from wearsim.study.whole_drive.plan import Prices, cheapest, replacement_rules
 
-DRIVE = """\
-format_version = 1
-[chain]
-designation = "08B-1"
-[[sprocket]]
-teeth = 17
-profile = "iso606"
-nodes = 61
-[[sprocket]]
-name = "roll"
-teeth = 20
-profile = "iso606"
-nodes = 61
-[drive]
-links = 110
-[load]
-power_kW = 1.3
-speed_rpm = 300
-[joint]
-specific_wear_rate_mm2_per_N = 3e-9
-[wear]
-specific_wear_rate_mm2_per_N = 1e-9
-[run]
-life_tolerance = 0.1
-[service]
-hours_per_day = 16
-start_date = "2027-01-04"
-"""
-
-PRICED = f"""{DRIVE}
+PRICES_OF_PARTS = """
 [maintenance]
 chain_price = 40
 sprocket_price = 100
@@ -49,36 +21,12 @@ downtime_hours = 2
 downtime_cost_per_hour = 30
 """
 
-CASSETTE = """\
-format_version = 1
-[chain]
-designation = "08B-1"
-[[sprocket]]
-name = "ring"
-teeth = 38
-profile = "iso606"
-nodes = 61
-[[sprocket]]
-name = "cassette"
-profile = "iso606"
-nodes = 61
-cog = [
+
+COGS = """
     {teeth = 13, share_of_time = 0.25},
     {teeth = 15, share_of_time = 0.25},
     {teeth = 17, share_of_time = 0.25},
     {teeth = 19, share_of_time = 0.25},
-]
-[drive]
-links = 110
-[load]
-power_kW = 0.8
-speed_rpm = 100
-[wear]
-specific_wear_rate_mm2_per_N = 1e-9
-[joint]
-specific_wear_rate_mm2_per_N = 1e-9
-[run]
-life_tolerance = 0.1
 """
 
 LIVES = {"driver": 2500.0, "roll": 10_000.0}
@@ -189,9 +137,18 @@ def test_without_the_life_of_the_chain_there_is_one_rule():
 
 
 @pytest.fixture
-def drive(tmp_path):
+def drive(tmp_path, two_sprockets):
     path = tmp_path / "drive.toml"
-    path.write_text(PRICED)
+    path.write_text(two_sprockets + PRICES_OF_PARTS)
+    return path
+
+
+@pytest.fixture
+def four_cogs(tmp_path, cassette):
+    path = tmp_path / "cassette.toml"
+    two = "{teeth = 13, share_of_time = 0.25}, {teeth = 17, share_of_time = 0.75}"
+    assert two in cassette
+    path.write_text(cassette.replace(two, COGS))
     return path
 
 
@@ -235,6 +192,28 @@ def test_text_json_and_files_agree(cli, drive, tmp_path):
     assert max(map(len, lines)) <= 100
 
 
+def test_the_answer_names_the_stops_of_the_cheapest_policy(cli, drive):
+    found = json.loads(cli("maintain", drive, "--json").out)
+    policy = found["policies"][found["cheapest"]]
+    text = " ".join(cli("life", drive).out.split())
+    first = text.split(" First ")[1].split(" Band ")[0]
+    for part in ("chain", "driver", "roll"):
+        stop = next(stop for stop in policy["schedule"] if part in stop["parts"])
+        assert f"{grouped(stop['hours'])} h" in first
+    assert first.startswith(f"replace the {policy['schedule'][0]['parts'][0]} at ")
+    # Free stops and dear sprockets: each part at its own end.
+    free = ("--set", "maintenance.downtime_hours=0.001", "--set", "maintenance.sprocket_price=5000")
+    text = " ".join(cli("life", drive, *free).out.split())
+    lives = {one["part"]: one["life_hours"] for one in found["parts"]}
+    assert f"then the sprocket 'driver' at {grouped(lives['driver'])} h" in text
+
+
+def test_a_day_of_toml_is_a_start_date(cli, drive):
+    text = cli("life", drive, "--set", "service.start_date=2027-01-04").out
+    assert text == cli("life", drive).out
+    assert "until 20" in text
+
+
 def test_a_sprocket_has_its_own_price(cli, drive):
     before, after = (
         json.loads(cli("maintain", drive, "--json", *more).out)
@@ -245,14 +224,14 @@ def test_a_sprocket_has_its_own_price(cli, drive):
     assert costs[1] - costs[0] == pytest.approx(1000.0 * 200.0 / life)
 
 
-def test_own_prices_need_no_common_one(cli, tmp_path):
+def test_own_prices_need_no_common_one(cli, tmp_path, two_sprockets):
     path = tmp_path / "drive.toml"
-    text = PRICED.replace("sprocket_price = 100\n", "")
+    text = (two_sprockets + PRICES_OF_PARTS).replace("sprocket_price = 100\n", "")
     path.write_text(text.replace("nodes = 61\n", "nodes = 61\nprice = 100\n"))
     assert cli("check", path).code == 0
     path.write_text(text.replace("nodes = 61\n[drive]", "nodes = 61\nprice = 100\n[drive]"))
     assert "the cost needs sprocket_price too" in cli("check", path).err
-    path.write_text(DRIVE.replace("nodes = 61\n[drive]", "nodes = 61\nprice = 100\n[drive]"))
+    path.write_text(two_sprockets.replace("nodes = 61\n[drive]", "nodes = 61\nprice = 100\n[drive]"))
     done = cli("check", path)
     assert done.code == 2
     assert "drive.toml:13: sprocket.2.price: the cost needs maintenance.chain_price too" in done.err
@@ -279,9 +258,9 @@ def test_what_the_run_did_not_reach_is_a_bound(cli, drive):
     assert "each part at its own end: none; not known after 2 000 h" in nothing
 
 
-def test_without_prices_no_cost_is_printed(cli, tmp_path):
+def test_without_prices_no_cost_is_printed(cli, tmp_path, two_sprockets):
     path = tmp_path / "drive.toml"
-    path.write_text(DRIVE)
+    path.write_text(two_sprockets)
     done = cli("maintain", path)
     assert done.code == 0
     assert "  Cost       not known without maintenance.chain_price and a price of every sprocket" in done.out
@@ -293,7 +272,6 @@ def test_keys_of_one_sprocket_are_refused(cli, drive, setting):
     done = cli("maintain", drive, "--set", f"maintenance.{setting}")
     assert done.code == 2
     assert f"maintenance.{setting.split('=')[0]}: is for the case of one sprocket" in done.err
-    assert cli("check", drive, "--set", f"maintenance.{setting}").code == 0
 
 
 def test_no_sprocket_is_called_chain(cli, drive):
@@ -302,9 +280,7 @@ def test_no_sprocket_is_called_chain(cli, drive):
     assert "the chain is a part of its own" in done.err
 
 
-def test_a_cassette_is_one_part(tmp_path):
-    path = tmp_path / "cassette.toml"
-    path.write_text(CASSETTE)
+def test_a_cassette_is_one_part(four_cogs):
     sprockets = {
         "ring": LowerBound(1.0, 9000.0),
         "cassette 13T": Life(1.0, 5000.0),
@@ -312,7 +288,7 @@ def test_a_cassette_is_one_part(tmp_path):
         "cassette 17T": LowerBound(1.0, 9000.0),
         "cassette 19T": LowerBound(1.0, 9000.0),
     }
-    found = SimpleNamespace(drive=load_drive(path), chain=Life(1.0, 7000.0), sprockets=sprockets)
+    found = SimpleNamespace(drive=load_drive(four_cogs), chain=Life(1.0, 7000.0), sprockets=sprockets)
     lives = part_lives(found)
     assert {name: (type(life), life.hours_run) for name, life in lives.items()} == {
         "chain": (Life, 7000.0),
@@ -321,16 +297,14 @@ def test_a_cassette_is_one_part(tmp_path):
     }
 
 
-def test_cogs_of_a_cassette_share_a_line(cli, tmp_path):
-    path = tmp_path / "cassette.toml"
-    path.write_text(CASSETTE)
-    done = cli("life", path, "--set", "run.horizon_hours=16000")
+def test_cogs_of_a_cassette_share_a_line(cli, four_cogs):
+    done = cli("life", four_cogs, "--set", "run.horizon_hours=16000")
     lines = done.out.splitlines()
     assert sum(line[2] != " " for line in lines[1:]) <= 12
     cassette = next(line for line in lines if line.startswith("  cassette "))
     assert cassette.startswith("  cassette   13T ")
     assert cassette.endswith("17T > 16 000 h, 19T > 16 000 h: 13T dies first")
-    assert " ".join(done.out.split()).endswith(f"Next wearsim report {path} --out sheet.html")
+    assert " ".join(done.out.split()).endswith(f"Next wearsim report {four_cogs} --out sheet.html")
 
 
 def test_explain_prints_what_is_counted(cli, drive):

@@ -14,44 +14,10 @@ from wearsim.report.service import service_measures
 from wearsim.result import Life
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.layout import layout_json
+from wearsim.study.whole_drive.maintenance import drive_plan
 from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.replacement_plan import plan_hours, replacements
+from wearsim.study.whole_drive.plan_sheet import plan_json
 from wearsim.study.whole_drive.report_page import SheetHead, save_sheet, sheet_html
-
-DRIVE = """\
-format_version = 1
-[chain]
-designation = "08B-1"
-[[sprocket]]
-teeth = 17
-profile = "iso606"
-nodes = 61
-bore_mm = 20
-keyway_width_mm = 6
-keyway_depth_mm = 2.8
-hub_diameter_mm = 45
-hub_length_mm = 28
-[[sprocket]]
-name = "roll <1>"
-teeth = 20
-profile = "iso606"
-nodes = 61
-bore_mm = 25
-[drive]
-links = 110
-[load]
-power_kW = 1.3
-speed_rpm = 300
-[joint]
-specific_wear_rate_mm2_per_N = 4e-8
-[wear]
-specific_wear_rate_mm2_per_N = 2e-8
-[run]
-life_tolerance = 0.1
-[service]
-hours_per_day = 16
-start_date = "2027-01-04"
-"""
 
 LOOP = """\
 format_version = 1
@@ -90,15 +56,33 @@ life_tolerance = 0.1
 """
 
 
+DRIVER = """\
+nodes = 61
+bore_mm = 20
+keyway_width_mm = 6
+keyway_depth_mm = 2.8
+hub_diameter_mm = 45
+hub_length_mm = 28
+"""
+
+
+@pytest.fixture(scope="session")
+def bored(two_sprockets):
+    """Text of the drive of two sprockets with bores, one with a keyway and a hub, that wears fast."""
+    text = two_sprockets.replace("nodes = 61\n", DRIVER, 1).replace('"roll"', '"roll <1>"')
+    text = text.replace("nodes = 61\n[drive]", "nodes = 61\nbore_mm = 25\n[drive]")
+    return text.replace("= 1e-8", "= 4e-8").replace("= 5e-9", "= 2e-8")
+
+
 def written(path, text):
     path.write_text(text)
     return path
 
 
 @pytest.fixture(scope="module")
-def lived(tmp_path_factory):
+def lived(tmp_path_factory, bored):
     """The drive of two sprockets, worn."""
-    return drive_life(load_drive(written(tmp_path_factory.mktemp("drive") / "drive.toml", DRIVE)))
+    return drive_life(load_drive(written(tmp_path_factory.mktemp("drive") / "drive.toml", bored)))
 
 
 HEAD = SheetHead(date(2026, 11, 24), "Line 4", "A. Author", "D-17")
@@ -214,7 +198,7 @@ def test_lives_are_on_one_clock_with_dates(lived, page):
     assert list(rows) == list(lived.parts)
     for name, life in lived.parts.items():
         assert rows[name][1] == hours(life)
-        measures = service_measures(lived.drive.inputs, life.hours_run)
+        measures = service_measures(lived.drive.driver.case.inputs, life.hours_run)
         assert rows[name][3:5] == [grouped(measures["days"]), measures["date"]]
         assert measures["date"] == str(date(2027, 1, 4) + timedelta(days=int(life.hours_run / 16)))
     low, high = (grouped(end.hours_run) for end in lived.band(lived.first))
@@ -223,26 +207,34 @@ def test_lives_are_on_one_clock_with_dates(lived, page):
 
 
 def test_the_plan_ends_with_the_third_chain(lived, page):
+    """Each sprocket goes with the last chain change before its end, as `wearsim maintain` has it."""
     chain = lived.chain.hours
-    plan = replacements(lived)
-    assert plan_hours(lived) == 3 * chain
-    assert [row.hours for row in plan if "chain" in row.parts] == pytest.approx(
-        [chain, 2 * chain, 3 * chain], rel=1e-12
-    )
+    expected = {number * chain: ["chain"] for number in (1, 2, 3)}
     for name, life in lived.sprockets.items():
-        count = int(3 * chain / life.hours) if isinstance(life, Life) else 0
-        assert sum(name in row.parts for row in plan) == count
-    rows = tables(page)["Replacements"][1:]
-    assert [row[0] for row in rows] == [f"{grouped(row.hours)} h" for row in plan]
-    assert [row[3] for row in rows] == [", ".join(row.parts) for row in plan]
-    assert rows[0][-1] == "chain 1 comes off, chain 2 goes on"
+        chains = int(life.hours_run / chain)
+        for number in range(chains, 4, chains) if isinstance(life, Life) else ():
+            expected[number * chain].append(name)
+    assert [row[1:] for row in tables(page)["Replacements"][1:]] == [
+        [grouped(days := at / 16.0), str(date(2027, 1, 4) + timedelta(int(days))), ", ".join(parts), str(i)]
+        for i, (at, parts) in enumerate(expected.items(), start=1)
+    ]
+    (policy,) = (
+        one for one in plan_json(drive_plan(lived))["policies"] if one["policy"].startswith("sprockets with")
+    )
+    assert [(one["hours"], one["parts"]) for one in policy["schedule"]][:3] == [
+        (pytest.approx(at), parts) for at, parts in expected.items()
+    ]
+    assert 'By the rule "sprockets with a chain change"' in unescape(page)
 
 
 def test_ten_years_end_a_plan_of_long_lives(lived):
-    inputs = {**lived.drive.inputs, "service": {"hours_per_day": 1e-4 * lived.chain.hours}}
-    longer = replace(lived, drive=replace(lived.drive, inputs=inputs))
-    assert plan_hours(longer) == pytest.approx(0.36525 * lived.chain.hours)
-    assert replacements(longer) == ()
+    driver = lived.drive.driver
+    inputs = {**driver.case.inputs, "service": {"hours_per_day": 1e-4 * lived.chain.hours}}
+    others = [one for one in lived.drive.sprockets if one is not driver]
+    slow = replace(driver, case=replace(driver.case, inputs=inputs))
+    longer = replace(lived, drive=replace(lived.drive, sprockets=(slow, *others)))
+    assert drive_plan(longer).until == pytest.approx(0.36525 * lived.chain.hours)
+    assert drive_plan(longer).stops == ()
     assert "Nothing by then" in sheet_html(longer, HEAD)
 
 
@@ -297,8 +289,8 @@ def test_a_folder_holds_one_page(lived, tmp_path):
     assert (out / "index.html").read_text(encoding="utf-8") == sheet_html(lived, HEAD)
 
 
-def test_what_does_not_fit_is_refused(cli, drive, tmp_path):
-    path, out = written(tmp_path / "two.toml", DRIVE), tmp_path / "out"
+def test_what_does_not_fit_is_refused(cli, drive, tmp_path, bored):
+    path, out = written(tmp_path / "two.toml", bored), tmp_path / "out"
     for option in (["--single-file"], ["--detail", "brief"]):
         done = cli("report", path, "--out", out, *option)
         assert done.code == 2 and "a drive with [[sprocket]] takes neither" in done.err
@@ -331,16 +323,16 @@ def test_what_does_not_fit_is_refused(cli, drive, tmp_path):
         ("bore_mm = 25", "bore_mm = 73", 18, "below the root diameter of the gaps, 72.589 mm (got 73)"),
     ],
 )
-def test_bad_bores_are_named_with_their_line(cli, tmp_path, before, after, line, message):
-    path = written(tmp_path / "drive.toml", DRIVE.replace(before, after, 1))
+def test_bad_bores_are_named_with_their_line(cli, tmp_path, before, after, line, message, bored):
+    path = written(tmp_path / "drive.toml", bored.replace(before, after, 1))
     done = cli("check", path)
     assert done.code == 2
     assert f"drive.toml:{line}: " in done.err
     assert message in done.err
 
 
-def test_a_keyway_that_cuts_the_teeth_is_named(cli, tmp_path):
-    text = DRIVE.replace("bore_mm = 25", "bore_mm = 70\nkeyway_width_mm = 10\nkeyway_depth_mm = 1.4")
+def test_a_keyway_that_cuts_the_teeth_is_named(cli, tmp_path, bored):
+    text = bored.replace("bore_mm = 25", "bore_mm = 70\nkeyway_width_mm = 10\nkeyway_depth_mm = 1.4")
     done = cli("check", written(tmp_path / "drive.toml", text))
     assert "sprocket.2.keyway_depth_mm: the corners of the keyway must lie" in done.err
 

@@ -13,6 +13,7 @@ from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
 from wearsim.chain.service_conditions import LUBRICATIONS, SHIFTS, SHOCKS, plain_word, service_conditions
 from wearsim.command.complete import complete_chain
 from wearsim.errors import CaseError, Fault
+from wearsim.quantities import DAYS_OF_YEAR
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -28,9 +29,6 @@ _MOST_JOINT_FACTOR = 3.0
 _TOO_HARD = "\n# It is above 3, where handbooks ask for another drive."
 _COLUMN = 32
 """Width of a line of the case before its comment."""
-
-_DAYS = 365.25
-"""Days of a year."""
 
 _WHY = {
     "hardened, oiled": "hardened teeth, and oil on teeth and joints at all times.",
@@ -382,7 +380,7 @@ def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -
         "why": _WHY[condition],
         "condition": condition,
         "hours": values["hours_per_day"],
-        "horizon": SERVICE_YEARS * _DAYS * values["hours_per_day"],
+        "horizon": SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"],
         "years": SERVICE_YEARS,
         "elongation": case.inputs["stop"]["elongation_percent"],
     }

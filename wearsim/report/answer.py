@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import RatingFinding
-from wearsim.quantities import grouped
+from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.service import service_measures
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
@@ -29,7 +29,6 @@ _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
 _AT_END = "at the end of the life"
-_DAYS_OF_YEAR = 365.25
 
 _LEAST_AREA = 1e-10
 """Area that is lost in the digits of the points of a flank [mm2]."""
@@ -233,7 +232,7 @@ def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: flo
 def _measure(name: str, value: float | str) -> str:
     if isinstance(value, str):
         return f"until {value}"
-    if name == "days" and value >= _DAYS_OF_YEAR:
+    if name == "days" and value >= DAYS_OF_YEAR:
         return years_and_months(value)
     return f"{grouped(value)} {name}"
 
@@ -246,7 +245,7 @@ def years_and_months(days: float) -> str:
     >>> years_and_months(2082.0), years_and_months(366.0), years_and_months(729.0)
     ('5 years 8 months', '1 year', '2 years')
     """
-    years, months = divmod(round(12.0 * days / _DAYS_OF_YEAR), 12)
+    years, months = divmod(round(12.0 * days / DAYS_OF_YEAR), 12)
     counted = {"year": years, "month": months}
     return " ".join(f"{n} {unit}{'' if n == 1 else 's'}" for unit, n in counted.items() if n)
 

@@ -79,13 +79,12 @@ def live(
 def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | None, force: bool) -> None:
     """Print when to replace the parts of a drive and what that costs; with ``out`` write it too."""
     from wearsim.files import check_folder
-    from wearsim.study.whole_drive.maintenance import check_plan_keys, drive_plan
+    from wearsim.study.whole_drive.maintenance import drive_plan
     from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text, save_plan
 
     drive = _loaded(path, settings, as_json)
     try:
-        check_plan_keys(path, settings)
         if out is not None:
             check_folder(out, force)
         with working(f"wearing {drive.title}") as report_progress:

@@ -13,6 +13,7 @@ from wearsim.input.faults import Faults
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
+from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.study.whole_drive.wheels import (
     DRIVEN,
     DRIVER,
@@ -29,6 +30,13 @@ _GIVEN_BY_WHEELS = "mate_teeth"
 
 SERVICE_YEARS, LONGEST = 100.0, 1e6
 """Years of service, and hours, after which the runs of a drive end that gives no horizon."""
+
+_OF_ONE_SPROCKET = {
+    "turn_sprocket": "is for the case of one sprocket: a drive is planned without turning: remove it",
+    "replace_at_percent": "is for the case of one sprocket: the chain of a drive goes at "
+    "stop.elongation_percent: remove it",
+}
+"""Keys of [maintenance] that a drive has no use for."""
 
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
@@ -107,6 +115,9 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
 
 def _check_tables(document: Document) -> None:
     drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
+    for key, message in _OF_ONE_SPROCKET.items():
+        if _table(document.data, "maintenance").get(key):
+            document.faults.add(f"maintenance.{key}", message)
     kind = _table(document.data, "mechanism").get("kind", "wrap")
     if kind != "wrap":
         message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
@@ -284,7 +295,7 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     run, service = _table(data, "run"), _table(data, "service")
     hours_per_day = service.get("hours_per_day")
     if isinstance(hours_per_day, int | float) and 0.0 < hours_per_day <= 24.0:
-        run = {"horizon_hours": min(LONGEST, SERVICE_YEARS * 365.25 * hours_per_day), **run}
+        run = {"horizon_hours": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * hours_per_day), **run}
     tables: dict[str, Any] = {
         **{key: value for key, value in data.items() if key != "title"},
         "run": run,

@@ -1,14 +1,23 @@
-"""The plan of a drive: which part is replaced when, from its lives and the prices of [maintenance]."""
+"""The plan of a drive, the only one: which part is replaced when, from its lives and the prices given."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from wearsim.input.document import CaseSource, read_document
 from wearsim.input.schema import MaintenanceTable
+from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import DriveCase
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.plan import Prices, ReplacementRule, cheapest, replacement_rules
+from wearsim.study.whole_drive.plan import (
+    SAME,
+    STOPS,
+    Prices,
+    ReplacementRule,
+    Stop,
+    cheapest,
+    replacement_rules,
+)
 
 CONVENTIONS = (
     "a new chain and a new sprocket live as long as the first ones",
@@ -17,11 +26,8 @@ CONVENTIONS = (
 )
 OF_A_CASSETTE = "a cassette is one part: it is replaced when its first cog is worn"
 
-_OF_ONE_SPROCKET = {
-    "turn_sprocket": "is for the case of one sprocket: a drive is planned without turning: remove it",
-    "replace_at_percent": "is for the case of one sprocket: the chain of a drive goes at "
-    "stop.elongation_percent: remove it",
-}
+CHAINS, YEARS = 3, 10.0
+"""The stops that are shown end with this chain or after these years in service, whichever is sooner."""
 
 
 @dataclass(frozen=True)
@@ -43,20 +49,70 @@ class DrivePlan:
         return cheapest(list(self.rules))
 
     @property
+    def best(self) -> ReplacementRule:
+        """The cheapest rule; without prices that of sprockets with a chain change, if the chain ends."""
+        found = self.cheapest
+        return self.rules[min(1, len(self.rules) - 1) if found is None else found[0]]
+
+    @property
+    def ends(self) -> dict[str, float]:
+        """Hours in which the stops that are shown can end, by what they are."""
+        ends, chain = {}, self.lives[CHAIN]
+        if isinstance(chain, Life):
+            ends[f"{CHAINS} chains"] = CHAINS * chain.hours
+        service = self.drive.driver.case.inputs.get("service") or {}
+        if "hours_per_day" in service:
+            ends[f"{YEARS:g} years"] = YEARS * DAYS_OF_YEAR * service["hours_per_day"]
+        if self.best.at_most:
+            ends["all that the runs cover"] = self._outlived
+        return ends
+
+    @property
+    def until(self) -> float:
+        """Hours in which the stops that are shown end."""
+        return min(self.ends.values())
+
+    @property
+    def _outlived(self) -> float:
+        """Hours of the shortest run that did not wear out its part."""
+        return min((self.lives[name].hours_run for name in self.best.at_most), default=math.inf)
+
+    @property
+    def known(self) -> float:
+        """Hours up to which all stops of the best rule are known."""
+        schedule = self.best.schedule
+        return min(self._outlived, schedule[-1].hours if len(schedule) == STOPS else math.inf)
+
+    @property
+    def first_stops(self) -> list[Stop]:
+        """Stops in which a part is replaced for the first time."""
+        stops: dict[float, list[str]] = {}
+        for name, hours in sorted(self.best.first.items(), key=lambda item: item[1]):
+            if name not in self.best.at_most:
+                stops.setdefault(hours, []).append(name)
+        return [Stop(hours, tuple(names)) for hours, names in stops.items()]
+
+    @property
+    def stops(self) -> tuple[Stop, ...]:
+        """Stops of the best rule until then, of many the first ones."""
+        return tuple(stop for stop in self.best.schedule if stop.hours <= self.until * (1.0 + SAME))
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether there are more of them until then."""
+        return len(self.stops) == STOPS and self.stops[-1].hours < self.until * (1.0 - SAME)
+
+    def chain_at(self, hours: float) -> int:
+        """Return the number of the chain that is replaced at a time, 0 where none is."""
+        chains = hours / self.best.every[CHAIN]
+        ends = CHAIN not in self.best.at_most and abs(chains - round(chains)) <= SAME * chains
+        return round(chains) if ends else 0
+
+    @property
     def conventions(self) -> tuple[str, ...]:
         """How parts, stops and cost are counted."""
         cassette = any(wheel.cogs for wheel in self.drive.wheels)
         return (*CONVENTIONS, *((OF_A_CASSETTE,) if cassette else ()))
-
-
-def check_plan_keys(source: CaseSource, settings: tuple[str, ...]) -> None:
-    """Refuse the keys of [maintenance] that a whole drive has no use for."""
-    document = read_document(source, settings)
-    table = document.data.get("maintenance")
-    for key, message in _OF_ONE_SPROCKET.items():
-        if isinstance(table, dict) and table.get(key):
-            document.faults.add(f"maintenance.{key}", message)
-    document.faults.check()
 
 
 def drive_plan(found: DriveLife) -> DrivePlan:

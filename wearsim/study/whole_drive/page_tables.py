@@ -14,13 +14,10 @@ from wearsim.report.service import service_measures
 from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 from wearsim.study.whole_drive.layout import layout_json
+from wearsim.study.whole_drive.maintenance import DrivePlan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.replacement_plan import Replacement, replacements
 from wearsim.study.whole_drive.sheet import sprocket_ending
 from wearsim.study.whole_drive.wheels import DriveWheel
-
-MOST_ROWS = 24
-"""Rows of the plan that are shown."""
 
 
 @dataclass(frozen=True)
@@ -245,7 +242,7 @@ def life_table(found: DriveLife) -> PageTable:
 
 
 def _measures(found: DriveLife, at: float) -> dict[str, float | str]:
-    return service_measures(found.drive.inputs, at)
+    return service_measures(found.drive.driver.case.inputs, at)
 
 
 def _measured(found: DriveLife, life: Life | LowerBound, measure: str) -> str:
@@ -276,28 +273,17 @@ def _ends(found: DriveLife, name: str, life: Life | LowerBound) -> str:
     return f"{text}, chain {chains}" if chains > 1 else text
 
 
-def plan_table(found: DriveLife) -> tuple[PageTable, int]:
-    """Return what is replaced when, and how many rows more there are than shown."""
-    plan = replacements(found)
-    measures = list(_measures(found, found.life.hours_run))
+def plan_table(plan: DrivePlan) -> PageTable:
+    """Return what is replaced when by the best rule of a plan, and with which chain."""
+    measures = list(_measures(plan.found, plan.until))
     rows = tuple(
         (
-            f"{grouped(row.hours)} h",
-            *(_measured(found, Life(0.0, row.hours), measure) for measure in measures),
-            ", ".join(row.parts),
-            _with_the_chain(found, row),
+            f"{grouped(stop.hours)} h",
+            *(_measured(plan.found, Life(0.0, stop.hours), measure) for measure in measures),
+            ", ".join(stop.parts),
+            str(plan.chain_at(stop.hours) or "-"),
         )
-        for row in plan[:MOST_ROWS]
+        for stop in plan.stops
     )
-    head = ("at", *measures, "replace", "chain")
-    table = PageTable("Replacements", head, rows, (len(head) - 2, len(head) - 1))
-    return table, max(0, len(plan) - MOST_ROWS)
-
-
-def _with_the_chain(found: DriveLife, row: Replacement) -> str:
-    if CHAIN in row.parts:
-        return f"chain {row.chain} comes off, chain {row.chain + 1} goes on"
-    if not isinstance(found.chain, Life) or row.chain == 1:
-        return f"chain {row.chain} runs"
-    change = (row.chain - 1) * found.chain.hours
-    return f"chain {row.chain} runs; or with the change to it, at {grouped(change)} h"
+    head = ("at", *measures, "replace", "chain comes off")
+    return PageTable("Replacements", head, rows, (len(head) - 2,))

@@ -16,7 +16,7 @@ CHAIN = "chain"
 STOPS = 24
 """Stops of a schedule."""
 
-_SAME = 1e-9
+SAME = 1e-9
 """Relative difference below which two times are one."""
 
 _MOST_APART, _LONGEST_PERIOD = 100, 10_000
@@ -49,8 +49,9 @@ class ReplacementRule:
 
     name: str
     every: Mapping[str, float]  # hours from one replacement of a part to the next, their mean in the long run
+    first: Mapping[str, float]  # hours of the first replacement of a part
     stop_rate: float  # stops in an hour
-    schedule: tuple[Stop, ...]  # the first stops, as far as the run of a part that outlived it goes
+    schedule: tuple[Stop, ...]  # the first `STOPS`, as far as the run of a part that outlived it goes
     at_most: frozenset[str] = frozenset()  # parts that outlived their run: replaced so often at most
     stops_at_most: bool = False  # whether some stops are only for such parts
     cost: float | None = None  # in an hour, at most where a part outlived its run; None without prices
@@ -64,7 +65,7 @@ def cost_rate(rule: ReplacementRule, prices: Prices) -> float:
     --------
     A chain of 40 every 1000 h, a sprocket of 100 every 2500 h, 1.2 stops in 1000 h of 10 each:
 
-    >>> rule = ReplacementRule("own end", {"chain": 1000.0, "roll": 2500.0}, 0.0012, ())
+    >>> rule = ReplacementRule("own end", {"chain": 1000.0, "roll": 2500.0}, {}, 0.0012, ())
     >>> round(1000 * cost_rate(rule, Prices(40.0, {"roll": 100.0}, 10.0)), 9)
     92.0
     """
@@ -123,7 +124,7 @@ def cheapest(rules: list[ReplacementRule]) -> tuple[int, bool] | None:
         return None
     cost, number = min(costs)
     least = [rule.least_cost for i, rule in enumerate(rules) if i != number]
-    return number, all(other is not None and other >= cost * (1.0 - _SAME) for other in least)
+    return number, all(other is not None and other >= cost * (1.0 - SAME) for other in least)
 
 
 def chains_in_life(life: float, chain: float) -> int:
@@ -134,7 +135,7 @@ def chains_in_life(life: float, chain: float) -> int:
     >>> chains_in_life(2500.0, 1000.0), chains_in_life(3000.0, 1000.0), chains_in_life(900.0, 1000.0)
     (2, 3, 0)
     """
-    return math.floor(life / chain * (1.0 + _SAME))
+    return math.floor(life / chain * (1.0 + SAME))
 
 
 def _each_at_its_end(
@@ -143,6 +144,7 @@ def _each_at_its_end(
     every = {CHAIN: chain, **sprockets}
     return ReplacementRule(
         "each part at its own end",
+        every,
         every,
         _stop_rate(every.values()),
         _schedule(
@@ -163,15 +165,16 @@ def _with_chains(chain: float, sprockets: Mapping[str, float], outlived: frozens
             every[name] = chains * chain
         else:
             between[name] = life
-            every[name] = chain / math.ceil(chain / life * (1.0 - _SAME))
+            every[name] = chain / math.ceil(chain / life * (1.0 - SAME))
     within = [
         hours
         for name, life in between.items()
-        for hours, _ in itertools.takewhile(lambda end: end[0] < chain * (1.0 - _SAME), _ends(name, life))
+        for hours, _ in itertools.takewhile(lambda end: end[0] < chain * (1.0 - SAME), _ends(name, life))
     ]
     return ReplacementRule(
         "sprockets with a chain change",
         every,
+        {**every, **between},
         (1.0 + len(_distinct(within))) / chain,
         _schedule(
             (
@@ -205,7 +208,7 @@ def _together(chain: float, sprockets: Mapping[str, float]) -> list[ReplacementR
 def _all_every(name: str, chain: float, hours: float, sprockets: Mapping[str, float]) -> ReplacementRule:
     every = {CHAIN: chain, **dict.fromkeys(sprockets, hours)}
     return ReplacementRule(
-        name, every, 1.0 / chain, _schedule(_ends(part, one) for part, one in every.items())
+        name, every, every, 1.0 / chain, _schedule(_ends(part, one) for part, one in every.items())
     )
 
 
@@ -218,7 +221,7 @@ def _ends_within(name: str, life: float, chain: float) -> Iterator[tuple[float, 
     """Give the times at which a part is replaced that ends before its chain, and goes with it too."""
     for number in itertools.count():
         end = life
-        while end < chain * (1.0 - _SAME):
+        while end < chain * (1.0 - SAME):
             yield number * chain + end, name
             end += life
         yield (number + 1) * chain, name
@@ -233,7 +236,7 @@ def _schedule(ends: Iterable[Iterator[tuple[float, str]]], known: float = math.i
     """Return the first stops; parts that end at the same time share one, the chain first of them."""
     found: list[Stop] = []
     for hours, name in heapq.merge(*ends):
-        if found and hours - found[-1].hours <= _SAME * hours:
+        if found and hours - found[-1].hours <= SAME * hours:
             found[-1] = replace(found[-1], parts=(*found[-1].parts, name))
         elif len(found) == STOPS or hours > known:
             break
@@ -253,7 +256,7 @@ def _stop_rate(lives: Iterable[float]) -> float:
         longer = Fraction(
             math.lcm(period.numerator, ratio.numerator), math.gcd(period.denominator, ratio.denominator)
         )
-        if abs(ratio * shortest / life - 1.0) <= _SAME and longer <= _LONGEST_PERIOD:
+        if abs(ratio * shortest / life - 1.0) <= SAME and longer <= _LONGEST_PERIOD:
             together.append(ratio)
             period = longer
         else:
@@ -266,6 +269,6 @@ def _distinct(values: Iterable[float]) -> list[float]:
     """Return different values in their order, of those that are one only the least."""
     found: list[float] = []
     for value in sorted(values):
-        if not found or value > found[-1] * (1.0 + _SAME):
+        if not found or value > found[-1] * (1.0 + SAME):
             found.append(value)
     return found

@@ -95,12 +95,10 @@ def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
 def plan_text(plan: DrivePlan, source: str) -> str:
     """Return the plan as ``wearsim maintain`` prints it."""
     lives = ", ".join(f"{name} {hours(life).replace('> ', '>= ')}" for name, life in plan.lives.items())
-    best = plan.cheapest
-    shown = plan.rules[best[0]] if best else plan.rules[min(1, len(plan.rules) - 1)]
     rows = [
         *_cheapest(plan),
         *(("Intervals", text) for text in _intervals(plan)),
-        ("Stops", f"{shown.name}: {_stops(plan, shown)}"),
+        ("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
         *(("Not known", text) for text in _not_known(plan)),
         ("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
         ("Warnings", "; ".join(plan.found.warnings) or "none"),

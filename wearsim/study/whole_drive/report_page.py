@@ -23,6 +23,7 @@ from wearsim.result import WearResult
 from wearsim.study.whole_drive.keys import DriveCase
 from wearsim.study.whole_drive.layout import drive_forces, loop_names
 from wearsim.study.whole_drive.lives_bars import lives_bars
+from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import DriveLife
 from wearsim.study.whole_drive.page_tables import (
     PageTable,
@@ -37,7 +38,6 @@ from wearsim.study.whole_drive.page_tables import (
     span_table,
     wheel_of,
 )
-from wearsim.study.whole_drive.replacement_plan import plan_ends
 from wearsim.study.whole_drive.sheet import first_text, within_text
 
 _TEMPLATES = Path(__file__).parent / "templates"
@@ -98,7 +98,8 @@ class SheetPage:
     bars: Markup
     plan: PageTable
     plan_until: str
-    plan_more: int
+    plan_rule: str
+    plan_goes_on: bool
     flanks: list[FlankPicture]
     warnings: list[str]
     assumptions: list[str]
@@ -149,13 +150,13 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     drive = found.drive
     driver = found.results[drive.driver.name]
     ratings, notes = rating_table(found)
-    plan, more = plan_table(found)
+    plan = drive_plan(found)
     assumptions, defaults = _taken(found)
     return SheetPage(
         title=drive.title,
         head=head.rows,
         life=hours(found.life),
-        first=first_text(found),
+        first=first_text(plan),
         overloaded=overload_text(driver),
         within=within_text(driver),
         layout=_layout(drive),
@@ -168,10 +169,11 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         losses=loss_text(drive),
         lubrication=lubrication_rows(found),
         lives=life_table(found),
-        bars=lives_bars(found),
-        plan=plan,
-        plan_until=_plan_until(found),
-        plan_more=more,
+        bars=lives_bars(plan),
+        plan=plan_table(plan),
+        plan_until=_plan_until(plan),
+        plan_rule=plan.best.name,
+        plan_goes_on=plan.goes_on,
         flanks=[
             FlankPicture(_flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
@@ -182,8 +184,8 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     )
 
 
-def _plan_until(found: DriveLife) -> str:
-    what, end = min(plan_ends(found).items(), key=lambda item: item[1])
+def _plan_until(plan: DrivePlan) -> str:
+    what, end = min(plan.ends.items(), key=lambda item: item[1])
     return f"{grouped(end)} h, {what}"
 
 

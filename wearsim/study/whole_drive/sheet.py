@@ -10,13 +10,15 @@ from wearsim.report.service import service_keys
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
+from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
+from wearsim.study.whole_drive.plan import Stop
 
 _MAX_WARNINGS = 1
 _MAX_ROWS = 4
 """Sprockets with a row of their own; the cogs of a cassette share one where there are more."""
 _MAX_THEN = 2
-"""Parts that are named after the first one to be replaced."""
+"""Stops that are named after the first one."""
 
 
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
@@ -25,7 +27,7 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     rows = [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *(_all_sprockets(found) if explain else _sprockets(found)),
-        ("First", first_text(found)),
+        ("First", first_text(drive_plan(found))),
         ("Band", _band(found)),
         ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
         ("Worn most", _worn_most(found, explain)),
@@ -72,7 +74,7 @@ def _lives(found: DriveLife, names: Sequence[str], shown: Sequence[str]) -> str:
 def _part(found: DriveLife, name: str) -> str:
     life = found.parts[name]
     text = hours(life)
-    service = service_text(found.drive.inputs, life)
+    service = service_text(found.drive.driver.case.inputs, life)
     if service:
         text += f"   ({service})"
     if name == CHAIN:
@@ -97,21 +99,25 @@ def sprocket_ending(result: WearResult) -> str:
     return ending(result)
 
 
-def first_text(found: DriveLife) -> str:
-    """Return in words what is replaced first, and what then."""
-    if not found.first:
-        return f"nothing is to be replaced within {hours(found.life).lstrip('> ')}"
-    after = sorted(
-        (life.hours, name)
-        for name, life in found.parts.items()
-        if isinstance(life, Life) and name != found.first
-    )
-    text = f"replace the {part_name(found.first)} at {hours(found.life)}"
-    if found.first == CHAIN:
+def first_text(plan: DrivePlan) -> str:
+    """Return in words what is replaced first, and what then, by the best rule of a plan."""
+    stops = plan.first_stops
+    if not stops:
+        return f"nothing is to be replaced within {grouped(plan.until)} h"
+    first, *after = stops
+    text = f"replace {_parts_at(plan, first)}"
+    if first.parts == (CHAIN,):
         text += " and again after each such time"
-    then = ", ".join(f"the {part_name(name)} at {grouped(life)} h" for life, name in after[:_MAX_THEN])
+    then = ", ".join(_parts_at(plan, stop) for stop in after[:_MAX_THEN])
     more = f", and {len(after) - _MAX_THEN} more" if len(after) > _MAX_THEN else ""
     return f"{text}; then {then}{more}" if then else text
+
+
+def _parts_at(plan: DrivePlan, stop: Stop) -> str:
+    names = " and ".join(f"the {part_name(name)}" for name in stop.parts)
+    chain = plan.chain_at(stop.hours)
+    with_chain = f" with chain {chain}" if chain and CHAIN not in stop.parts else ""
+    return f"{names}{with_chain} at {grouped(stop.hours)} h"
 
 
 def part_name(name: str) -> str:
@@ -181,7 +187,7 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **life_keys("life_hours", found.life),
         "first": found.first or None,
         **life_keys("chain_life_hours", found.chain),
-        **service_keys(drive.inputs, found.life),
+        **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
         "sprockets": [
             {"name": name, **result.summary(), "chains": found.chains_with(name)}
