@@ -45,7 +45,11 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     document = read_document(source, overrides)
     check_command(document.data, document.faults.file, "life")
     if isinstance(document.data.get("sprocket"), list):
-        text = "must be one [sprocket] here: a drive with [[sprocket]] is for wearsim life and check only"
+        text = (
+            "must be one [sprocket] here: a whole drive, [[sprocket]] twice, is for wearsim check, life, "
+            "compare, report, maintain, sweep, loads, profile, export and animate: run one of these, or give "
+            "the case of one sprocket"
+        )
         document.faults.add("sprocket", text)
         document.faults.check()
     # Models of tables and of geometry take time to import: only those of one mechanism are.

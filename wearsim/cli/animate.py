@@ -6,7 +6,7 @@ import click
 
 from wearsim.command.cases_and_runs import results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.options import common_options, finite, overrides, working
+from wearsim.command.options import common_options, finite, overrides, sprocket_option, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 
@@ -49,6 +49,7 @@ _SHORTEST_S = 0.02
     help="Of the picture; its letters grow with it.",
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
+@sprocket_option
 @overrides
 @common_options
 def animate(
@@ -59,6 +60,7 @@ def animate(
     seconds: float,
     width: int,
     force: bool,
+    sprocket: str | None,
     settings: tuple[str, ...],
 ) -> None:
     """Show how the flank of a run (folder of life --out) or of a case (.toml, run now) wears.
@@ -74,8 +76,13 @@ def animate(
             f"--seconds: must leave every frame {_SHORTEST_S:g} s at least, {frames} frames "
             f"{_SHORTEST_S * frames:g} s (got {seconds:g}): give more seconds or fewer --frames"
         )
-    (result,) = results_of((source,), settings, False).values()
     from wearsim.report.animation import animation
+    from wearsim.study.whole_drive.command import is_drive, load_one
+
+    if sprocket is not None or is_drive(source):
+        result = worn(load_one(source, settings, sprocket))
+    else:
+        (result,) = results_of((source,), settings, False).values()
 
     with working(f"drawing {frames} frames"):
         content = animation(result, kind, frames, seconds, width)

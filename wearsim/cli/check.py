@@ -16,10 +16,10 @@ from wearsim.command.options import common_options, load_cases, overrides
 @common_options
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
-    from wearsim.study.whole_drive.command import alone, checked
+    from wearsim.study.whole_drive.command import are_drives, checked
 
-    if alone(cases):
-        checked(cases[0], settings, as_json)
+    if are_drives(cases):
+        checked(cases, settings, as_json)
         return
     loaded = load_cases(cases, settings, as_json)
     from wearsim.chain.selection import rating_warnings

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.cases_and_runs import check_settings
-from wearsim.command.options import common_options, load_cases, overrides, worn
+from wearsim.command.options import common_options, overrides, sprocket_option, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import CaseError, Fault, OutputError
 
@@ -40,6 +40,7 @@ _LONGER = 1000.0
     help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and put in between the teeth.",
 )
 @click.option("--force", is_flag=True, help="Replace the files.")
+@sprocket_option
 @overrides
 @common_options
 def export(
@@ -49,6 +50,7 @@ def export(
     state: str | None,
     template: Path | None,
     force: bool,
+    sprocket: str | None,
     settings: tuple[str, ...],
 ) -> None:
     """Write the wheel of a case (.toml) or of a run (folder of life --out) for CAD.
@@ -68,7 +70,7 @@ def export(
         from wearsim.extras import check_installed
 
         check_installed(("build123d",), "step", "--format step")
-    case, result = _loaded(source, settings)
+    case, result = _loaded(source, settings, sprocket)
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
     if kind == "stl" and len(states) > 1:
@@ -118,11 +120,14 @@ def _check_places(places: list[Path], source: Path, force: bool) -> None:
         raise OutputError(f"{places[0]}: must not be both --out and --template: choose two places")
 
 
-def _loaded(source: Path, settings: tuple[str, ...]) -> "tuple[Case, WearResult | None]":
+def _loaded(
+    source: Path, settings: tuple[str, ...], sprocket: str | None
+) -> "tuple[Case, WearResult | None]":
     """Return a case, and its run where the folder of one is given."""
-    if not source.is_dir():
-        (case,) = load_cases([source], settings, as_json=False)
-        return case, None
+    if not source.is_dir() or sprocket is not None:
+        from wearsim.study.whole_drive.command import load_one
+
+        return load_one(source, settings, sprocket), None
     check_settings([source], settings)
     from dataclasses import replace
 

@@ -83,7 +83,7 @@ def life(
 ) -> int:
     """Print how long the sprocket of each CASE (.toml) lives, and how sure that is.
 
-    A CASE with [[sprocket]] twice is a whole drive: chain and both sprockets on one clock.
+    A CASE with [[sprocket]] twice is a whole drive: chain and all sprockets on one clock.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
     flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases. That of a
@@ -91,14 +91,16 @@ def life(
     """
     if method is not None:
         settings = (*settings, f"run.method={method}")
-    if _is_drive(cases):
-        if parquet or xlsx or key or verify_grid:
+    if _are_drives(cases):
+        if parquet or key or verify_grid:
             raise click.UsageError(
-                "a drive with [[sprocket]] takes neither --parquet, --xlsx, --solve-for nor --verify-grid"
+                "a drive with [[sprocket]] takes neither --parquet, --solve-for nor --verify-grid"
             )
         from wearsim.study.whole_drive.command import live
 
-        return live(cases[0], settings, as_json, require_hours, strict, out, force, explain)
+        check_workbook(out, xlsx, force)
+        folders = _folders(cases, out, force)
+        return live(cases, settings, folders, xlsx, force, as_json, require_hours, strict, explain)
     if key is not None:
         if verify_grid or explain or strict or parquet or xlsx:
             raise click.UsageError(
@@ -136,10 +138,10 @@ def life(
     return NOT_MET if missed else 0
 
 
-def _is_drive(cases: tuple[Path, ...]) -> bool:
-    from wearsim.study.whole_drive.command import alone
+def _are_drives(cases: tuple[Path, ...]) -> bool:
+    from wearsim.study.whole_drive.command import are_drives
 
-    return alone(cases)
+    return are_drives(cases)
 
 
 def _solve(

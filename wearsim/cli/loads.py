@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, load_cases, overrides, warn
+from wearsim.command.options import common_options, finite, overrides, sprocket_option, warn
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
@@ -29,19 +29,34 @@ from wearsim.command.options import common_options, finite, load_cases, override
 )
 @click.option("--worst", is_flag=True, help="The phase with the largest force on a tooth.")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@sprocket_option
 @overrides
 @common_options
 def loads(
-    case: Path, elongation: float, phase: float | None, worst: bool, as_json: bool, settings: tuple[str, ...]
+    case: Path,
+    elongation: float,
+    phase: float | None,
+    worst: bool,
+    as_json: bool,
+    sprocket: str | None,
+    settings: tuple[str, ...],
 ) -> None:
-    """Print what the teeth of CASE carry; tooth 1 is at the tight end."""
+    """Print what the teeth of CASE carry; tooth 1 is at the tight end.
+
+    Of a whole drive, [[sprocket]] twice: its spans and shafts, then the teeth of every sprocket.
+    """
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
-    (loaded,) = load_cases([case], settings, as_json)
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
     from wearsim.report.loads_table import loads_json, loads_table
+    from wearsim.study.whole_drive.command import is_drive, load_one, loaded_teeth
 
-    found = tooth_loads(loaded, 0.01 * elongation, None if worst else 1.0 if phase is None else phase)
+    part = None if worst else 1.0 if phase is None else phase
+    if sprocket is None and is_drive(case):
+        loaded_teeth(case, settings, as_json, 0.01 * elongation, part)
+        return
+    loaded = load_one(case, settings, sprocket, as_json)
+    found = tooth_loads(loaded, 0.01 * elongation, part)
     if as_json:
         click.echo(json.dumps(loads_json(found), ensure_ascii=False, allow_nan=False))
     else:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, load_cases, overrides
+from wearsim.command.options import common_options, overrides, sprocket_option
 from wearsim.command.single_file import check_place
 
 
@@ -19,15 +19,16 @@ from wearsim.command.single_file import check_place
     help="New CSV file; - is stdout.",
 )
 @click.option("--force", is_flag=True, help="Replace the file.")
+@sprocket_option
 @overrides
 @common_options
-def profile(case: Path, out: Path, force: bool, settings: tuple[str, ...]) -> None:
+def profile(case: Path, out: Path, force: bool, sprocket: str | None, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
     check_place(out, case, force)
-    (loaded,) = load_cases([case], settings, as_json=False)
     from wearsim.report.flank_view import profile_table
+    from wearsim.study.whole_drive.command import load_one
 
-    text = profile_table(loaded).to_csv(index=False)
+    text = profile_table(load_one(case, settings, sprocket)).to_csv(index=False)
     if str(out) == "-":
         click.echo(text, nl=False)
     else:

@@ -52,15 +52,15 @@ def report(
     """
     from wearsim.extras import check_installed
     from wearsim.files import check_folder
-    from wearsim.study.whole_drive.command import alone
+    from wearsim.study.whole_drive.command import are_drives, report_sheet
 
-    if alone(sources):
+    if are_drives(sources):
+        if len(sources) > 1:
+            raise click.UsageError("a drive has a sheet of its own: run wearsim report for each")
         if single_file or detail != "full":
             raise click.UsageError(
                 "a drive with [[sprocket]] takes neither --single-file, as its page is one, nor --detail"
             )
-        from wearsim.study.whole_drive.command import report_sheet
-
         report_sheet(sources[0], settings, out, force, project, drawing, author)
         return 0
     if project or drawing or author:

@@ -55,6 +55,13 @@ def overrides(function: Function) -> Function:
     )(function)
 
 
+def sprocket_option(function: Function) -> Function:
+    """Add ``--sprocket``, for commands that are about one sprocket."""
+    return click.option(
+        "--sprocket", metavar="NAME", help="Which sprocket of a whole drive, a CASE with [[sprocket]] twice."
+    )(function)
+
+
 def warn(text: str) -> None:
     """Print a note on stderr unless ``-q`` was given."""
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):

@@ -68,7 +68,9 @@ def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
     workbook.check_workbook(xlsx, force)
 
 
-def write_workbook(results: "Mapping[Path, WearResult]", file: Path, force: bool) -> None:
+def write_workbook(
+    results: "Mapping[Path, WearResult] | Mapping[str, WearResult]", file: Path, force: bool
+) -> None:
     """Write results into a workbook, with titles that tell them apart, and say where it is."""
     from wearsim.report.comparison import distinct
     from wearsim.report.workbook import save_workbook

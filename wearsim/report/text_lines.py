@@ -7,20 +7,23 @@ from collections.abc import Collection, Iterable
 _WIDTH = 100
 _LABEL = 13
 
+_GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
+"""What sets thousands apart."""
+
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
 def row(label: str, text: str) -> str:
-    """Return one line of an answer, folded under its label."""
+    """Return one line of an answer, folded under its label, but not within a number."""
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
-        text,
+        _GROUP.sub("\u00a0", text),
         _WIDTH,
         initial_indent=lead,
         subsequent_indent=" " * _LABEL,
         break_on_hyphens=False,
         break_long_words=False,
-    )
+    ).replace("\u00a0", " ")
 
 
 def numbered_assumptions(assumptions: tuple[str, ...]) -> str:

@@ -1,21 +1,36 @@
-"""``wearsim life``, ``check``, ``maintain`` and ``report`` of a drive with all of its sprockets."""
+"""What commands do with a whole drive: with all of its sprockets, or with one of them."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.options import NOT_MET, error_json, print_json, warn, working
-from wearsim.errors import CaseError, WearsimError
+from wearsim.command.options import (
+    NOT_MET,
+    SOME_FAILED,
+    error_json,
+    exit_code,
+    load_cases,
+    print_json,
+    show_error,
+    warn,
+    working,
+)
+from wearsim.command.single_file import write_workbook
+from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.files import check_folder
 from wearsim.input.document import read_document
 from wearsim.result import Life
 
 if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.result import WearResult
     from wearsim.study.whole_drive.keys import DriveCase
+    from wearsim.study.whole_drive.model import DriveLife
 
 
 def is_drive(path: Path) -> bool:
@@ -26,46 +41,118 @@ def is_drive(path: Path) -> bool:
         return False
 
 
-def alone(cases: Sequence[Path]) -> bool:
-    """Tell whether the inputs are one whole drive; one among others is refused."""
+def are_drives(cases: Sequence[Path]) -> bool:
+    """Tell whether inputs are whole drives; a mixture is refused."""
     drives = [path for path in cases if is_drive(path)]
-    if drives and len(cases) > 1:
-        raise click.UsageError(f"{drives[0]} is a whole drive: give it alone")
+    if drives and len(drives) < len(cases):
+        other = next(path for path in cases if path not in drives)
+        raise click.UsageError(f"{drives[0]} is a whole drive, {other} is none: run them one after the other")
     return bool(drives)
 
 
+def load_one(path: Path, settings: Sequence[str], sprocket: str | None, as_json: bool = False) -> "Case":
+    """Return the case of an input, or of one sprocket where the input is a whole drive."""
+    if not is_drive(path):
+        if sprocket is not None:
+            raise click.UsageError(f"--sprocket belongs to a whole drive, but {path} is none: leave it out")
+        (case,) = load_cases([path], settings, as_json)
+        return case
+    drive = _loaded(path, settings, as_json)
+    cases = {one.name: one.case for one in drive.sprockets}
+    if sprocket not in cases:
+        got = "" if sprocket is None else f" (got {sprocket!r})"
+        names = ", ".join(map(repr, cases))
+        raise click.UsageError(f"{path} is a whole drive: give --sprocket, one of {names}{got}")
+    return replace(cases[sprocket], title=f"{drive.title}: {sprocket}")
+
+
+def loaded_teeth(
+    path: Path, settings: Sequence[str], as_json: bool, elongation: float, phase: float | None
+) -> None:
+    """Print what spans, shafts and all teeth of a drive carry."""
+    from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
+    from wearsim.report.loads_table import loads_json, loads_table
+    from wearsim.study.whole_drive.layout import layout_json, layout_text
+
+    drive = _loaded(path, settings, as_json)
+    teeth = {one.name: tooth_loads(one.case, elongation, phase) for one in drive.sprockets}
+    if as_json:
+        sprockets = [{"name": name, **loads_json(found)} for name, found in teeth.items()]
+        layout = layout_json(drive)
+        print_json({"schema_version": 1, "case": drive.name, "layout": layout, "sprockets": sprockets}, path)
+        return
+    click.echo(f"{drive.title}\n{layout_text(drive)}")
+    for name, found in teeth.items():
+        click.echo(loads_table(replace(found, title=name)))
+
+
 def live(
-    path: Path,
+    paths: Sequence[Path],
     settings: Sequence[str],
+    folders: Sequence[Path | None],
+    xlsx: Path | None,
+    force: bool,
     as_json: bool,
     hours: float | None,
     strict: bool,
-    out: Path | None = None,
-    force: bool = False,
-    explain: bool = False,
+    explain: bool,
 ) -> int:
-    """Print how long every part of a drive lives, and write its folder; return the exit code."""
+    """Print how long every part of some drives lives, and write their files; return the exit code."""
     from wearsim.study.whole_drive.folder import write_drive
-    from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.sheet import drive_json, drive_text
 
-    if out is not None:
-        check_folder(out, force)
-    drive = _loaded(path, settings, as_json)
-    try:
-        with working(f"wearing {drive.title}") as report_progress:
-            found = drive_life(drive, hours, report_progress)
-    except WearsimError as error:
-        if as_json:
-            click.echo(error_json(path.stem, error))
-        raise
-    if out is not None:
-        write_drive(found, out, force)
-    if as_json:
-        print_json(drive_json(found), path, found.warnings)
-    else:
-        click.echo(drive_text(found, str(path), explain))
+    found = lived(paths, settings, as_json, hours)
+    for path, folder in zip(paths, folders, strict=True):
+        if folder is not None and path in found:
+            write_drive(found[path], folder, force)
+    if xlsx is not None:
+        write_workbook(_by_sprocket(found.values()), xlsx, force)
     missed = False
+    for path, one in found.items():
+        if as_json:
+            print_json(drive_json(one), path, one.warnings)
+        else:
+            click.echo(drive_text(one, str(path), explain))
+        missed = _missed(one, hours, strict) or missed
+    if len(found) < len(set(paths)):
+        return SOME_FAILED
+    return NOT_MET if missed else 0
+
+
+def lived(
+    paths: Sequence[Path], settings: Sequence[str], as_json: bool, hours: float | None = None
+) -> "dict[Path, DriveLife]":
+    """Wear drives, all of which are checked before; one that fails is shown and left out of several."""
+    from wearsim.study.whole_drive.model import drive_life
+
+    drives = dict(zip(paths, _all_loaded(paths, settings, as_json), strict=True))
+    found: dict[Path, DriveLife] = {}
+    failures: list[WearsimError] = []
+    for path, drive in drives.items():
+        try:
+            with working(f"wearing {drive.title}") as report_progress:
+                found[path] = drive_life(drive, hours, report_progress)
+        except WearsimError as error:
+            failures.append(error)
+            if as_json:
+                click.echo(error_json(path.stem, error))
+            show_error(error, path)
+    if not found:
+        raise click.exceptions.Exit(max(map(exit_code, failures)))
+    return found
+
+
+def _by_sprocket(drives: "Iterable[DriveLife]") -> "dict[str, WearResult]":
+    return {
+        f"{one.drive.name} {name}": replace(result, case=name, title=f"{one.drive.title}: {name}")
+        for one in drives
+        for name, result in one.results.items()
+    }
+
+
+def _missed(found: "DriveLife", hours: float | None, strict: bool) -> bool:
+    """Tell what is missed of the hours that are required of every part, or that there are warnings."""
+    drive, missed = found.drive, False
     for name, life in found.parts.items():
         if hours is not None and isinstance(life, Life) and life.hours < hours:
             warn(f"{drive.name}: life of the {name} {life.hours:.6g} h is below {hours:g} h")
@@ -73,26 +160,39 @@ def live(
     if strict and found.warnings:
         warn(f"{drive.name}: {len(found.warnings)} warning(s) and --strict")
         missed = True
-    return NOT_MET if missed else 0
+    return missed
+
+
+def compared(
+    paths: Sequence[Path], settings: Sequence[str], as_json: bool, out: Path | None, force: bool
+) -> int:
+    """Print several drives side by side, and write them into a folder; return the exit code."""
+    from wearsim.study.whole_drive.comparison import drives_text, save_drives
+    from wearsim.study.whole_drive.sheet import drive_json
+
+    if out is not None:
+        check_folder(out, force)
+    found = lived(paths, settings, as_json)
+    drives = list(found.values())
+    if as_json:
+        for path, one in found.items():
+            print_json(drive_json(one), path)
+    else:
+        click.echo(drives_text(drives))
+    if out is not None:
+        save_drives(drives, out, force)
+        warn(f"written to {out}")
+    return SOME_FAILED if len(found) < len(set(paths)) else 0
 
 
 def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | None, force: bool) -> None:
     """Print when to replace the parts of a drive and what that costs; with ``out`` write it too."""
-    from wearsim.files import check_folder
     from wearsim.study.whole_drive.maintenance import drive_plan
-    from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text, save_plan
 
-    drive = _loaded(path, settings, as_json)
-    try:
-        if out is not None:
-            check_folder(out, force)
-        with working(f"wearing {drive.title}") as report_progress:
-            plan = drive_plan(drive_life(drive, progress=report_progress))
-    except WearsimError as error:
-        if as_json:
-            click.echo(error_json(path.stem, error))
-        raise
+    if out is not None:
+        check_folder(out, force)
+    plan = drive_plan(lived([path], settings, as_json)[path])
     if out is not None:
         save_plan(plan, out, force)
     if as_json:
@@ -103,29 +203,52 @@ def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | No
         warn(f"written to {out}")
 
 
-def checked(path: Path, settings: Sequence[str], as_json: bool) -> None:
-    """Print that a drive is complete, and what it assumes."""
-    from wearsim.study.whole_drive.layout import layout_json, layout_text
+def checked(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> None:
+    """Print that drives are complete, where their chains run, their ratings, and what they assume."""
+    for path, drive in zip(paths, _all_loaded(paths, settings, as_json), strict=True):
+        if as_json:
+            click.echo(json.dumps(_check_json(drive), ensure_ascii=False))
+        else:
+            click.echo(_check_text(drive, path))
 
-    drive = _loaded(path, settings, as_json)
-    warnings = tuple(dict.fromkeys(text for one in drive.sprockets for text in one.case.warnings))
-    if as_json:
-        content = {
-            "schema_version": 1,
-            "case": drive.name,
-            "sprockets": [one.name for one in drive.sprockets],
-            "layout": layout_json(drive),
-            "assumptions": list(drive.assumptions),
-            "warnings": list(warnings),
-        }
-        click.echo(json.dumps(content, ensure_ascii=False))
-        return
-    click.echo(f"{path}: ok, sprockets {', '.join(one.name for one in drive.sprockets)}")
-    click.echo(layout_text(drive))
-    for text in drive.assumptions:
-        click.echo(f"  assumes  {text}")
-    for text in warnings:
-        click.echo(f"  warning  {text}")
+
+def _check_json(drive: "DriveCase") -> dict[str, Any]:
+    from wearsim.report.rating import rating_json
+    from wearsim.study.whole_drive.layout import layout_json
+
+    return {
+        "schema_version": 1,
+        "case": drive.name,
+        "sprockets": [one.name for one in drive.sprockets],
+        "layout": layout_json(drive),
+        "assumptions": list(drive.assumptions),
+        "warnings": list(_check_warnings(drive)),
+        **rating_json(drive.driver.case),
+    }
+
+
+def _check_text(drive: "DriveCase", path: Path) -> str:
+    from wearsim.report.rating import notes_text, rating_table
+    from wearsim.study.whole_drive.layout import layout_text
+
+    case = drive.driver.case
+    lines = [
+        f"{path}: ok, sprockets {', '.join(one.name for one in drive.sprockets)}",
+        layout_text(drive),
+        *(f"  assumes  {text}" for text in drive.assumptions),
+        rating_table(case),
+        notes_text(case),
+        *(f"  warning  {text}" for text in _check_warnings(drive)),
+    ]
+    return "\n".join(line for line in lines if line)
+
+
+def _check_warnings(drive: "DriveCase") -> tuple[str, ...]:
+    from wearsim.chain.selection import rating_warnings
+
+    own = [text for one in drive.sprockets for text in one.case.warnings]
+    case = drive.driver.case
+    return tuple(dict.fromkeys([*own, *rating_warnings(case.drive.ratings(case))]))
 
 
 def report_sheet(
@@ -135,24 +258,32 @@ def report_sheet(
     from wearsim.extras import check_installed
 
     check_installed(("jinja2",), "report", "report")
-    from wearsim.study.whole_drive.keys import load_drive
-    from wearsim.study.whole_drive.model import drive_life
     from wearsim.study.whole_drive.report_page import SheetHead, check_page, is_page, save_sheet
 
     (check_page if is_page(out) else check_folder)(out, force)
-    drive = load_drive(path, settings)
-    with working(f"wearing {drive.title}") as report_progress:
-        found = drive_life(drive, progress=report_progress)
+    found = lived([path], settings, False)[path]
     head = SheetHead(date.today(), project, author, drawing)
     click.echo(save_sheet(found, head, out, force))
 
 
 def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":
+    (drive,) = _all_loaded([path], settings, as_json)
+    return drive
+
+
+def _all_loaded(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[DriveCase]":
+    """Load all drives before the first one runs; report all faults of all of them."""
     from wearsim.study.whole_drive.keys import load_drive
 
-    try:
-        return load_drive(path, settings)
-    except CaseError as error:
-        if as_json:
-            click.echo(error_json(path.stem, error))
-        raise
+    drives: list[DriveCase] = []
+    faults: list[Fault] = []
+    for path in paths:
+        try:
+            drives.append(load_drive(path, settings))
+        except CaseError as error:
+            faults += error.faults
+            if as_json:
+                click.echo(error_json(path.stem, error))
+    if faults:
+        raise CaseError(faults)
+    return drives

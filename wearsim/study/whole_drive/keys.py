@@ -10,6 +10,8 @@ from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.faults import Faults
+from wearsim.input.mechanism_registry import MECHANISMS
+from wearsim.kernels.compiled import expect
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
@@ -109,6 +111,7 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     document.faults.check()
     sprockets = _sprockets(document, wheels, shares)
     document.faults.check()
+    expect(MECHANISMS["wrap"].kernels)
     title = document.data.get("title") or _title(wheels, sprockets[0].case)
     return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels))
 

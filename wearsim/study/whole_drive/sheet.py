@@ -23,13 +23,12 @@ _MAX_THEN = 2
 
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
-    driver = found.results[found.drive.driver.name]
     rows = [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *(_all_sprockets(found) if explain else _sprockets(found)),
         ("First", first_text(drive_plan(found))),
         ("Band", _band(found)),
-        ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
+        ("Ratings", ratings_text(found)),
         ("Worn most", _worn_most(found, explain)),
         *((("Band from", _band_source(found)),) if explain else ()),
         ("Warnings", _warnings(found, explain)),
@@ -129,6 +128,12 @@ def _band(found: DriveLife) -> str:
     whose = found.first or next(iter(found.results))
     low, high = (hours(life) for life in found.band(whose))
     return f"{low} to {high} for the {part_name(whose)}, over the band of its wear coefficient"
+
+
+def ratings_text(found: DriveLife) -> str:
+    """Return in words whether a drive is within its ratings."""
+    driver = found.results[found.drive.driver.name]
+    return f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
 
 
 def within_text(result: WearResult) -> str:
