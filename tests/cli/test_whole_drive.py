@@ -209,13 +209,7 @@ def test_required_hours_are_those_of_every_part(cli, drive):
     assert "life of the chain" in done.err
 
 
-@pytest.mark.parametrize("option", [["--xlsx", "run.xlsx"], ["--verify-grid"]])
-def test_options_of_one_sprocket_are_refused(cli, drive, option):
-    done = cli("life", drive, *option)
+def test_options_of_one_sprocket_are_refused(cli, drive):
+    done = cli("life", drive, "--verify-grid")
     assert done.code == 2
     assert "a drive with [[sprocket]]" in done.err
-
-
-def test_other_commands_and_other_cases_beside_are_refused(cli, drive):
-    assert "must be one [sprocket] here" in cli("loads", drive).err
-    assert "is a whole drive: give it alone" in cli("life", drive, drive).err

@@ -1,5 +1,6 @@
 """The folder of a result: written all of it or nothing, read back number by number."""
 
+import copy
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, fields
@@ -189,12 +190,36 @@ def _named(inputs: Mapping[str, Any]) -> list[str]:
 
 def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
     """Return the tables of a case with the CSV files that they name in another folder."""
-    moved = dict(inputs)
-    for table, key in FILE_KEYS:
-        if key in inputs.get(table, {}):
-            name = PurePosixPath(folder, PurePosixPath(inputs[table][key]).name)
-            moved[table] = {**inputs[table], key: str(name)}
+    moved = copy.deepcopy(dict(inputs))
+    for *tables, key in file_paths(inputs):
+        place: Any = moved
+        for table in tables:
+            place = place[int(table) - 1] if isinstance(place, list) else place[table]
+        place[key] = str(PurePosixPath(folder, PurePosixPath(place[key]).name))
     return moved
+
+
+def file_paths(tables: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Return where the inputs name files: table and key, between them the number of one of several tables.
+
+    Examples
+    --------
+    >>> file_paths({"sprocket": [{"teeth": 17}, {"dxf_file": "gap.dxf"}]})
+    [('sprocket', '2', 'dxf_file')]
+    """
+    found: list[tuple[str, ...]] = []
+    for table, key in FILE_KEYS:
+        given = tables.get(table)
+        if isinstance(given, list):
+            places = [(table, str(number)) for number in range(1, len(given) + 1)]
+            found += [(*place, key) for place, one in zip(places, given, strict=True) if _has(one, key)]
+        elif _has(given, key):
+            found.append((table, key))
+    return found
+
+
+def _has(table: object, key: str) -> bool:
+    return isinstance(table, Mapping) and key in table
 
 
 def _write_json(path: Path, value: Mapping[str, Any]) -> None:

@@ -14,9 +14,11 @@ from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
 from wearsim.input.keys import schema_fields, schema_of
 from wearsim.input.mechanism_registry import WRAP_PROFILES
+from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.input.schema.table import is_number, without_numbers
 from wearsim.kernels.compiled import source_hash
-from wearsim.result.folder import FILE_KEYS
+from wearsim.result.folder import FILE_KEYS, file_paths
+from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
 
 FEW, SOME, MANY = 2, 25, 250
 """Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
@@ -51,6 +53,7 @@ class Design:
     # dotted keys that differ; entries of a list of tables by their numbers from 1
     keys: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]  # values of the keys, a row for each case
+    kind: CaseKind = ONE_SPROCKET  # how they are read and run
 
     def tables_of(self, index: int) -> dict[str, Any]:
         """Return the tables of one case."""
@@ -86,6 +89,8 @@ class Design:
 
 
 def _wraps(tables: Mapping[str, Any]) -> bool:
+    if isinstance(tables.get("sprocket"), list):
+        return True
     kind = tables.get("mechanism", {}).get("kind")
     return kind == "wrap" or tables.get("sprocket", {}).get("profile") in WRAP_PROFILES
 
@@ -143,27 +148,37 @@ def value_at(tables: Mapping[str, Any], key: str) -> Any:
     return found
 
 
-def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str) -> Design:
+def design(
+    document: Document,
+    keys: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    place: str,
+    kind: CaseKind = ONE_SPROCKET,
+) -> Design:
     """Return the cases of a study with the texts of all their files."""
     _check_keys(document, keys, place)
     files: dict[str, str] = {}
     tables: Mapping[str, Any] = document.data
-    for table, key in FILE_KEYS:
-        given = document.data.get(table)
-        if isinstance(given, Mapping) and isinstance(given.get(key), str):
-            tables = replaced(tables, (table, key), _taken(document, files, given[key]))
+    for path in file_paths(document.data):
+        given = value_at(tables, ".".join(path))
+        if isinstance(given, str):
+            tables = replaced(tables, path, _taken(document, files, given))
     moved = tuple(
         tuple(
-            _taken(document, files, value) if key in NAMES_FILE and isinstance(value, str) else value
+            _taken(document, files, value)
+            if without_numbers(key) in NAMES_FILE and isinstance(value, str)
+            else value
             for key, value in zip(keys, row, strict=True)
         )
         for row in rows
     )
-    return Design(document.name, tables, files, tuple(keys), moved)
+    return Design(document.name, tables, files, tuple(keys), moved, kind)
 
 
 def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
-    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
+    drive = isinstance(document.data.get("sprocket"), list)
+    schema = CaseTablesOrDrive if drive else schema_of(document.data)
+    known = {key.replace("[]", "") for key, _ in schema_fields(schema)}
     faults = []
     for key in keys:
         plain = without_numbers(key)

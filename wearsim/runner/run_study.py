@@ -8,7 +8,7 @@ import pandas as pd
 
 from wearsim.errors import StudyError
 from wearsim.runner.design import Design
-from wearsim.runner.shard import COLUMNS, Rows, Shard, run_shard, shards
+from wearsim.runner.shard import COLUMNS, Rows, Shard, life_columns, run_shard, shards
 from wearsim.runner.store import Store
 from wearsim.runner.workers import Workers
 
@@ -87,9 +87,10 @@ def _submitted(executor: Executor, shards: Iterator[Shard]) -> dict["Future[Rows
 
 
 def _table(design: Design, parts: list[Rows]) -> pd.DataFrame:
-    columns = {name: [value for rows in parts for value in rows[name]] for name in COLUMNS}
+    lives = life_columns(design)
+    columns = {name: [value for rows in parts for value in rows[name]] for name in (*COLUMNS, *lives)}
     given = pd.DataFrame(list(design.rows), columns=list(design.keys))
     table = pd.DataFrame(columns)
-    floats = ("life_hours", "hours_run", "cycles_run", "numerical_error")
+    floats = ("life_hours", "hours_run", "cycles_run", "numerical_error", *lives)
     table = table.astype(dict.fromkeys(floats, float))
     return pd.concat([table[["case_index"]], given, table.drop(columns="case_index")], axis=1)

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import Document, read_document
 from wearsim.input.schema.study_tables import Distribution
-from wearsim.result.folder import FILE_KEYS
+from wearsim.result.folder import file_paths
+from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
 from wearsim.runner.design import Design, design, replaced, value_at
 from wearsim.runner.distributions import described, quantile
 
@@ -44,6 +44,7 @@ class ScatteredCase:
     document: Document  # the file without [uncertainty], the wear coefficient by its own key
     scatters: tuple[ScatteredKey, ...]  # what scatters, independently of one another
     assumptions: tuple[str, ...]  # what is taken for granted about that
+    kind: CaseKind = ONE_SPROCKET  # how its cases are read and run
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -65,13 +66,15 @@ class ScatteredCase:
     def design(self, shares: Vector) -> Design:
         """Return the cases at some probabilities of the keys."""
         rows = self.values(shares).tolist()
-        return design(self.document, self.keys, rows, str(self.path))
+        return design(self.document, self.keys, rows, str(self.path), self.kind)
 
 
-def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | None = None) -> ScatteredCase:
+def load_scattered(
+    path: Path, overrides: Sequence[str], least_horizon: float | None = None, kind: CaseKind = ONE_SPROCKET
+) -> ScatteredCase:
     """Return a case and what of it scatters by its table [uncertainty]."""
     document = read_document(path, overrides)
-    case = load_case(path, overrides).with_horizon(least_horizon or 0.0)
+    case = kind.read(path, overrides).with_horizon(least_horizon or 0.0)
     given = _given(case)
     assumptions = []
     for coefficient in _coefficients(case):
@@ -86,7 +89,8 @@ def load_scattered(path: Path, overrides: Sequence[str], least_horizon: float | 
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
-    return ScatteredCase(path, case, plain_document(document, case), scatters, tuple(assumptions))
+    plain = plain_document(document, case)
+    return ScatteredCase(path, case, plain, scatters, tuple(assumptions), kind)
 
 
 def coefficient_key(case: Case) -> str:
@@ -130,9 +134,8 @@ def plain_document(document: Document, case: Case) -> Document:
         data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
         for key, value in case.drive.wear_coefficients.items():
             data = replaced(data, key.split("."), value)
-    for table, key in FILE_KEYS:
-        if key in data.get(table, {}):
-            path = (document.folder / data[table][key]).resolve()
-            data = replaced(data, (table, key), str(path))
+    for place in file_paths(data):
+        path = (document.folder / value_at(data, ".".join(place))).resolve()
+        data = replaced(data, place, str(path))
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     return replace(document, data=data)

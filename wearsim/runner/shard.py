@@ -8,13 +8,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.load_case import load_case
-from wearsim.case.model import Case
 from wearsim.errors import StudyError, WearsimError
 from wearsim.result import Life
 from wearsim.result.folder import with_files
 from wearsim.runner.design import Design, Engine, content_hash, engine
-from wearsim.simulation.batch_lives import CaseLife, simulate_many
+from wearsim.simulation.batch_lives import CaseLife
 
 COLUMNS = (
     "case_index",
@@ -41,6 +39,11 @@ class Shard:
     engine: Engine  # that which the study is run with
 
     @property
+    def columns(self) -> tuple[str, ...]:
+        """Columns of its rows."""
+        return *COLUMNS, *life_columns(self.design)
+
+    @property
     def count(self) -> int:
         """Number of its cases."""
         return len(self.design.rows)
@@ -49,6 +52,11 @@ class Shard:
     def address(self) -> str:
         """Hash of all that its rows depend on."""
         return content_hash({"first": self.first, "design": self.design.address()})
+
+
+def life_columns(design: Design) -> tuple[str, ...]:
+    """Return the columns with the lives of the parts of each case."""
+    return tuple(f"{name}_life_hours" for name in design.kind.parts)
 
 
 def shards(design: Design) -> Iterator[Shard]:
@@ -66,27 +74,30 @@ def run_shard(shard: Shard) -> Rows:
             f"{shard.engine.version} ({shard.engine.kernels}): install the same on all"
         )
     loaded = loaded_cases(shard.design)
-    lives = simulate_many((case for case in loaded if isinstance(case, Case)), threads=1)
-    rows: Rows = {name: [] for name in COLUMNS}
+    kind = shard.design.kind
+    lives = kind.lives(case for case in loaded if not isinstance(case, WearsimError))
+    rows: Rows = {name: [] for name in shard.columns}
     for index, case in enumerate(loaded):
-        found = next(lives) if isinstance(case, Case) else case
-        digest = _digest(case, shard) if isinstance(case, Case) else None
-        for name, value in zip(COLUMNS, (shard.first + index, *_row(found), digest), strict=True):
+        failed = isinstance(case, WearsimError)
+        found = case if failed else next(lives)
+        digest = None if failed else _digest(case, shard)
+        values = (shard.first + index, *_row(found), digest, *_part_hours(found, kind.parts))
+        for name, value in zip(shard.columns, values, strict=True):
             rows[name].append(value)
     return rows
 
 
-def loaded_cases(design: Design) -> list[Case | WearsimError]:
-    """Return the cases of a study, or of a part of it."""
+def loaded_cases(design: Design) -> list[Any]:
+    """Return the cases of a study, or of a part of it; in place of one that is wrong its error."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in design.files.items():
             (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
         return [_loaded(design, index, folder) for index in range(len(design.rows))]
 
 
-def _loaded(design: Design, index: int, folder: str) -> Case | WearsimError:
+def _loaded(design: Design, index: int, folder: str) -> Any:
     try:
-        return load_case(with_files(design.tables_of(index), folder))
+        return design.kind.load(with_files(design.tables_of(index), folder))
     except WearsimError as error:
         return error
 
@@ -100,7 +111,13 @@ def _row(found: CaseLife | WearsimError) -> tuple[Any, ...]:
     return hours, life.hours_run, life.cycles_run, found.stop, found.numerical_error, warnings, ""
 
 
-def _digest(case: Case, shard: Shard) -> str:
+def _part_hours(found: CaseLife | WearsimError, parts: tuple[str, ...]) -> list[float | None]:
+    """Return the lives of parts; None where one was not reached."""
+    lives = {} if isinstance(found, WearsimError) else found.parts
+    return [life.hours if isinstance(life := lives.get(name), Life) else None for name in parts]
+
+
+def _digest(case: Any, shard: Shard) -> str:
     """Hash of the validated case with every default taken, of its files and of the engine."""
     names = {path.name for path in case.files}
     files = {name: text for name, text in shard.design.files.items() if name in names}

@@ -13,7 +13,7 @@ from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import MARKER, check_free, mark, write_file, written
 from wearsim.runner.design import Design, content_hash
-from wearsim.runner.shard import COLUMNS, Rows, Shard
+from wearsim.runner.shard import Rows, Shard
 
 MANIFEST = "study.json"
 _SHARDS = "shards"
@@ -53,7 +53,7 @@ class Store:
         except (OSError, ValueError, TypeError, arrow.ArrowException):
             rows, sound = {}, False
         indices = list(range(shard.first, shard.first + shard.count))
-        if sound and tuple(rows) == COLUMNS and rows["case_index"] == indices:
+        if sound and tuple(rows) == shard.columns and rows["case_index"] == indices:
             return rows
         with contextlib.suppress(OSError):
             path.unlink()

@@ -2,9 +2,9 @@
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 
 import numpy as np
@@ -38,6 +38,8 @@ class CaseLife:
     # relative error of the life by its steps and its grid, as `simulate` states it, to rounding
     numerical_error: float
     warnings: tuple[str, ...]  # what is doubtful about the case and the worn flank
+    # lives of the parts of a whole drive, which `simulate_many` does not know
+    parts: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,6 +37,7 @@ __all__ = [
     "MaterialsTable",
     "MechanismTable",
     "PlaceTable",
+    "PlacedSprocketTable",
     "RunTable",
     "ServiceTable",
     "SprocketTable",

@@ -15,9 +15,11 @@ from wearsim.input.document import Document, read_document, retitled
 from wearsim.input.faults import validation_faults
 from wearsim.input.keys import schema_of
 from wearsim.input.other_files import check_command
+from wearsim.input.schema import PlacedSprocketTable
 from wearsim.input.schema.table import Table
 from wearsim.runner.design import Design, design, replaced
 from wearsim.study.sweep.keys import Range, SweepTables
+from wearsim.study.whole_drive.study_cases import kind_of
 
 MAX_CASES = 10_000_000
 
@@ -53,7 +55,7 @@ def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
-    cases = design(document, keys, rows, str(path))
+    cases = design(document, keys, rows, str(path), kind_of(document.data))
     _check_values(given, document, cases, axes)
     return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
 
@@ -85,6 +87,12 @@ def _check_values(given: Document, document: Document, cases: Design, axes: Sequ
 
 def _wrong(tables: Mapping[str, Any], model: type[Table]) -> Iterator[tuple[str, str]]:
     """Give the keys whose values are wrong beside any others."""
+    sprockets = tables.get("sprocket")
+    if isinstance(sprockets, list):
+        for number, table in enumerate(sprockets, start=1):
+            for key, message in _wrong(table, PlacedSprocketTable):
+                yield f"sprocket.{number}.{key}", message
+        tables = {key: table for key, table in tables.items() if key != "sprocket"}
     try:
         model.model_validate(tables)
     except ValidationError as error:

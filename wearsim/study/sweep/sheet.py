@@ -10,17 +10,20 @@ import pandas as pd
 
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
+from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.figure import sweep_figures
 from wearsim.study.sweep.model import Sweep
 
 
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
     """Return a sweep as a Markdown table."""
-    head = [*sweep.design.keys, "life, h", "ended by"]
+    parts = sweep.design.kind.parts
+    head = [*sweep.design.keys, "life, h", "ended by", *(f"{name}, h" for name in parts)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for row in table.to_dict("records"):
         cells = [_shown(row[key]) for key in sweep.design.keys]
         cells += [_life(row), "" if row["error"] else row["stop"]]
+        cells += [_part(row[column]) for column in life_columns(sweep.design)]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines)
 
@@ -52,6 +55,10 @@ def _life(row: Mapping[Any, Any]) -> str:
     if math.isnan(row["life_hours"]):
         return f"> {grouped(row['hours_run'])} (limit not reached)"
     return grouped(row["life_hours"])
+
+
+def _part(life: float) -> str:
+    return "-" if math.isnan(life) else grouped(life)
 
 
 def _shown(value: Any) -> str:

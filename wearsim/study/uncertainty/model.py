@@ -10,8 +10,10 @@ import numpy as np
 from scipy.stats import qmc
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.input.document import read_document
 from wearsim.runner.design import Design
 from wearsim.runner.scatter import ScatteredCase, load_scattered
+from wearsim.study.whole_drive.study_cases import kind_of
 
 Method = Literal["sobol", "lhs", "random"]
 METHODS: tuple[Method, ...] = ("sobol", "lhs", "random")
@@ -39,7 +41,8 @@ def load_uncertainty(
     least_horizon: float | None = None,
 ) -> UncertaintyStudy:
     """Return the samples of a case."""
-    scattered = load_scattered(path, overrides, least_horizon)
+    kind = kind_of(read_document(path, overrides).data)
+    scattered = load_scattered(path, overrides, least_horizon, kind)
     shares = unit_samples(len(scattered.scatters), samples, seed, method)
     return UncertaintyStudy(scattered, method, seed, scattered.design(shares))
 

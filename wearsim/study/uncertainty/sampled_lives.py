@@ -4,10 +4,12 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
 import pandas as pd
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.report.text_lines import defaults_by_kind
+from wearsim.runner.shard import life_columns
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import (
@@ -52,6 +54,20 @@ class UncertaintyAnswer:
     def percentiles(self) -> tuple[Percentile, ...]:
         """P10, P50 and P90."""
         return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
+
+    @property
+    def ends_first(self) -> dict[str, float]:
+        """Share of the samples in which a part of a whole drive ends first, by its name."""
+        return {name: float((self.sound["stop"] == name).mean()) for name in self.study.design.kind.parts}
+
+    @property
+    def medians(self) -> dict[str, float]:
+        """Median life of every part of a whole drive; infinite where half of the runs did not reach it."""
+        columns = zip(self.study.design.kind.parts, life_columns(self.study.design), strict=True)
+        return {
+            name: float(np.quantile(self.sound[column].fillna(math.inf), 0.5, method="higher"))
+            for name, column in columns
+        }
 
     @cached_property
     def fits(self) -> list[DistributionFit]:

@@ -29,6 +29,8 @@ def uncertainty_text(answer: UncertaintyAnswer) -> str:
         )
     if answer.crossed is not None:
         lines += _cross_check_lines(answer.crossed)
+    if answer.ends_first:
+        lines += ["", *_part_lines(answer)]
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
@@ -79,6 +81,9 @@ def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     content["convergence"] = [
         {name: plain(value) for name, value in row.items()} for row in answer.convergence.to_dict("records")
     ]
+    if answer.ends_first:
+        content["ends_first"] = answer.ends_first
+        content["median_life_hours"] = {name: plain(hours) for name, hours in answer.medians.items()}
     content["assumptions"] = _assumptions(study)
     content["warnings"] = uncertainty_warnings(answer)
     return content
@@ -100,6 +105,17 @@ def save_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
 def _assumptions(study: UncertaintyStudy) -> list[str]:
     scattered = study.scattered
     return [*scattered.assumptions, _OF_INTERVALS, *scattered.case.assumptions]
+
+
+def _part_lines(answer: UncertaintyAnswer) -> list[str]:
+    """Say of a whole drive which parts end first, and how long each lives, as text."""
+    first = sorted(answer.ends_first.items(), key=lambda item: -item[1])
+    shares = ", ".join(f"{name} in {100.0 * share:.0f} %" for name, share in first if share > 0.0)
+    lives = ", ".join(
+        f"{name} {grouped(hours)} h" if math.isfinite(hours) else f"{name} beyond the run"
+        for name, hours in answer.medians.items()
+    )
+    return [f"ends first   {shares or 'nothing within the run'}", f"P50 of each  {lives}"]
 
 
 def _hours(found: Percentile) -> str:

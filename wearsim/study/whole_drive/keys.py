@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from wearsim.case.model import Case
@@ -73,6 +74,11 @@ class DriveCase:
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""
         return next(one for one in self.sprockets if one.role == DRIVER)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Files that the sprockets name."""
+        return tuple(path for one in self.sprockets for path in one.case.files)
 
     @property
     def assumptions(self) -> tuple[str, ...]:

@@ -93,6 +93,7 @@ def drive_life(
     drive: DriveCase,
     least_horizon: float | None = None,
     progress: Callable[[float], None] = lambda part: None,
+    threads: int | None = None,
 ) -> DriveLife:
     """Wear all sprockets of a drive, each with the chains that run on it.
 
@@ -107,6 +108,8 @@ def drive_life(
         Hours that the runs cover at least if nothing ends before; above 0.
     progress : callable, optional
         Told how much of the runs is done, from 0 to 1.
+    threads : int, optional
+        Sprockets that run side by side; as many as there are cores where it is left out.
 
     Returns
     -------
@@ -129,7 +132,7 @@ def drive_life(
 
         return _report
 
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         runs = {
             one.name: pool.submit(simulate, one.case.with_horizon(least_horizon or 0.0), _watch(one.name))
             for one in drive.sprockets

@@ -82,6 +82,18 @@ def drive_wheels(document: Document) -> list[DriveWheel]:
     return found if faults.count == before else []
 
 
+def wheel_name(table: Mapping[str, Any], number: int, count: int) -> str:
+    """Return the name of a sprocket; its role where it has none, with its number where there are many.
+
+    Examples
+    --------
+    >>> wheel_name({"teeth": 17}, 1, 2), wheel_name({"role": "idler"}, 2, 3), wheel_name({"name": "a"}, 2, 2)
+    ('driver', 'idler 2', 'a')
+    """
+    role = table.get("role") or (DRIVER if number == 1 else DRIVEN)
+    return str(table.get("name") or (role if count == 2 else f"{role} {number}"))
+
+
 def _wheel(number: int, table: Mapping[str, Any], count: int, faults: Faults) -> DriveWheel | None:
     own = set(PlaceTable.model_fields)
     try:
@@ -100,7 +112,7 @@ def _wheel(number: int, table: Mapping[str, Any], count: int, faults: Faults) ->
     if not isinstance(teeth, int) or isinstance(teeth, bool) or teeth < 5:
         faults.add(f"{key}.teeth", f"must be a whole number of at least 5 (got {teeth!r})")
         return None
-    name = place.name or (role if count == 2 else f"{role} {number}")
+    name = wheel_name(table, number, count)
     wheel = DriveWheel(name, role, place, rest, {key: table[key] for key in _OWN if key in table})
     if wheel.every > 1 and teeth % wheel.every:
         message = f"must divide the number of teeth of a whole drive, {teeth} (got {wheel.every})"

@@ -1,0 +1,143 @@
+"""Commands about one case or several, given a whole drive."""
+
+import json
+
+import pandas as pd
+import pytest
+
+
+@pytest.fixture
+def drive(tmp_path, two_sprockets):
+    path = tmp_path / "drive.toml"
+    path.write_text(two_sprockets)
+    return path
+
+
+SHORT = ("--set", "run.horizon_hours=20")
+
+
+def test_loads_of_spans_and_of_every_tooth(cli, drive):
+    found = json.loads(cli("loads", drive, "--json").out)
+    spans = {one["from"]: one["tension_N"] for one in found["layout"]["spans"]}
+    assert spans["roll"] > spans["driver"]
+    for one, mesh in zip(found["sprockets"], found["layout"]["sprockets"], strict=True):
+        assert one["name"] == mesh["name"]
+        assert one["teeth"][0]["tension_N"] == pytest.approx(spans["roll"], rel=1e-9)
+        assert abs(len(one["teeth"]) - mesh["teeth_in_mesh"]) <= 1.0
+    text = cli("loads", drive).out
+    assert "Spans      driver to roll" in text
+    assert "\ndriver: 9 rollers" in text and "\nroll: 11 rollers" in text
+    one = json.loads(cli("loads", drive, "--json", "--sprocket", "roll").out)
+    assert one["teeth"] == found["sprockets"][1]["teeth"]
+
+
+@pytest.mark.parametrize(
+    "arguments", [("export", "--out", "roll.svg"), ("profile",), ("animate", "--out", "roll.gif")]
+)
+def test_one_sprocket_of_a_drive_is_named(cli, drive, tmp_path, monkeypatch, arguments):
+    monkeypatch.chdir(tmp_path)
+    command, *options = arguments
+    done = cli(command, drive, *options)
+    assert done.code == 2
+    assert "is a whole drive: give --sprocket, one of 'driver', 'roll'" in done.err
+    done = cli(command, drive, *options, "--sprocket", "rol")
+    assert done.code == 2 and "(got 'rol')" in done.err
+
+
+def test_wheel_and_flank_are_those_of_the_sprocket(cli, drive, tmp_path):
+    out = tmp_path / "roll.csv"
+    assert cli("export", drive, "--sprocket", "roll", "--out", out).code == 0
+    # 20 teeth of 08B: tips at 86.45 mm at most, gaps down to 81.18 - 8.6 mm.
+    points = pd.read_csv(out)
+    radii = (points["x_mm"] ** 2 + points["y_mm"] ** 2) ** 0.5
+    assert 2 * radii.max() == pytest.approx(86.4537, abs=1e-3)
+    assert 2 * radii.min() == pytest.approx(81.1836 - 2 * 0.505 * 8.51, abs=1e-2)
+    profile = cli("profile", drive, "--sprocket", "roll").out
+    assert profile.count("\n") == 62
+    assert profile != cli("profile", drive, "--sprocket", "driver").out
+
+
+def test_a_worn_wheel_is_worn_in_its_drive(cli, drive, tmp_path):
+    dxf, gif = tmp_path / "roll.dxf", tmp_path / "roll.gif"
+    done = cli("export", drive, "--sprocket", "roll", "--out", dxf, "--state", "worn", *SHORT)
+    assert done.code == 0
+    text = dxf.read_text()
+    assert "08B-1, 17 to 20 teeth: roll" in text and "Worn after 20 h: " in text
+    options = ("--frames", "2", "--width", "320", *SHORT)
+    assert cli("animate", drive, "--sprocket", "roll", "--out", gif, *options).code == 0
+    assert gif.read_bytes().startswith(b"GIF8")
+
+
+def test_sprocket_belongs_to_a_drive(cli, tmp_path):
+    done = cli("profile", "cases/16b-20t-oiled.toml", "--sprocket", "roll")
+    assert done.code == 2 and "--sprocket belongs to a whole drive" in done.err
+
+
+def test_several_drives_at_once(cli, drive, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text(drive.read_text().replace("teeth = 20", "teeth = 25"))
+    out, book = tmp_path / "out", tmp_path / "book.xlsx"
+    done = cli("life", drive, other, "--json", "--out", out, "--xlsx", book, *SHORT)
+    assert done.code == 0, done.err
+    found = [json.loads(line) for line in done.out.splitlines()]
+    assert [one["case"] for one in found] == ["drive", "other"]
+    assert [one["sprockets"][1]["sprocket_life_hours_at_least"] for one in found] == [20.0, 20.0]
+    for name in ("drive", "other"):
+        assert json.loads((out / name / "drive.json").read_text())["case"] == name
+    sheet = pd.read_excel(book, sheet_name=0, header=None).astype(str).to_numpy().ravel()
+    for text in ("08B-1, 17 to 20 teeth: roll", "08B-1, 17 to 25 teeth: roll"):
+        assert any(text in cell for cell in sheet)
+    done = cli("export", out / "drive", "--out", tmp_path / "roll.dxf")
+    assert done.code == 2
+    assert f"is that of a whole drive: give {out / 'drive' / 'drive.lock.toml'}" in done.err
+
+
+def test_all_drives_are_checked_before_one_runs(cli, drive, tmp_path):
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(drive.read_text().replace("teeth = 20", "teeth = 3"))
+    done = cli("life", drive, wrong, "--out", tmp_path / "out")
+    assert done.code == 2 and "wrong.toml:10: sprocket.2.teeth" in done.err
+    assert not (tmp_path / "out").exists()
+    done = cli("life", drive, "cases/16b-20t-oiled.toml")
+    assert done.code == 2 and "run them one after the other" in done.err
+
+
+def test_drives_are_compared_part_by_part(cli, drive, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text(drive.read_text().replace("power_kW = 1.3", "power_kW = 2.6"))
+    out = tmp_path / "compared"
+    done = cli("compare", drive, other, "--out", out, *SHORT)
+    assert done.code == 0, done.err
+    table = pd.read_csv(out / "summary.csv")
+    assert list(table["part"]) == ["chain", "driver", "roll"] * 2
+    assert set(table["life_hours_at_least"]) == {20.0}
+    first, second = done.out.splitlines()[2:]
+    assert "| > 20 h | driver > 20 h, roll > 20 h |" in first
+    assert "within all of them" in first and "OVERLOADED" in second
+    assert done.out.strip() in (out / "summary.md").read_text()
+    assert cli("compare", drive, other, "--xlsx", tmp_path / "c.xlsx").code == 2
+
+
+def test_check_rates_a_drive(cli, drive):
+    assert "rating   joint pressure" in cli("check", drive).out
+    found = json.loads(cli("check", drive, "--json", "--set", "load.power_kW=15").out)
+    outside = [one["name"] for one in found["rating"] if not one["ok"]]
+    assert "plate fatigue" in outside
+    assert any("outside a rating: plate fatigue" in text for text in found["warnings"])
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("sensitivity",),
+        ("optimise",),
+        ("remaining", "--elongation", "1", "--hours", "100"),
+        ("calibrate", "cases/studies/16b-20t-readings.csv"),
+    ],
+)
+def test_what_is_not_for_drives_says_what_is(cli, drive, arguments):
+    command, *options = arguments
+    done = cli(command, drive, *options)
+    assert done.code == 2
+    assert "must be one [sprocket] here" in done.err
+    assert "is for wearsim check, life, compare" in done.err
