@@ -41,6 +41,12 @@ _OF_ONE_SPROCKET = {
 }
 """Keys of [maintenance] that a drive has no use for."""
 
+_FOR_ONE_SPROCKET = {
+    "fatigue": "contact fatigue is for the case of one sprocket: remove this table",
+    "optimise": "wearsim optimise takes the case of one sprocket: remove this table",
+}
+"""Tables that a drive has no use for."""
+
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
 
@@ -127,6 +133,9 @@ def _check_tables(document: Document) -> None:
     for key, message in _OF_ONE_SPROCKET.items():
         if _table(document.data, "maintenance").get(key):
             document.faults.add(f"maintenance.{key}", message)
+    for table, message in _FOR_ONE_SPROCKET.items():
+        if table in document.data:
+            document.faults.add(table, message)
     kind = _table(document.data, "mechanism").get("kind", "wrap")
     if kind != "wrap":
         message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
@@ -263,7 +272,9 @@ def _case(
     own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
     place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
     try:
-        return read(own, place)
+        case = read(own, place)
+        case.drive.check(case)
+        return case
     except CaseError as error:
         for fault in error.faults:
             key = _key(fault, wheels, number)
