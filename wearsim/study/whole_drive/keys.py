@@ -271,17 +271,35 @@ def _case(
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
     own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
     place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
+    case = None
     try:
         case = read(own, place)
         case.drive.check(case)
         return case
     except CaseError as error:
         for fault in error.faults:
-            key = _key(fault, wheels, number)
-            if (key, fault.message) not in seen:
-                document.faults.add(key, fault.message)
-            seen.add((key, fault.message))
+            key, message = _key(fault, wheels, number), fault.message
+            if case is not None:
+                message = f"{wheels[number].name!r}: {message}"
+                key = _slack_key(key, wheels)
+            # Of the loop each cog of a cassette has the same fault in other numbers.
+            same = (key, "" if fault.key == LOOP_KEY else message)
+            if same not in seen:
+                document.faults.add(key, message)
+            seen.add(same)
         return None
+
+
+def _slack_key(key: str, wheels: Sequence[DriveWheel]) -> str:
+    """Return the key that gives the slack tension of a drive, where it is about that: a force of its own."""
+    forced = [
+        number
+        for number, wheel in enumerate(wheels, start=1)
+        if wheel.place.take_up is not None and wheel.place.take_up.tensioner_force_N is not None
+    ]
+    if key != "drive.slack_tension_N" or not forced:
+        return key
+    return f"sprocket.{forced[0]}.take_up.tensioner_force_N"
 
 
 def _key(fault: Fault, wheels: Sequence[DriveWheel], number: int) -> str:
