@@ -64,9 +64,9 @@ def page(drives: dict[str, Path], folder: Path) -> Iterator[str]:
     yield ""
     yield (
         f"By `python tests/benchmarks/drive_cost.py`, Python {platform.python_version()}, "
-        f"{len(os.sched_getaffinity(0))} cores, medians of {RUNS} runs of `wearsim life`: seconds of a processor and "
-        "in brackets on a clock. One sprocket is the mean of the cases of both, each run alone with the teeth "
-        "of its mate as a number; the goal is 2.2 times that."
+        f"{len(os.sched_getaffinity(0))} cores: seconds of a processor and in brackets on a clock, medians of "
+        f"{RUNS} runs of `wearsim life`. One sprocket is the mean of both cases, each run alone with the teeth of its "
+        "mate as a number; the goal is 2.2 times that."
     )
     yield ""
     yield "| drive | first alone | second alone | drive | times one sprocket |"
