@@ -63,10 +63,11 @@ def page(drives: dict[str, Path], folder: Path) -> Iterator[str]:
     yield "# What a drive costs beside one sprocket"
     yield ""
     cores = len(os.sched_getaffinity(0))
+    yield f"By `python tests/benchmarks/drive_cost.py`, Python {platform.python_version()}, {cores} cores."
     yield (
-        f"By `python tests/benchmarks/drive_cost.py`, Python {platform.python_version()}, {cores} cores: "
-        f"seconds of a processor and in brackets on a clock, medians of {RUNS} runs of `wearsim life`. One sprocket is the "
-        "mean of both cases, each run alone with the teeth of its mate as a number; the goal is 2.2 times that."
+        f"Seconds of a processor and in brackets on a clock, medians of {RUNS} runs of `wearsim life`. One "
+        "sprocket is the mean of both cases, each run alone with the teeth of its mate as a number; the goal "
+        "is 2.2 times that."
     )
     yield ""
     yield "| drive | first alone | second alone | drive | times one sprocket |"
