@@ -14,7 +14,13 @@ _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
 def row(label: str, text: str) -> str:
-    """Return one line of an answer, folded under its label, but not within a number."""
+    """Return one line of an answer, folded under its label, but not within a number.
+
+    Examples
+    --------
+    >>> row("Stops", "x" * 84 + " 1 803 h").splitlines()[1].strip()
+    '1 803 h'
+    """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
         _GROUP.sub("\u00a0", text),
