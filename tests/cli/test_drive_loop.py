@@ -169,7 +169,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
         ("links = 92", "links = 92\nslack_tension_N = 80", 35, "the force of the take_up gives this"),
         ("tensioner_force_N = 80", "tensioner_force_N = 80000", 36, "the pull must stay below the chain's"),
         ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be pulled"),
-        ("tensioner_force_N = 80", "tensioner_force_N = 5", 18, "'motor': the rollers must hold the chain"),
+        ("tensioner_force_N = 80", "tensioner_force_N = 0.1", 18, "'motor': the rollers must hold the chain"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line, message, loop):

@@ -17,6 +17,7 @@ from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.quantities import DAYS_OF_YEAR
+from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
 from wearsim.study.whole_drive.wheels import (
     DRIVEN,
     DRIVER,
@@ -29,23 +30,8 @@ from wearsim.study.whole_drive.wheels import (
     power_shares,
 )
 
-_GIVEN_BY_WHEELS = "mate_teeth"
-
 SERVICE_YEARS, LONGEST = 100.0, 1e6
 """Years of service, and hours, after which the runs of a drive end that gives no horizon."""
-
-_OF_ONE_SPROCKET = {
-    "turn_sprocket": "is for the case of one sprocket: a drive is planned without turning: remove it",
-    "replace_at_percent": "is for the case of one sprocket: the chain of a drive goes at "
-    "stop.elongation_percent: remove it",
-}
-"""Keys of [maintenance] that a drive has no use for."""
-
-_FOR_ONE_SPROCKET = {
-    "fatigue": "contact fatigue is for the case of one sprocket: remove this table",
-    "optimise": "wearsim optimise takes the case of one sprocket: remove this table",
-}
-"""Tables that a drive has no use for."""
 
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
@@ -114,10 +100,10 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
         Everything that is wrong with the input, with file and line.
     """
     document = read_document(source, overrides)
-    _check_tables(document)
+    check_tables(document)
     wheels = drive_wheels(document)
     document.faults.check()
-    _check_prices(document, wheels)
+    check_prices(document, wheels)
     shares = power_shares(document, wheels)
     check_block_shares(document, wheels)
     document.faults.check()
@@ -126,40 +112,6 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     expect(MECHANISMS["wrap"].kernels)
     title = document.data.get("title") or _title(wheels, sprockets[0].case)
     return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels))
-
-
-def _check_tables(document: Document) -> None:
-    drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
-    for key, message in _OF_ONE_SPROCKET.items():
-        if _table(document.data, "maintenance").get(key):
-            document.faults.add(f"maintenance.{key}", message)
-    for table, message in _FOR_ONE_SPROCKET.items():
-        if table in document.data:
-            document.faults.add(table, message)
-    kind = _table(document.data, "mechanism").get("kind", "wrap")
-    if kind != "wrap":
-        message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
-        document.faults.add("mechanism.kind", message)
-    if isinstance(drive, dict) and _GIVEN_BY_WHEELS in drive:
-        document.faults.add(f"drive.{_GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
-    if isinstance(load, dict) and "duty_file" in load:
-        document.faults.add("load.duty_file", "a drive with [[sprocket]] takes no log of loads: use [[duty]]")
-    if isinstance(duty, list) and len(document.data["sprocket"]) == 2:
-        for number, block in enumerate(duty, start=1):
-            if isinstance(block, dict) and "power_share" in block:
-                document.faults.add(
-                    f"duty.{number}.power_share", "the only driven sprocket has all of the power: remove this"
-                )
-
-
-def _check_prices(document: Document, wheels: Sequence[DriveWheel]) -> None:
-    if "chain_price" in _table(document.data, "maintenance"):
-        return
-    for number, wheel in enumerate(wheels, start=1):
-        if wheel.place.price is not None:
-            document.faults.add(
-                f"sprocket.{number}.price", "the cost needs maintenance.chain_price too: give both or none"
-            )
 
 
 def _title(wheels: Sequence[DriveWheel], first: Case) -> str:
@@ -327,10 +279,10 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     """Return the tables of the case of one sprocket: its teeth, its speed and its torque."""
     wheel = wheels[number]
     driver = next(one for one in wheels if one.role == DRIVER)
-    drive = {"joint_friction": JOINT_FRICTION, **_table(data, "drive")}
+    drive = {"joint_friction": JOINT_FRICTION, **table_of(data, "drive")}
     if wheel.place.position_mm is None:
-        drive[_GIVEN_BY_WHEELS] = wheels[1 - number].rollers
-    run, service = _table(data, "run"), _table(data, "service")
+        drive[GIVEN_BY_WHEELS] = wheels[1 - number].rollers
+    run, service = table_of(data, "run"), table_of(data, "service")
     hours_per_day = service.get("hours_per_day")
     if isinstance(hours_per_day, int | float) and 0.0 < hours_per_day <= 24.0:
         run = {"horizon_hours": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * hours_per_day), **run}
@@ -339,20 +291,20 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
         "run": run,
         "sprocket": {**wheel.table, "role": DRIVER if wheel.role == DRIVER else DRIVEN},
         "drive": drive,
-        "mechanism": {"kind": "wrap", **_table(data, "mechanism")},
+        "mechanism": {"kind": "wrap", **table_of(data, "mechanism")},
     }
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
         # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
-        condition = _table({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        condition = table_of({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
         state = wear_conditions().get(condition or WELL_LUBRICATED)
         if state is not None:
             rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
-            tables["joint"] = {**rate, **_table(data, "joint")}
+            tables["joint"] = {**rate, **table_of(data, "joint")}
     if wheel.place.price is not None:
-        tables["maintenance"] = {**_table(data, "maintenance"), "sprocket_price": wheel.place.price}
+        tables["maintenance"] = {**table_of(data, "maintenance"), "sprocket_price": wheel.place.price}
     if "material" in wheel.own:
-        tables["material"] = {**_table(data, "material"), "sprocket": wheel.own["material"]}
+        tables["material"] = {**table_of(data, "material"), "sprocket": wheel.own["material"]}
     if wheel is not driver:
         ratio = driver.rollers / wheel.rollers
         if isinstance(data.get("load"), dict):
@@ -362,11 +314,6 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
                 _turned(block, ratio) if isinstance(block, dict) else block for block in data["duty"]
             ]
     return tables
-
-
-def _table(data: Mapping[str, Any], name: str) -> dict[str, Any]:
-    table = data.get(name, {})
-    return table if isinstance(table, dict) else {}
 
 
 def _turned(load: Mapping[str, Any], ratio: float) -> dict[str, Any]:
