@@ -17,7 +17,7 @@ case = "drive.toml"
 def drive(tmp_path, two_sprockets):
     path = tmp_path / "drive.toml"
     # Teeth that wear faster than the chain: a run ends with its first one.
-    path.write_text(two_sprockets.replace("= 5e-9", "= 2e-8"))
+    path.write_text(two_sprockets.replace("= 5e-9", "= 1e-7"))
     (tmp_path / "sweep.toml").write_text(SWEEP)
     return path
 

@@ -133,6 +133,7 @@ def test_torque_is_that_of_the_driver(cli, drive, tmp_path, two_sprockets):
     assert torque == pytest.approx(power, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_sprocket_with_twice_the_gaps_turns_as_often(cli, tmp_path, two_sprockets):
     """Every second of 40 gaps carries a roller: the drive is that of 20 teeth."""
     chain = """\
