@@ -48,6 +48,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 1e-8
 [wear]
 specific_wear_rate_mm2_per_N = 5e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 [service]
@@ -97,6 +99,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 """
@@ -124,6 +128,8 @@ speed_rpm = 100
 specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 """
