@@ -51,6 +51,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 """
@@ -78,6 +80,8 @@ speed_rpm = 100
 specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 """
@@ -210,6 +214,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path):
             "load": {"power_kW": 0.8, "speed_rpm": 100 * 38 / teeth},
             "joint": {"specific_wear_rate_mm2_per_N": 1e-9},
             "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+            "mechanism": {"phases": 1},
             "run": {"life_tolerance": 0.1},
         }
         alone.append(wearsim.load_case(tables))
@@ -278,7 +283,7 @@ def test_cassettes_are_checked(cli, tmp_path):
         ('name = "cassette"', 'name = "cassette"\nteeth = 17', "the cogs give their own"),
         ("teeth = 17, share", "teeth = 13, share", "cogs must have different teeth"),
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
-        ("[run]", '[mechanism]\nkind = "strand"\n[run]', "the chain of a drive wraps its sprockets"),
+        ("phases = 1", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
     ):
         path.write_text(CASSETTE.replace(before, after))
         done = cli("check", path)

@@ -34,6 +34,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 3e-9
 [wear]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 [service]
@@ -77,6 +79,8 @@ speed_rpm = 100
 specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 """

@@ -46,6 +46,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 4e-8
 [wear]
 specific_wear_rate_mm2_per_N = 2e-8
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 [service]

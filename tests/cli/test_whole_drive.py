@@ -16,12 +16,12 @@ designation = "08B-1"
 [[sprocket]]
 teeth = 17
 profile = "iso606"
-nodes = 101
+nodes = 61
 [[sprocket]]
 name = "roll"
 teeth = 20
 profile = "iso606"
-nodes = 101
+nodes = 61
 [drive]
 links = 110
 [load]
@@ -31,6 +31,8 @@ speed_rpm = 300
 specific_wear_rate_mm2_per_N = 1e-8
 [wear]
 specific_wear_rate_mm2_per_N = 5e-9
+[mechanism]
+phases = 1
 [run]
 life_tolerance = 0.1
 [service]
@@ -54,11 +56,12 @@ def own_case(teeth, mate, role, rpm):
     return {
         "format_version": 1,
         "chain": {"designation": "08B-1"},
-        "sprocket": {"teeth": teeth, "profile": "iso606", "nodes": 101, "role": role},
+        "sprocket": {"teeth": teeth, "profile": "iso606", "nodes": 61, "role": role},
         "drive": {"links": 110, "mate_teeth": mate},
         "load": {"power_kW": 1.3, "speed_rpm": rpm},
         "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
         "wear": {"specific_wear_rate_mm2_per_N": 5e-9},
+        "mechanism": {"phases": 1},
         "run": {"life_tolerance": 0.1},
     }
 
@@ -197,7 +200,7 @@ speed_rpm = 300
     [
         (("teeth = 20", "teeth = 3"), 10, "must be a whole number of at least 5"),
         (
-            ('profile = "iso606"\nnodes = 101\n[drive]', 'profile = "evolvent"\n[drive]'),
+            ('profile = "iso606"\nnodes = 61\n[drive]', 'profile = "evolvent"\n[drive]'),
             11,
             "(got 'evolvent')",
         ),
