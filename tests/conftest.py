@@ -2,6 +2,7 @@
 
 import importlib
 import runpy
+import subprocess
 import sys
 from pathlib import Path
 
@@ -25,6 +26,15 @@ def pytest_addoption(parser):
         metavar="FILE",
         help="write docs/measured.md to FILE from the rows of tests/validation",
     )
+
+
+def pytest_sessionstart(session):
+    """Have all kernels compiled side by side before workers run the whole suite and compile each its own."""
+    config = session.config
+    whole = config.args_source is config.ArgsSource.TESTPATHS and not config.option.collectonly
+    if whole and config.getoption("numprocesses") and not hasattr(config, "workerinput"):
+        command = [sys.executable, "-c", "import wearsim.cli; wearsim.cli.main()", "warm", "-q"]
+        subprocess.run(command, check=True)
 
 
 def pytest_terminal_summary(terminalreporter, exitstatus, config):

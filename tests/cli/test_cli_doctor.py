@@ -179,7 +179,9 @@ def read_only(tmp_path):
 
 LOCKED = """
 import os, sys, tempfile
-import wearsim.cli, wearsim.kernels.compiled  # kernels from the cache that there is
+import wearsim.cli
+from wearsim.kernels import compiled
+compiled._folder()  # kernels from the cache that there is
 tempfile.tempdir = os.environ["HOME"] = os.environ["NUMBA_CACHE_DIR"] = sys.argv[1]
 sys.argv = ["wearsim", "doctor", "--json"]
 wearsim.cli.main()

@@ -30,7 +30,10 @@ def case(drive):
     def write(optimise=None):
         path = drive()
         with path.open("a") as file:
-            file.write("[run]\nhorizon_hours = 1e6\n" + (table() if optimise is None else optimise))
+            file.write(
+                "[run]\nhorizon_hours = 1e6\nlife_tolerance = 0.1\n"
+                + (table() if optimise is None else optimise)
+            )
         return path
 
     return write

@@ -10,7 +10,12 @@ import pytest
 def case(drive):
     """Function that writes the test drive with a table [optimise] and more."""
 
-    def write(parameters, objectives='"life_hours"', limits="", more="[run]\nhorizon_hours = 1e6\n"):
+    def write(
+        parameters,
+        objectives='"life_hours"',
+        limits="",
+        more="[run]\nhorizon_hours = 1e6\nlife_tolerance = 0.1\n",
+    ):
         path = drive()
         with path.open("a") as file:
             file.write(f"{more}[optimise]\nobjectives = [{objectives}]\n")

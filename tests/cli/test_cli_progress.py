@@ -19,6 +19,8 @@ STUDY = ("uncertainty", "--samples", str(SAMPLES), "--threads", "1")
 """Of three parts."""
 
 SCATTER = """\
+[run]
+life_tolerance = 0.1
 [uncertainty]
 "load.power_kW" = {distribution = "normal", standard_deviation = 0.2}
 """

@@ -44,6 +44,7 @@ CASE: dict[str, Any] = {
     "load": {"tension_N": 5000.0, "speed_rpm": 100},
     "wear": {"condition": "hardened, oiled"},
     "stop": {"critical_depth_mm": 0.2},
+    "run": {"life_tolerance": 0.1},
 }
 OFFSET, FACE, START = (f"sprocket.{name}_mm" for name in ("evolute_offset", "face_width", "contact_start"))
 Searched = Callable[..., tuple[OptimiseStudy, list[Candidate]]]
