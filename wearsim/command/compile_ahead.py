@@ -14,7 +14,7 @@ from wearsim.kernels.compiled import Kernel
 from wearsim.runner.workers import Processes
 
 _MOST_PROCESSES = 4
-_START, _EACH, _PER_BYTE = 1.0, 0.1, 4.5e-4
+_START, _EACH, _PER_BYTE = 1.0, 0.02, 1.8e-4
 """Seconds that a process takes to load numba, that any kernel takes, and more for a byte of its code."""
 
 _UNTOLD = 2.0
@@ -40,8 +40,9 @@ def compile_with_bar(context: click.Context, kernels: list[Kernel]) -> None:
 
 def seconds_to_compile(kernels: list[Kernel]) -> float:
     """Return about how long some kernels take to compile side by side, on the machine of the reports [s]."""
-    seconds = [_seconds(group) for group in _groups(kernels)]
-    return _START + max(sum(seconds) / _processes(), *seconds)
+    groups = _groups(kernels)
+    seconds = list(map(_seconds, groups))
+    return _START + max(sum(seconds) / (1 + _other_processes(groups)), *seconds)
 
 
 def compile_side_by_side(kernels: list[Kernel], report_progress: Callable[[float], None]) -> None:
@@ -62,7 +63,7 @@ def compile_side_by_side(kernels: list[Kernel], report_progress: Callable[[float
         done += _seconds(group)
         report_progress(done / total)
 
-    others = min(_processes(), len(groups)) - 1
+    others = _other_processes(groups)
     if not others:
         for group in groups:
             _compile(group)
@@ -74,16 +75,17 @@ def compile_side_by_side(kernels: list[Kernel], report_progress: Callable[[float
 
 
 _Group = list[Kernel]
-"""Kernels that call each other, which are compiled in one process: what they share is lowered once."""
+"""Kernels that are compiled in one process, because what most of them calls is then lowered once."""
 
 
 def _groups(kernels: list[Kernel]) -> list[_Group]:
     """Return groups of kernels, the longest first."""
     found: list[_Group] = []
-    for one in sorted(kernels, key=lambda one: (-len(one.tree), one.name)):
-        group = next((group for group in found if one in group[0].tree), None)
-        if group:
-            group.append(one)
+    for one in sorted(kernels, key=lambda one: (-_seconds([one]), one.name)):
+        for group in found:
+            if 2.0 * _seconds_of(one.tree - _tree(group)) < _seconds([one]):
+                group.append(one)
+                break
         else:
             found.append([one])
     return sorted(found, key=_seconds, reverse=True)
@@ -114,13 +116,20 @@ def _compile(group: _Group) -> None:
         assert one.compiled is not None
 
 
+def _tree(group: _Group) -> set[Kernel]:
+    return set[Kernel]().union(*(one.tree for one in group))
+
+
 def _seconds(group: _Group) -> float:
-    return sum(
-        _EACH + _PER_BYTE * len(one.function.__code__.co_code)
-        for one in set.union(*(one.tree for one in group))
-    )
+    return _seconds_of(_tree(group))
 
 
-def _processes() -> int:
+def _seconds_of(kernels: set[Kernel]) -> float:
+    return sum(_EACH + _PER_BYTE * len(one.function.__code__.co_code) for one in kernels)
+
+
+def _other_processes(groups: list[_Group]) -> int:
+    """Return how many processes are worth their start."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(cores, _MOST_PROCESSES)
+    worth = math.floor(sum(map(_seconds, groups[1:])) / _START)
+    return min(cores, _MOST_PROCESSES, len(groups), 1 + worth) - 1
