@@ -21,7 +21,6 @@ import threading
 from collections.abc import Callable, Iterable
 from functools import cache, cached_property, update_wrapper
 from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 from pkgutil import iter_modules
 from types import FunctionType
@@ -36,6 +35,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 def source_hash() -> str:
     """Return the hash of every kernel source, numba and Python that the machine code depends on."""
+    from importlib.metadata import version
+
     digest = hashlib.sha256(f"{version('numba')} {platform.python_version()}".encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode())
@@ -97,8 +98,8 @@ _COMPILING = threading.RLock()
 class Kernel:
     """A function that is compiled, or read from the cache, when it is first called.
 
-    One that is quick runs in Python until machine code has been loaded for something else: to the same bits, in
-    a tenth of the time that loading takes.
+    One that is quick runs in Python until machine code has been loaded for something else: to the same
+    bits, in a tenth of the time that loading takes.
     """
 
     def __init__(self, function: Callable[..., Any], signature: Any, quick: bool) -> None:
@@ -126,8 +127,8 @@ class Kernel:
     def compiled(self) -> Callable[..., Any]:
         """The function in machine code, strict in its arithmetic, or in the form that stands in for that.
 
-        That is the function itself where numba is told to compile nothing, and numba's own of other packages and
-        where object code would not do.
+        That is the function itself where numba is told to compile nothing, and numba's own where
+        object code would not do, and for kernels of other packages.
         """
         with _COMPILING:
             if _interpreted():

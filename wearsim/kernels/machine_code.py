@@ -19,8 +19,8 @@ from wearsim.kernels.signatures import Signature
 _HASH = 32
 """Bytes of a hash."""
 
-_KINDS = {"d": ctypes.c_double, "i": ctypes.c_int64, "p": ctypes.c_void_p}
-_RESULTS = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "void": ctypes.c_void_p}
+_KINDS: dict[str, Any] = {"d": ctypes.c_double, "i": ctypes.c_int64, "p": ctypes.c_void_p}
+_RESULTS: dict[str, Any] = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "void": ctypes.c_void_p}
 
 
 def parameters(signature: Signature) -> str:
@@ -117,12 +117,14 @@ class MachineCode:
         return result.value
 
     def _array(self, array: Any, dimensions: int) -> tuple[Any, ...]:
-        """Return what stands for an array: no owner, numbers and bytes of them, address, shape and strides."""
+        """Return what stands for an array: no owner, size, bytes of a number, address, shape, strides."""
         interface = array.__array_interface__
         address, read_only = interface["data"]
         shape, strided = interface["shape"], interface["strides"]
         if interface["typestr"] != "<f8" or len(shape) != dimensions or strided or read_only:
+            found = f"{interface['typestr']} of shape {shape}" + " with gaps" * bool(strided)
             raise TypeError(
-                f"kernel {self._name}: must get contiguous float64 arrays to write to, of {dimensions} dimensions"
+                f"kernel {self._name}: an array must be of float64, {dimensions}-dimensional, without gaps and "
+                f"open to writing, but is {found}"
             )
         return None, None, array.size, array.itemsize, address, *shape, *array.strides

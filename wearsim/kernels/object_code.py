@@ -15,15 +15,18 @@ from typing import TYPE_CHECKING, Any
 import numba
 from llvmlite import ir
 from numba import types
-from numba.core import codegen, cpu, errors, typing
+from numba.core import codegen, cpu, errors
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher, CPUTarget
+from numba.core.typing.context import Context
 from numba.extending import typeof_impl
 
 from wearsim.kernels.machine_code import parameters
 
 if TYPE_CHECKING:
     from wearsim.kernels.compiled import Kernel
+
+_NJIT: Any = numba.njit
 
 _STRICT = {"error_model": "numpy", "nogil": True}
 """Options of every kernel: no exceptions, no fast arithmetic, other threads run on."""
@@ -40,6 +43,8 @@ _MATHEMATICS = frozenset(
 )
 """What object code may call beyond itself: every process of Python has loaded these."""
 
+_PROCEDURE = ir.FunctionType(ir.VoidType(), ())
+
 
 class _Part(codegen.JITCodeLibrary):
     """A function that is lowered but neither optimised nor turned into machine code."""
@@ -49,9 +54,7 @@ class _Part(codegen.JITCodeLibrary):
         for function in module.functions:
             if function.name == "numba_gil_ensure" and function.is_declaration:
                 builder = ir.IRBuilder(function.append_basic_block())
-                builder.call(
-                    module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), ())), ()
-                )
+                builder.call(module.declare_intrinsic("llvm.trap", (), _PROCEDURE), ())
                 builder.unreachable()
                 function.linkage = "internal"
         super().add_ir_module(module)
@@ -104,7 +107,7 @@ class _Target(CPUTarget):
 
     def __init__(self) -> None:
         super().__init__("cpu")
-        self._typing = typing.Context()
+        self._typing = Context()
         self._context = _Context(self._typing, "cpu")
 
     @property
@@ -175,19 +178,19 @@ def _without_collecting() -> Iterator[None]:
 
 @cache
 def _part(kernel: "Kernel") -> Any:
-    _register(type(kernel))
-    return numba.njit(kernel.signature, **_BARE)(kernel.function)
+    typeof_impl.register(type(kernel), _type_of)
+    return _NJIT(kernel.signature, **_BARE)(kernel.function)
 
 
 def numba_function(kernel: "Kernel", folder: Path | None) -> Any:
     """Return numba's own function of a kernel, with its own cache in a folder."""
-    _register(type(kernel))
+    typeof_impl.register(type(kernel), _type_of)
     config: Any = numba.config
     before = config.CACHE_DIR
     config.CACHE_DIR = str(folder) if folder else before
     try:
         with _without_collecting():
-            return numba.njit(kernel.signature, cache=folder is not None, **_STRICT)(kernel.function)
+            return _NJIT(kernel.signature, cache=folder is not None, **_STRICT)(kernel.function)
     finally:
         config.CACHE_DIR = before
 
@@ -199,12 +202,7 @@ def address(function: Any) -> int:
     return place
 
 
-@cache
-def _register(kind: type) -> None:
+def _type_of(kernel: "Kernel", context: Any) -> Any:
     """Have numba find, where a kernel calls another one, that one's compiled form."""
-
-    def type_of(kernel: "Kernel", context: Any) -> Any:
-        in_parts = CPUDispatcher.targetdescr is _target()
-        return typeof_impl(_part(kernel) if in_parts else kernel.left_to_numba, context)
-
-    typeof_impl.register(kind, type_of)
+    in_parts = CPUDispatcher.targetdescr is _target()
+    return typeof_impl(_part(kernel) if in_parts else kernel.left_to_numba, context)
