@@ -28,7 +28,7 @@ from typing import Any, ClassVar, TypeVar, cast
 
 import platformdirs
 
-from wearsim.kernels.machine_code import MachineCode, file_ending, keep, kept
+from wearsim.kernels.machine_code import MachineCode, file_ending, keep, kept, usable
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -133,7 +133,7 @@ class Kernel:
         with _COMPILING:
             if _interpreted():
                 return self.function
-            code = self._code() if self.ours else b""
+            code = self._code() if self.ours and usable() else b""
             return MachineCode(self.name, self.signature, code) if code else self.left_to_numba
 
     def _code(self) -> bytes:
@@ -228,7 +228,7 @@ def not_in_cache(kernels: Iterable[Kernel]) -> list[Kernel]:
     There are none where nothing is compiled at all or nothing can be kept. Kernels of other packages
     are left out.
     """
-    if _interpreted() or _folder() is None:
+    if _interpreted() or _folder() is None or not usable():
         return []
     files = {one: one.object_file for one in kernels if one.ours}
     return [one for one, path in files.items() if path and not path.exists()]

@@ -8,6 +8,7 @@ so that code never runs on another kind of processor than it was made for.
 import ctypes
 import hashlib
 import os
+import sys
 import tempfile
 from functools import cache
 from operator import index
@@ -18,6 +19,12 @@ from wearsim.kernels.signatures import Signature
 
 _HASH = 32
 """Bytes of a hash."""
+
+FROM_PYTHON = (
+    *("acos", "asin", "atan", "atan2", "ceil", "cos", "exp", "expm1", "floor", "fmod", "log", "log1p"),
+    *("memcpy", "memmove", "memset", "pow", "sin", "sqrt", "tan", "tanh", "trunc"),
+)
+"""What machine code may call beyond itself, of the libraries of C that Python has loaded."""
 
 _KINDS: dict[str, Any] = {"d": ctypes.c_double, "i": ctypes.c_int64, "p": ctypes.c_void_p}
 _RESULTS: dict[str, Any] = {"float64": ctypes.c_double, "int64": ctypes.c_int64, "void": ctypes.c_void_p}
@@ -47,6 +54,14 @@ def _engine() -> Any:
     llvm.initialize_native_asmprinter()
     machine = llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine()
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+
+
+@cache
+def usable() -> bool:
+    """Tell whether machine code can run without numba, which finds the libraries of C on Windows."""
+    from llvmlite import binding as llvm
+
+    return sys.platform != "win32" and all(map(llvm.address_of_symbol, FROM_PYTHON))
 
 
 @cache
@@ -122,9 +137,8 @@ class MachineCode:
         address, read_only = interface["data"]
         shape, strided = interface["shape"], interface["strides"]
         if interface["typestr"] != "<f8" or len(shape) != dimensions or strided or read_only:
-            found = f"{interface['typestr']} of shape {shape}" + " with gaps" * bool(strided)
             raise TypeError(
-                f"kernel {self._name}: an array must be of float64, {dimensions}-dimensional, without gaps and "
-                f"open to writing, but is {found}"
+                f"kernel {self._name}: an array must be of float64, without gaps, writable and of dimension "
+                f"{dimensions}, but is {interface}"
             )
         return None, None, array.size, array.itemsize, address, *shape, *array.strides

@@ -21,7 +21,7 @@ from numba.core.registry import CPUDispatcher, CPUTarget
 from numba.core.typing.context import Context
 from numba.extending import typeof_impl
 
-from wearsim.kernels.machine_code import parameters
+from wearsim.kernels.machine_code import FROM_PYTHON, parameters
 
 if TYPE_CHECKING:
     from wearsim.kernels.compiled import Kernel
@@ -37,11 +37,6 @@ _BARE = {**_STRICT, "_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper
 _ARRAY = ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides")
 _FUNCTION = ("c_addr", "py_addr", "jit_addr")
 """Fields by which numba passes an array, and a function."""
-
-_MATHEMATICS = frozenset(
-    ("acos", "asin", "atan", "atan2", "cos", "exp", "expm1", "log", "log1p", "pow", "sin", "sqrt", "tan")
-)
-"""What object code may call beyond itself: every process of Python has loaded these."""
 
 _PROCEDURE = ir.FunctionType(ir.VoidType(), ())
 
@@ -75,9 +70,10 @@ class _Part(codegen.JITCodeLibrary):
         module.get_function(entry).name = name
         whole._optimize_final_module()
         module.verify()
-        declared = {one.name for one in module.functions if one.is_declaration}
-        others = {one for one in declared - _MATHEMATICS if not one.startswith("llvm.")}
-        code: bytes = b"" if others else self.codegen._tm.emit_object(module)
+        called = {one.name for one in module.functions if one.is_declaration}
+        if not all(one in FROM_PYTHON or one.startswith("llvm.") for one in called):
+            return b""
+        code: bytes = self.codegen._tm.emit_object(module)
         return code
 
     def _with_all_below(self, found: dict["_Part", None]) -> dict["_Part", None]:
