@@ -61,6 +61,7 @@ def usable() -> bool:
     """Tell whether machine code can run without numba, which finds the libraries of C on Windows."""
     from llvmlite import binding as llvm
 
+    _engine()  # which has LLVM look through all that the process has loaded
     return sys.platform != "win32" and all(map(llvm.address_of_symbol, FROM_PYTHON))
 
 
