@@ -5,6 +5,7 @@ A file holds the hash of its code, then the code. Its name carries the processor
 so that code never runs on another kind of processor than it was made for.
 """
 
+import contextlib
 import ctypes
 import hashlib
 import os
@@ -82,11 +83,11 @@ def _matters(setting: str) -> bool:
 
 
 def keep(code: bytes, path: Path) -> None:
-    """Write an object file, beside and renamed, so that others never see a part of it."""
-    handle, name = tempfile.mkstemp(dir=path.parent)
-    with os.fdopen(handle, "wb") as file:
-        file.write(hashlib.sha256(code).digest() + code)
-    os.replace(name, path)
+    """Write an object file, or none on a full disk; renamed, so that others never see a part of it."""
+    with contextlib.suppress(OSError), tempfile.TemporaryDirectory(dir=path.parent) as folder:
+        beside = Path(folder) / path.name
+        beside.write_bytes(hashlib.sha256(code).digest() + code)
+        os.replace(beside, path)
 
 
 def kept(path: Path) -> bytes | None:
