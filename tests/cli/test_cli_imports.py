@@ -8,7 +8,7 @@ import pytest
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"
 
-HEAVY = {"numpy", "numba", "pandas", "scipy", "matplotlib", "shapely", "pint"}
+HEAVY = {"numpy", "numba", "llvmlite", "pandas", "scipy", "matplotlib", "shapely", "pint"}
 
 PROGRAM = """\
 import sys
@@ -41,9 +41,16 @@ def test_check_of_a_strand_compiles_nothing(drive):
     assert loaded("check", drive()) == {"numpy", "shapely"}
 
 
-def test_life_loads_neither_pandas_nor_matplotlib_nor_pint(drive):
-    assert loaded("life", drive()) & {"pandas", "matplotlib", "pint"} == set()
-    assert loaded("life", "--json", drive()) & {"pandas", "matplotlib", "pint"} == set()
+def test_life_of_a_strand_runs_its_machine_code_without_numba(drive):
+    loaded("life", drive())  # compiles
+    assert loaded("life", drive()) == loaded("life", "--json", drive()) == {"numpy", "shapely", "llvmlite"}
+
+
+@pytest.mark.slow
+def test_life_of_a_wrap_runs_its_machine_code_without_numba():
+    wrap = CASES.parent / "08b-19t-wrap.toml"
+    loaded("life", wrap)  # compiles
+    assert loaded("life", wrap) & {"numba", "pandas", "matplotlib"} == set()
 
 
 def test_life_loads_pint_for_a_string_with_a_unit(drive):

@@ -70,14 +70,14 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 
 def announce_compiling() -> None:
     """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
-    from wearsim.kernels.compiled import Calls, compile_by
+    from wearsim.kernels.compiled import Kernel, compile_by
 
     context = click.get_current_context()
 
-    def compile_together(calls: Calls) -> None:
+    def compile_together(kernels: list[Kernel]) -> None:
         from wearsim.command.compile_ahead import compile_ahead
 
-        compile_ahead(context, calls)
+        compile_ahead(context, kernels)
 
     compile_by(compile_together)
 

@@ -5,128 +5,131 @@ import math
 import os
 import sys
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from graphlib import TopologicalSorter
+from concurrent.futures import BrokenExecutor, Executor, as_completed
 
 import click
 
 from wearsim.command.options import warn, working
-from wearsim.kernels.compiled import Calls, Kernel
+from wearsim.kernels.compiled import Kernel
 from wearsim.runner.workers import Processes
 
 _MOST_PROCESSES = 4
-_START, _EACH, _PER_BYTE = 1.0, 0.1, 4.5e-4
+_START, _EACH, _PER_BYTE = 1.0, 0.02, 1.8e-4
 """Seconds that a process takes to load numba, that any kernel takes, and more for a byte of its code."""
 
 _UNTOLD = 2.0
 """Seconds up to which nobody is told, and the kernels are left to compile when they are called."""
 
 
-def compile_ahead(context: click.Context, calls: Calls) -> None:
+def compile_ahead(context: click.Context, kernels: list[Kernel]) -> None:
     """Compile what the command of a context is going to call, and say so on stderr, if it takes long."""
-    if seconds_to_compile(calls) > _UNTOLD:
-        compile_with_bar(context, calls)
+    if seconds_to_compile(kernels) > _UNTOLD:
+        compile_with_bar(context, kernels)
 
 
-def compile_with_bar(context: click.Context, calls: Calls) -> None:
+def compile_with_bar(context: click.Context, kernels: list[Kernel]) -> None:
     """Compile kernels for the command of a context, and say so on stderr."""
-    seconds = seconds_to_compile(calls)
+    seconds = seconds_to_compile(kernels)
     text = f"compiling once, about {math.ceil(seconds)} s"
     with context.scope(cleanup=False):
         if not sys.stderr.isatty():
             warn(text)
         with working(text) as report_progress:
-            compile_side_by_side(calls, report_progress)
+            compile_side_by_side(kernels, report_progress)
 
 
-def seconds_to_compile(calls: Calls) -> float:
+def seconds_to_compile(kernels: list[Kernel]) -> float:
     """Return about how long some kernels take to compile side by side, on the machine of the reports [s]."""
-    total = sum(_seconds(one) for one in calls)
-    return _START + max(total / _processes(), *_waits(calls).values())
+    groups = _groups(kernels)
+    seconds = list(map(_seconds, groups))
+    return _START + max(sum(seconds) / (1 + _other_processes(groups)), *seconds)
 
 
-def compile_side_by_side(calls: Calls, report_progress: Callable[[float], None]) -> None:
+def compile_side_by_side(kernels: list[Kernel], report_progress: Callable[[float], None]) -> None:
     """Compile kernels in this process and in others, so that the cache holds them.
 
     Parameters
     ----------
-    calls : dict
-        The kernels, with those of them that each calls.
+    kernels : list of Kernel
+        What to compile.
     report_progress : callable
         Takes the part that is done, from 0 to 1.
     """
-    others = _processes() - 1
+    groups = _groups(kernels)
+    done, total = 0.0, sum(map(_seconds, groups))
+
+    def finish(group: _Group) -> None:
+        nonlocal done
+        done += _seconds(group)
+        report_progress(done / total)
+
+    others = _other_processes(groups)
     if not others:
-        _Schedule(calls, report_progress).compile_here()
+        for group in groups:
+            _compile(group)
+            finish(group)
         return
     # Where a process dies what is missing is compiled when it is called.
     with contextlib.suppress(BrokenExecutor), Processes(others).open() as (executor, _):
-        _Schedule(calls, report_progress).compile_with(executor, others)
+        _compile_with(executor, groups, finish)
 
 
-class _Schedule:
-    """Kernels in an order in which each comes after those that it calls."""
-
-    def __init__(self, calls: Calls, report_progress: Callable[[float], None]) -> None:
-        self._waits, self._report_progress = _waits(calls), report_progress
-        self._order, self._ready = TopologicalSorter(calls), list[Kernel]()
-        self._done, self._total = 0.0, sum(map(_seconds, calls))
-        self._order.prepare()
-
-    def _next(self) -> Kernel | None:
-        """Return the kernel that others wait for longest, of those that can be compiled now."""
-        self._ready = sorted([*self._ready, *self._order.get_ready()], key=self._waits.__getitem__)
-        return self._ready.pop() if self._ready else None
-
-    def _finish(self, one: Kernel) -> None:
-        self._order.done(one)
-        self._done += _seconds(one)
-        self._report_progress(self._done / self._total)
-
-    def compile_here(self) -> None:
-        """Compile one after the other."""
-        while one := self._next():
-            _compile(one)
-            self._finish(one)
-
-    def compile_with(self, executor: Executor, others: int) -> None:
-        """Compile here what the processes of an executor do not; each of these has one that waits."""
-        running: dict[Future[None], Kernel] = {}
-        try:
-            while self._order.is_active():
-                one = self._next()
-                if one and len(running) < 2 * others:
-                    running[executor.submit(_compile, one)] = one
-                    continue
-                if one:
-                    _compile(one)
-                    self._finish(one)
-                for future in wait(running, 0.0 if one else None, FIRST_COMPLETED).done:
-                    future.result()
-                    self._finish(running.pop(future))
-        finally:
-            for future in running:
-                future.cancel()
+_Group = list[Kernel]
+"""Kernels that are compiled in one process, because what most of them calls is then lowered once."""
 
 
-def _compile(one: Kernel) -> None:
-    assert one.compiled is not None
+def _groups(kernels: list[Kernel]) -> list[_Group]:
+    """Return groups of kernels, the longest first."""
+    found: list[_Group] = []
+    for one in sorted(kernels, key=lambda one: (-_seconds([one]), one.name)):
+        for group in found:
+            if 2.0 * _seconds_of(one.tree - _tree(group)) < _seconds([one]):
+                group.append(one)
+                break
+        else:
+            found.append([one])
+    return sorted(found, key=_seconds, reverse=True)
 
 
-def _seconds(one: Kernel) -> float:
-    return _EACH + _PER_BYTE * len(one.function.__code__.co_code)
+def _compile_with(executor: Executor, groups: list[_Group], finish: Callable[[_Group], None]) -> None:
+    """Compile the first group here, the others in an executor, and of these here what it has not come to."""
+    first, *others = groups
+    started = {executor.submit(_compile, group): group for group in others}
+    try:
+        _compile(first)
+        finish(first)
+        for future in reversed([*started]):
+            if future.cancel():
+                group = started.pop(future)
+                _compile(group)
+                finish(group)
+        for future in as_completed(started):
+            future.result()
+            finish(started[future])
+    finally:
+        for future in started:
+            future.cancel()
 
 
-def _waits(calls: Calls) -> dict[Kernel, float]:
-    """Return how long the last kernel takes to be ready from the start of each of those that it calls."""
-    found = dict.fromkeys(calls, 0.0)
-    for one in reversed([*TopologicalSorter(calls).static_order()]):
-        found[one] += _seconds(one)
-        for other in calls[one]:
-            found[other] = max(found[other], found[one])
-    return found
+def _compile(group: _Group) -> None:
+    for one in group:
+        assert one.compiled is not None
 
 
-def _processes() -> int:
+def _tree(group: _Group) -> set[Kernel]:
+    return set[Kernel]().union(*(one.tree for one in group))
+
+
+def _seconds(group: _Group) -> float:
+    return _seconds_of(_tree(group))
+
+
+def _seconds_of(kernels: set[Kernel]) -> float:
+    return sum(_EACH + _PER_BYTE * len(one.function.__code__.co_code) for one in kernels)
+
+
+def _other_processes(groups: list[_Group]) -> int:
+    """Return how many processes are worth their start."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(cores, _MOST_PROCESSES)
+    worth = math.floor(sum(map(_seconds, groups[1:])) / _START)
+    return min(cores, _MOST_PROCESSES, len(groups), 1 + worth) - 1

@@ -218,7 +218,8 @@ def wear_flanks(
                 if change <= 0.1 * numbers[i, LIFE_TOLERANCE]:
                     found[i, STATUS] = status
             ended, before = status, clock[END]
-            worn[i, 3] = worn[i, 2]
+            for j in range(worn.shape[2]):
+                worn[i, 3, j] = worn[i, 2, j]
             # Where the steps do not suffice a tighter run takes even more.
             tolerance = 0.0 if status == RUNNING else 0.1 * tolerance
         status = flank_rate(

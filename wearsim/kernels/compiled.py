@@ -6,13 +6,12 @@ without a writable home fails at import. Here the cache folder carries a hash of
 all kernel sources, and a private temporary folder stands in where no cache
 folder can be written.
 
-Nothing here or in the modules of the kernels imports numba before a kernel is called, which is how a
-command that calls none starts at once. A program may have the kernels that a run is going to call compiled
+Nothing here or in the modules of the kernels imports numba before a kernel has to be compiled, which is how a
+command starts at once. A program may have the kernels that a run is going to call compiled
 together, before the first of them is called: `expect` names them, `compile_by` says how.
 """
 
 import contextlib
-import gc
 import hashlib
 import os
 import platform
@@ -24,18 +23,21 @@ from functools import cache, cached_property, update_wrapper
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
+from types import FunctionType
 from typing import Any, ClassVar, TypeVar, cast
 
 import platformdirs
+
+from wearsim.kernels.machine_code import MachineCode, file_ending, keep, kept, usable
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def source_hash() -> str:
     """Return the hash of every kernel source, numba and Python that the machine code depends on."""
-    import numba
+    from importlib.metadata import version
 
-    digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
+    digest = hashlib.sha256(f"{version('numba')} {platform.python_version()}".encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode())
         digest.update(source.read_bytes())
@@ -96,8 +98,8 @@ _COMPILING = threading.RLock()
 class Kernel:
     """A function that is compiled, or read from the cache, when it is first called.
 
-    One that is quick runs in Python until something else has loaded numba: to the same bits, in a
-    hundredth of the time that loading takes.
+    One that is quick runs in Python until machine code has been loaded for something else: to the same
+    bits, in a tenth of the time that loading takes.
     """
 
     def __init__(self, function: Callable[..., Any], signature: Any, quick: bool) -> None:
@@ -107,14 +109,15 @@ class Kernel:
 
     def __call__(self, *arguments: Any) -> Any:
         """Return what the function does."""
-        if self._quick and "numba" not in sys.modules:
+        if self._quick and "llvmlite" not in sys.modules:
             # Compiled code goes on with inf and nan where Python, and numpy where it is asked to, raise.
             with contextlib.suppress(ArithmeticError):
                 return self.function(*arguments)
         if "compiled" not in self.__dict__:
             compile_expected(self)
         if self._takes_kernels:
-            arguments = tuple(one.compiled if isinstance(one, Kernel) else one for one in arguments)
+            form = type(self.compiled)
+            arguments = tuple(one.handed_to(form) if isinstance(one, Kernel) else one for one in arguments)
         return self.compiled(*arguments)
 
     def __reduce__(self) -> str:
@@ -122,9 +125,46 @@ class Kernel:
 
     @cached_property
     def compiled(self) -> Callable[..., Any]:
-        """What numba makes of the function: strict arithmetic, no exceptions, safe cache."""
+        """The function in machine code, strict in its arithmetic, or in the form that stands in for that.
+
+        That is the function itself where numba is told to compile nothing, and numba's own where
+        object code would not do, and for kernels of other packages.
+        """
         with _COMPILING:
-            return _compile(self)
+            if _interpreted():
+                return self.function
+            code = self._code() if self.ours and usable() else b""
+            return MachineCode(self.name, self.signature, code) if code else self.left_to_numba
+
+    def _code(self) -> bytes:
+        path = self.object_file
+        code = kept(path) if path else None
+        if code is None:
+            from wearsim.kernels.object_code import object_code
+
+            code = object_code(self)
+            if path:
+                keep(code, path)
+        return code
+
+    @cached_property
+    def left_to_numba(self) -> Any:
+        """What numba itself makes of the function."""
+        from wearsim.kernels.object_code import numba_function
+
+        return numba_function(self, _folder())
+
+    def handed_to(self, form: type) -> Any:
+        """Return what a kernel in a form takes as its argument for this one."""
+        if form is FunctionType:
+            return self.function
+        if form is not MachineCode:
+            return self.left_to_numba
+        if isinstance(self.compiled, MachineCode):
+            return self.compiled.address
+        from wearsim.kernels.object_code import address
+
+        return address(self.compiled)
 
     @property
     def name(self) -> str:
@@ -132,10 +172,30 @@ class Kernel:
         return f"{Path(self.function.__code__.co_filename).stem}.{self.function.__qualname__}"
 
     @property
-    def called(self) -> list["Kernel"]:
-        """The kernels that it calls."""
+    def ours(self) -> bool:
+        """Whether it is of this package."""
+        return self.function.__module__.startswith(f"{__package__}.")
+
+    @property
+    def object_file(self) -> Path | None:
+        """File of the cache that holds its machine code; it is empty where the kernel is left to numba."""
+        folder = _folder()
+        return folder / f"{self.name}{file_ending()}" if folder else None
+
+    @cached_property
+    def tree(self) -> "set[Kernel]":
+        """The kernel and all that it calls, however far down."""
         code, known = self.function.__code__, self.function.__globals__
-        return [known[name] for name in code.co_names if isinstance(known.get(name), Kernel)]
+        called = [known[name] for name in code.co_names if isinstance(known.get(name), Kernel)]
+        return {self}.union(*(one.tree for one in called))
+
+
+def _interpreted() -> bool:
+    """Tell whether numba is told to compile nothing."""
+    if "numba" in sys.modules:
+        config: Any = sys.modules["numba"].config
+        return bool(config.DISABLE_JIT)
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
 def kernel(signature: Any, quick: bool = False) -> Callable[[Function], Function]:
@@ -162,43 +222,23 @@ def all_kernels() -> list[Kernel]:
     return sorted(found, key=lambda one: one.name)
 
 
-Calls = dict[Kernel, list[Kernel]]
-"""Kernels with those of them that each calls, and that must be compiled before it."""
-
-
-def not_in_cache(kernels: Iterable[Kernel]) -> Calls:
-    """Return the kernels that have to be compiled so that some can be called.
+def not_in_cache(kernels: Iterable[Kernel]) -> list[Kernel]:
+    """Return the kernels that have to be compiled before they can be called.
 
     There are none where nothing is compiled at all or nothing can be kept. Kernels of other packages
     are left out.
     """
-    import numba
-
-    config: Any = numba.config
-    folder = _folder()
-    if folder is None or config.DISABLE_JIT:
-        return {}
-    kept = {path.name.partition("-")[0] for path in folder.rglob("*.nbi")}
-
-    def missing(some: Iterable[Kernel]) -> list[Kernel]:
-        ours = [one for one in some if one.function.__module__.startswith(f"{__package__}.")]
-        return [one for one in ours if one.name not in kept]
-
-    found: Calls = {}
-    waiting = missing(kernels)
-    while waiting:
-        one = waiting.pop()
-        if one not in found:
-            found[one] = missing(one.called)
-            waiting += found[one]
-    return found
+    if _interpreted() or _folder() is None or not usable():
+        return []
+    files = {one: one.object_file for one in kernels if one.ours}
+    return [one for one, path in files.items() if path and not path.exists()]
 
 
 class _Ahead:
     """What is compiled together before the first kernel is called, and by what."""
 
     expected: ClassVar[set[str]] = set()
-    compile_together: Callable[[Calls], None] | None = None
+    compile_together: Callable[[list[Kernel]], None] | None = None
 
 
 def expect(names: Iterable[str]) -> None:
@@ -206,7 +246,7 @@ def expect(names: Iterable[str]) -> None:
     _Ahead.expected.update(names)
 
 
-def compile_by(compile_together: Callable[[Calls], None] | None) -> None:
+def compile_by(compile_together: Callable[[list[Kernel]], None] | None) -> None:
     """Say what compiles kernels that the cache does not hold; without it each is at its first call."""
     _Ahead.compile_together = compile_together
 
@@ -217,28 +257,6 @@ def compile_expected(*others: Kernel) -> None:
         return
     names = sorted(_Ahead.expected)
     _Ahead.expected.clear()
-    missing = not_in_cache([*map(kernel_of, names), *others]) if names or others else {}
+    missing = not_in_cache([*map(kernel_of, names), *others])
     if missing:
         _Ahead.compile_together(missing)
-
-
-def _compile(of: Kernel) -> Callable[..., Any]:
-    import numba
-    from numba.extending import typeof_impl
-
-    # Where a kernel calls another one numba finds that one's compiled form.
-    typeof_impl.register(Kernel, lambda other, context: typeof_impl(other.compiled, context))
-    config: Any = numba.config
-    before, folder = config.CACHE_DIR, _folder()
-    config.CACHE_DIR = str(folder) if folder else before
-    collecting = gc.isenabled()
-    # A tenth of the time would go into looking through objects that all are still needed.
-    gc.disable()
-    try:
-        compile_function = numba.njit(of.signature, cache=folder is not None, error_model="numpy", nogil=True)
-        compiled: Callable[..., Any] = compile_function(of.function)
-    finally:
-        config.CACHE_DIR = before
-        if collecting:
-            gc.enable()
-    return compiled

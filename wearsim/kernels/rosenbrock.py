@@ -157,15 +157,18 @@ def wear_rows(start: Vector, slope: Vector, diffusion: float, ends: int, rows: V
         centre[n - 1], before[n - 1], after[n - 1] = 0.0, 0.0, 0.0
 
 
-@kernel(void(VECTOR, TABLE, int64, VECTOR))
-def stage_state(state: Vector, increments: Vector, stage: int, trial: Vector) -> None:
+@kernel(void(TABLE, TABLE, int64, TABLE))
+def stage_state(start: Vector, increments: Vector, stage: int, trial: Vector) -> None:
     """Write where a stage stands."""
-    for j in range(state.size):
-        trial[j] = state[j]
+    rows, n = trial.shape
+    for i in range(rows):
+        for j in range(n):
+            trial[i, j] = start[i, j]
     for s in range(stage):
         weight, increment = STATE[3 * stage + s], increments[s]
-        for j in range(state.size):
-            trial[j] += weight * increment[j]
+        for i in range(rows):
+            for j in range(n):
+                trial[i, j] += weight * increment[i * n + j]
 
 
 @kernel(void(TABLE, int64, float64, TABLE, TABLE, TABLE))
@@ -233,7 +236,6 @@ def rosenbrock_step(
     Points are hard or soft all the step long, as they are at its start.
     """
     rows, factors = work[10:14], work[14:18]
-    begin, to = start[:3].ravel(), trial.ravel()
     slope_rate(contact, start, constants, columns, modulus, law, work)
     wear_rows(start, work[9], diffusion, ends, rows)
     factorise(rows, GAMMA * step, factors)
@@ -241,11 +243,13 @@ def rosenbrock_step(
         work[8, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]
     for stage in range(STAGES):
         if stage > 0:
-            stage_state(begin, increments, stage, to)
+            stage_state(start, increments, stage, trial)
             status = flank_rate(contact, trial, start[2], constants, columns, modulus, law, work)
             if status in (CONFORMING, BROKEN):
                 return math.nan
         stage_increment(start, stage, step, work, factors, increments)
-    for j in range(to.size):
-        to[j] += increments[STAGES - 1, j]
+    stage, n = STAGES - 1, start.shape[1]
+    for i in range(trial.shape[0]):
+        for j in range(n):
+            trial[i, j] += increments[stage, i * n + j]
     return greatest_error(increments)

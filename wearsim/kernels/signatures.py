@@ -12,11 +12,15 @@ if TYPE_CHECKING:
 class Signature(str):
     """A type by numba's name; called with those of arguments, a function that returns it."""
 
-    __slots__ = ()
+    __slots__ = ("arguments", "result")
+    arguments: "tuple[Signature, ...]"
+    result: "Signature"
 
-    def __call__(self, *arguments: str) -> "Signature":
+    def __call__(self, *arguments: "Signature") -> "Signature":
         """Return the type of a function."""
-        return Signature(f"{self}({', '.join(arguments)})")
+        made = Signature(f"{self}({', '.join(arguments)})")
+        made.result, made.arguments = self, arguments
+        return made
 
 
 float64, int64, void = Signature("float64"), Signature("int64"), Signature("void")
