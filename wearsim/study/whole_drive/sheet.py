@@ -21,8 +21,19 @@ _MAX_THEN = 2
 
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
-    driver = found.results[found.drive.driver.name]
     rows = [
+        *answer_rows(found, explain),
+        ("Warnings", _warnings(found, explain)),
+        ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
+        ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
+    ]
+    return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
+
+
+def answer_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
+    """Return lives, ratings and wear by their labels, on request of every cog for itself."""
+    driver = found.results[found.drive.driver.name]
+    return [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *(_all_sprockets(found) if explain else _sprockets(found)),
         ("First", first_text(found)),
@@ -30,11 +41,7 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
         ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
         ("Worn most", _worn_most(found, explain)),
         *((("Band from", _band_source(found)),) if explain else ()),
-        ("Warnings", _warnings(found, explain)),
-        ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
-        ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
     ]
-    return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
 
 
 def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
