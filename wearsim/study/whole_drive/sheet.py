@@ -7,10 +7,13 @@ from typing import Any
 from wearsim.quantities import grouped
 from wearsim.report.answer import ending, hours, overload_text, service_text
 from wearsim.report.service import service_keys
-from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
+from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row, stated_and_defaults
 from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
+
+_RATED = "outside a rating"
+"""What warnings say of what stands among the ratings."""
 
 _MAX_WARNINGS = 1
 _MAX_ROWS = 4
@@ -22,7 +25,9 @@ _MAX_THEN = 2
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
     rows = [
-        *answer_rows(found, explain),
+        *part_rows(found, explain),
+        ("First", first_text(found)),
+        *finding_rows(found, explain),
         ("Warnings", _warnings(found, explain)),
         ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
         ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
@@ -30,13 +35,18 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
 
 
-def answer_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
-    """Return lives, ratings and wear by their labels, on request of every cog for itself."""
-    driver = found.results[found.drive.driver.name]
+def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
+    """Return the lives of chain and sprockets by their names, on request of every cog for itself."""
     return [
         (CHAIN.capitalize(), _part(found, CHAIN)),
         *(_all_sprockets(found) if explain else _sprockets(found)),
-        ("First", first_text(found)),
+    ]
+
+
+def finding_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
+    """Return how sure the first life is, how the ratings stand and what is worn, by their labels."""
+    driver = found.results[found.drive.driver.name]
+    return [
         ("Band", _band(found)),
         ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
         ("Worn most", _worn_most(found, explain)),
@@ -164,9 +174,13 @@ def _worn(result: WearResult) -> str:
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
+def shown_warnings(found: DriveLife) -> list[str]:
+    """Return the warnings but those of ratings, which stand beside the ratings."""
+    return [text for text in found.warnings if _RATED not in text]
+
+
 def _warnings(found: DriveLife, explain: bool) -> str:
-    # What is outside of a rating stands beside the ratings.
-    warnings = [text for text in found.warnings if not text.startswith("outside a rating")]
+    warnings = shown_warnings(found)
     if explain or not warnings:
         return "; ".join(warnings) or "none"
     shown = warnings[:_MAX_WARNINGS]
@@ -176,6 +190,22 @@ def _warnings(found: DriveLife, explain: bool) -> str:
 
 def _assumptions(found: DriveLife) -> tuple[str, ...]:
     return tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
+
+
+def taken_for_granted(found: DriveLife) -> tuple[list[str], list[str]]:
+    """Return what is taken for granted, and the defaults, each once with the sprockets it is about."""
+    names: dict[str, list[str]] = {}
+    for name, result in found.results.items():
+        for text in result.assumptions:
+            names.setdefault(text, []).append(name)
+    stated, defaults = stated_and_defaults(tuple(names))
+    return [_about(text, names[text], found) for text in stated], [
+        _about(text, names[text], found) for text in defaults
+    ]
+
+
+def _about(text: str, names: Sequence[str], found: DriveLife) -> str:
+    return text if len(names) == len(found.results) else f"{', '.join(names)}: {text}"
 
 
 def drive_json(found: DriveLife) -> dict[str, Any]:
