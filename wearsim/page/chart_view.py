@@ -90,7 +90,7 @@ class LinkedDrawing:
     """A drawing whose links choose something, in the place where it is made."""
 
     def __init__(self, title: str, on_choose: Callable[[str], None]) -> None:
-        with ui.element("figure").classes("ws-card"):
+        with ui.element("figure").classes("ws-card ws-layout"):
             ui.label(title).classes("ws-caption").props("role=heading aria-level=2")
             self._drawing = ui.html("", sanitize=False)
         self._drawing.on("click", lambda event: on_choose(str(event.args)), js_handler=_LINK)

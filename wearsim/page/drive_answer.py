@@ -15,7 +15,7 @@ from wearsim.page.edited_input import EditedInput, edited_title
 from wearsim.page.header import Header
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.tooth_chart import tooth_charts
+from wearsim.report.html.tooth_chart import worn_out_chart
 from wearsim.result import WearResult
 from wearsim.study.whole_drive.keys import DriveCase, load_drive
 from wearsim.study.whole_drive.layout_sketch import layout_sketch
@@ -55,8 +55,8 @@ class DriveAnswer:
 
 
 def drive_headline(found: DriveLife) -> str:
-    """Return what is replaced first and when, with the word where the drive is overloaded."""
-    text = f"{found.first or 'all'} {hours(found.life)}"
+    """Return when something is replaced first and what, with the word where the drive is overloaded."""
+    text = hours(found.life) + (f", {found.first} first" if found.first else "")
     return f"{text} (overloaded)" if found.overloaded else text
 
 
@@ -94,4 +94,4 @@ def _estimate(edited: EditedInput, drive: DriveCase) -> DriveLife | None:
 
 def _pictures(found: DriveLife) -> tuple[Markup, dict[str, Chart]]:
     """Return the lives of all parts as bars, and the flank of every sprocket."""
-    return lives_bars(found), {name: tooth_charts(result)[0] for name, result in found.results.items()}
+    return lives_bars(found), {name: worn_out_chart(result) for name, result in found.results.items()}

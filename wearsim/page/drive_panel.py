@@ -16,16 +16,18 @@ from wearsim.page.text_elements import (
     warning_list,
 )
 from wearsim.quantities import grouped
-from wearsim.report.answer import OVERLOADED, hours, overload_text
+from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
 from wearsim.study.whole_drive.layout_sketch import flank_place
 from wearsim.study.whole_drive.model import DriveLife
 from wearsim.study.whole_drive.sheet import (
-    finding_rows,
+    band_text,
     first_text,
     part_rows,
+    ratings_text,
     shown_warnings,
     taken_for_granted,
+    worn_most_text,
 )
 
 
@@ -43,7 +45,6 @@ class DrivePanel:
         with self._tooth:
             self._chosen = ui.select([], label="Flank of", on_change=lambda: self._show_flank())
             self._chosen.classes("ws-chosen").props("outlined dense")
-            self._tooth_place = ui.element("div")
         with ui.element("section").classes("ws-card") as self._lives:
             heading("Lives on one clock")
             self._bars = ui.html("", sanitize=False)
@@ -103,7 +104,7 @@ class DrivePanel:
         if chart is None:
             return
         if self._flank is None:
-            with self._tooth_place:
+            with self._tooth:
                 self._flank = ChartView(chart, self._palette)
         else:
             self._flank.show(chart, self._palette)
@@ -115,9 +116,11 @@ class DrivePanel:
             ui.label(hours(found.life)).classes("ws-hours")
             ui.label(first_text(found))
             if found.overloaded:
-                driver = found.results[found.drive.driver.name]
-                ui.label(f"{OVERLOADED} {overload_text(driver)}").classes("ws-overloaded")
-            row_list([*part_rows(found), *finding_rows(found)])
+                ui.label(ratings_text(found)).classes("ws-overloaded")
+            else:
+                ui.label(f"Ratings: {ratings_text(found)}.")
+            rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
+            row_list([*part_rows(found), *rows])
             warning_list(shown_warnings(found))
 
     def _fill_ratings(self, found: DriveLife) -> None:

@@ -1,6 +1,7 @@
 """What is known of a new drive, asked in a dialog as ``wearsim init`` asks it."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from nicegui import ui
@@ -18,10 +19,6 @@ async def ask_drive() -> str | None:
     """Ask what is known of a drive; return the text of its case, or nothing."""
     with ui.dialog() as dialog, ui.card().classes("ws-dialog ws-questions"):
         ui.label("New drive: one chain on two sprockets").classes("ws-caption")
-        questions = _Questions()
-        with ui.row():
-            create = ui.button("Create").props("flat no-caps")
-            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
 
         async def _create() -> None:
             create.props("loading")
@@ -30,7 +27,10 @@ async def ask_drive() -> str | None:
             if text is not None:
                 dialog.submit(text)
 
-        create.on_click(_create)
+        questions = _Questions(_create)
+        with ui.row():
+            create = ui.button("Create", on_click=_create).props("flat no-caps")
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
     answer: str | None = await dialog
     dialog.delete()
     return answer
@@ -39,9 +39,9 @@ async def ask_drive() -> str | None:
 class _Questions:
     """A field for everything that may be known, in the place where it is made."""
 
-    def __init__(self) -> None:
+    def __init__(self, on_enter: Callable[[], Any]) -> None:
         with ui.element("div").classes("ws-fields"):
-            self._fields = {known.name: self._field(known) for known in KNOWN if known.asked}
+            self._fields = {known.name: self._field(known, on_enter) for known in KNOWN if known.asked}
         self._others = ui.label().classes("ws-fault")
         self._follow()
 
@@ -54,13 +54,16 @@ class _Questions:
             self._show(error.faults)
             return None
 
-    def _field(self, known: Known) -> Any:
+    def _field(self, known: Known, on_enter: Callable[[], Any]) -> Any:
+        label, _, more = re.split("([:;,])", known.what + ";", maxsplit=1)
         field: Any
         if known.words:
-            field = ui.select(list(known.words), label=known.what, clearable=True)
+            field = ui.select(list(known.words), label=label, value=known.words[0])
         else:
             proposals = list(chains()) if known.name == "chain" else []
-            field = ui.input(known.what, autocomplete=proposals).props("autocomplete=off spellcheck=false")
+            field = ui.input(label, autocomplete=proposals).props("autocomplete=off spellcheck=false")
+            field.props["hint"] = more.strip(" ;")
+            field.on("keydown.enter", on_enter)
         field.classes("ws-field").props(_LOOK)
         field.props["data-known"] = known.name
         field.on_value_change(self._follow)

@@ -27,7 +27,10 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     rows = [
         *part_rows(found, explain),
         ("First", first_text(found)),
-        *finding_rows(found, explain),
+        ("Band", band_text(found)),
+        ("Ratings", ratings_text(found)),
+        ("Worn most", worn_most_text(found, explain)),
+        *((("Band from", _band_source(found)),) if explain else ()),
         ("Warnings", _warnings(found, explain)),
         ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
         ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
@@ -43,15 +46,10 @@ def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
     ]
 
 
-def finding_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
-    """Return how sure the first life is, how the ratings stand and what is worn, by their labels."""
+def ratings_text(found: DriveLife) -> str:
+    """Return in words whether a drive is within its ratings."""
     driver = found.results[found.drive.driver.name]
-    return [
-        ("Band", _band(found)),
-        ("Ratings", f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)),
-        ("Worn most", _worn_most(found, explain)),
-        *((("Band from", _band_source(found)),) if explain else ()),
-    ]
+    return f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
 
 
 def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
@@ -136,7 +134,8 @@ def part_name(name: str) -> str:
     return name if name == CHAIN else f"sprocket {name!r}"
 
 
-def _band(found: DriveLife) -> str:
+def band_text(found: DriveLife) -> str:
+    """Return in words how sure the first life is."""
     whose = found.first or next(iter(found.results))
     low, high = (hours(life) for life in found.band(whose))
     return f"{low} to {high} for the {part_name(whose)}, over the band of its wear coefficient"
@@ -160,7 +159,8 @@ def _band_source(found: DriveLife) -> str:
     return "; ".join(f"{', '.join(names)}: {band}" for band, names in sources.items())
 
 
-def _worn_most(found: DriveLife, explain: bool) -> str:
+def worn_most_text(found: DriveLife, explain: bool = False) -> str:
+    """Return in words where the teeth are worn most, on request of every sprocket."""
     results = found.results
     if len(results) > _MAX_ROWS and not explain:
         deepest = max(results, key=lambda name: results[name].max_depth)
