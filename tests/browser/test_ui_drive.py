@@ -80,8 +80,7 @@ def test_a_drive_shows_what_the_command_prints_and_follows_an_edit(watched, serv
     assert page.locator(".lives text").first.text_content().startswith("chain: ")
     for width in (1440, 390):
         page.set_viewport_size({"width": width, "height": 900})
-        wide = "document.documentElement.scrollWidth"
-        eventually(lambda: page.evaluate(wide), lambda found, width=width: found <= width)
+        page.wait_for_function(f"document.documentElement.scrollWidth <= {width}")
 
     field(page, "sprocket.1.teeth").fill("18")
     page.wait_for_selector('.ws-state[data-state="computing"]')
