@@ -9,9 +9,13 @@ pytest.importorskip("nicegui", reason="nicegui is not installed")
 from nicegui import Client, ui
 from nicegui.page import page
 
+from wearsim.input.document import CaseText
+from wearsim.page.case_file import new_file
 from wearsim.page.drive_answer import drive_headline, taken_inputs
 from wearsim.page.drive_panel import DrivePanel
+from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
+from wearsim.study.whole_drive import model
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
 
@@ -56,3 +60,12 @@ def test_ratings_stand_beside_the_hours(power, words):
     place = texts.index("> 20 h")
     assert texts[place + 2].startswith(words)
     assert drive_headline(found) == ("> 20 h (overloaded)" if power == 7 else "> 20 h")
+
+
+def test_runs_that_nobody_waits_for_do_not_begin(monkeypatch):
+    monkeypatch.setattr(model, "simulate", lambda case, progress: pytest.fail("began"))
+    path = Path("drive.toml")
+    edited = EditedInput(CaseText(path, ""), new_file(path), lambda: True, lambda part: pytest.fail("told"))
+    drive = load_drive({**DRIVE, "load": {"power_kW": 4, "speed_rpm": 1000}})
+    with pytest.raises(StaleError):
+        drive_life(drive, progress=edited.watch)
