@@ -7,6 +7,8 @@ import pytest
 
 import wearsim
 
+from .ui_server import Server
+
 ARGUMENTS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -94,3 +96,26 @@ def watched(page):
     page.on("pageerror", lambda error: page.said.append(str(error)))
     page.on("dialog", lambda dialog: page.said.append(f"dialog {dialog.message}"))
     return page
+
+
+@pytest.fixture
+def serve(tmp_path):
+    """Function that serves a case of the given text and stops it after the test."""
+    if find_spec("nicegui") is None:
+        pytest.skip("nicegui is not installed: pip install 'wearsim[ui]'")
+    servers = []
+
+    def start(text, *arguments, name="drive.toml", browser=None):
+        path = tmp_path / name
+        if text is not None:
+            path.write_text(text)
+        case = [path] if text is not None else []
+        servers.append(Server(tmp_path, *case, *arguments, browser=browser))
+        servers[-1].path = path
+        return servers[-1]
+
+    yield start
+    for server in servers:
+        code, said = server.stop()
+        assert code == 130, said
+        assert "Traceback" not in said, said

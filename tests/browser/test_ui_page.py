@@ -4,12 +4,9 @@ import http.client
 import json
 import os
 import re
-import signal
 import socket
 import subprocess
-import sys
 import time
-from importlib.util import find_spec
 
 import pytest
 
@@ -17,6 +14,7 @@ import wearsim
 from wearsim.report.answer import hours
 
 from .conftest import HOSTILE
+from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source
 
 pytestmark = [
     pytest.mark.slow,
@@ -24,7 +22,6 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:Session-scoped fixtures defined as instance methods"),
 ]
 
-COMMAND = [sys.executable, "-c", "import wearsim.cli; wearsim.cli.main()"]
 STRAND = """\
 # A drive of a test.
 format_version = 1
@@ -82,86 +79,8 @@ critical_depth_mm = 0.02
 """
 
 
-class Server:
-    """``wearsim ui`` in a process of its own."""
-
-    def __init__(self, folder, *arguments, browser=None):
-        quiet = [] if browser else ["--no-browser"]
-        self.process = subprocess.Popen(
-            [*COMMAND, "ui", *quiet, *map(str, arguments)],
-            cwd=folder,
-            env={**os.environ, "BROWSER": str(browser)},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.url = self.process.stdout.readline().strip()
-        assert self.url, self.process.stderr.read()
-        self.port = int(self.url.rstrip("/").rpartition(":")[2])
-
-    def stop(self):
-        """Exit code and what it said on stderr."""
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
-        try:
-            _, said = self.process.communicate(timeout=20)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            raise
-        return self.process.returncode, said
-
-
-@pytest.fixture
-def serve(tmp_path):
-    """Function that serves a case of the given text and stops it after the test."""
-    if find_spec("nicegui") is None:
-        pytest.skip("nicegui is not installed: pip install 'wearsim[ui]'")
-    servers = []
-
-    def start(text=STRAND, *arguments, name="drive.toml", browser=None):
-        path = tmp_path / name
-        if text is not None:
-            path.write_text(text)
-        case = [path] if text is not None else []
-        servers.append(Server(tmp_path, *case, *arguments, browser=browser))
-        servers[-1].path = path
-        return servers[-1]
-
-    yield start
-    for server in servers:
-        code, said = server.stop()
-        assert code == 130, said
-        assert "Traceback" not in said, said
-
-
-def settled(page, seconds=60):
-    page.wait_for_selector('.ws-state[data-state="current"]', timeout=1000 * seconds)
-
-
-def opened(page, server):
-    page.goto(server.url)
-    settled(page)
-    return page
-
-
-def field(page, key):
-    return page.locator(f'[data-key="{key}"]')
-
-
-def shown_hours(page):
-    return page.locator(".ws-now-hours").inner_text()
-
-
 def life(path, *settings):
     return hours(wearsim.simulate(wearsim.load_case(path, settings)).life)
-
-
-def eventually(look, right, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not right(found := look()):
-        assert time.monotonic() < end, found
-        time.sleep(0.05)
-    return found
 
 
 def typed(page, key, value, expected):
@@ -172,7 +91,7 @@ def typed(page, key, value, expected):
 
 
 def test_life_follows_a_changed_value(watched, serve):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     assert shown_hours(page) == life(server.path)
     for value in ("4", "2.5", "3.5 kW"):
@@ -189,16 +108,8 @@ def test_life_follows_a_changed_value(watched, serve):
     assert watched.said == []
 
 
-def source(page):
-    """What the TOML tab holds."""
-    page.get_by_role("tab", name="TOML").click()
-    text = page.locator(".cm-content").inner_text()
-    page.get_by_role("tab", name="Form").click()
-    return text
-
-
 def test_a_bad_value_says_what_the_command_line_says(watched, serve, tmp_path):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     good = shown_hours(page)
     bad = STRAND.replace("power_kW = 3 ", "power_kW = -3 ")
@@ -222,7 +133,7 @@ def test_a_bad_value_says_what_the_command_line_says(watched, serve, tmp_path):
 
 
 def test_source_that_is_no_toml_keeps_the_answer_as_an_old_one(watched, serve):
-    page = opened(watched, serve())
+    page = opened(watched, serve(STRAND))
     good = shown_hours(page)
     page.get_by_role("tab", name="TOML").click()
     page.locator(".cm-content").click()
@@ -241,7 +152,7 @@ def test_source_that_is_no_toml_keeps_the_answer_as_an_old_one(watched, serve):
 
 
 def test_two_pages_do_not_disturb_each_other(watched, context, serve):
-    server = serve()
+    server = serve(STRAND)
     one, other = opened(watched, server), opened(context.new_page(), server)
     before = shown_hours(other)
     typed(one, "load.power_kW", "6", life(server.path, "load.power_kW=6"))
@@ -252,7 +163,7 @@ def test_two_pages_do_not_disturb_each_other(watched, context, serve):
 
 
 def test_save_keeps_comments_and_order(watched, serve):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     typed(page, "load.power_kW", "4", life(server.path, "load.power_kW=4"))
     assert page.locator(".ws-dirty").is_visible()
@@ -264,7 +175,7 @@ def test_save_keeps_comments_and_order(watched, serve):
 
 
 def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     other = STRAND.replace("Test drive", "Of another editor")
     for answer in ("Cancel", "Load it, and lose what is on this page", "Replace it"):
@@ -285,8 +196,7 @@ def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
 
 def test_save_as_stays_in_the_folder_and_asks_before_it_replaces(watched, serve, tmp_path):
     (tmp_path / "taken.toml").write_text("mine")
-    page = opened(watched, serve(None))
-    assert page.locator(".ws-title").inner_text() == "Evolute sprocket, 16B-1 chain, 20 teeth"
+    page = opened(watched, serve(STRAND))
 
     def save_as(name):
         page.get_by_role("button", name="Save as").click()
@@ -314,7 +224,7 @@ def undated(content):
 
 @pytest.mark.parametrize(("form", "state"), [("dxf", "both"), ("svg", "new"), ("csv", "worn")])
 def test_exported_wheel_is_that_of_the_command(watched, serve, tmp_path, form, state):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     page.get_by_role("button", name="Export wheel").click()
     for label, value in (("Format", form), ("State", state)):
@@ -367,7 +277,7 @@ def test_a_page_fits_and_asks_nobody_else(watched, serve, text, width, scheme):
 
 
 def test_fields_are_named_and_reached_by_the_keyboard(watched, serve):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     expected = life(server.path, "load.power_kW=4")
     named = page.get_by_role("textbox", name="load.power_kW kW")
@@ -426,7 +336,7 @@ def test_a_wrap_shows_an_estimate_then_its_life_and_only_of_the_last_input(watch
 
 
 def test_fifty_edits_and_absurd_values(watched, serve):
-    server = serve()
+    server = serve(STRAND)
     page = opened(watched, server)
     for value in (
         "1e400",
@@ -526,7 +436,7 @@ SOCKET = "/_nicegui_ws/socket.io/?EIO=4"
 
 
 def test_other_sites_are_refused_on_http_polling_and_websocket(serve):
-    server = serve()
+    server = serve(STRAND)
     own, evil = f"127.0.0.1:{server.port}", "evil.example"
     polling = f"{SOCKET}&transport=polling"
     assert requested(server) == 200
@@ -551,7 +461,7 @@ def test_other_sites_are_refused_on_http_polling_and_websocket(serve):
 
 def test_a_page_of_another_site_cannot_talk_to_it(watched, serve, tmp_path):
     """In a real browser: fetch, websocket, frame and script of another origin."""
-    server = serve()
+    server = serve(STRAND)
     opened(watched, server)
     other = serve(STRAND)
     watched.goto(other.url)
@@ -571,7 +481,7 @@ def test_a_page_of_another_site_cannot_talk_to_it(watched, serve, tmp_path):
 
 
 def test_only_the_loopback_address_listens(serve):
-    server = serve()
+    server = serve(STRAND)
     own = {entry[4][0] for entry in socket.getaddrinfo(socket.gethostname(), None)}
     for address in own - {"127.0.0.1", "::1"}:
         if address.startswith("127."):
@@ -593,7 +503,7 @@ def test_the_browser_is_opened(serve, tmp_path):
 
 
 def test_nothing_is_left_behind(watched, serve, tmp_path):
-    server = serve()
+    server = serve(STRAND)
     opened(watched, server)
     assert list(tmp_path.iterdir()) == [server.path]
 

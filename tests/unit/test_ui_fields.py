@@ -3,13 +3,24 @@
 import pytest
 
 from wearsim.input.keys import schema_fields
-from wearsim.input.schema import CaseTables
+from wearsim.input.schema import CaseTables, DriveTables
 from wearsim.mechanisms.gear_pair.keys import GearTables
-from wearsim.page.fields import form_fields, table_meaning
+from wearsim.page.fields import form_fields, owner, table_meaning, table_title
 from wearsim.quantities import quantities
 
+DRIVE = {
+    "sprocket": [{"name": "chainring", "teeth": 50}, {"cog": [{"teeth": 11}, {"teeth": 13}]}, {"teeth": 12}]
+}
 
-@pytest.mark.parametrize(("data", "model"), [({"duty": [{}]}, CaseTables), ({"gear": {}}, GearTables)])
+
+@pytest.mark.parametrize(
+    ("data", "model"),
+    [
+        ({"duty": [{}]}, CaseTables),
+        ({"gear": {}}, GearTables),
+        ({"duty": [{}], "sprocket": [{"cog": [{}]}]}, DriveTables),
+    ],
+)
 def test_every_key_has_one_field_with_unit_and_meaning(data, model):
     fields = [field for table in form_fields(data).values() for field in table]
     keys = [key.replace("[]", ".1") for key, _ in schema_fields(model)]
@@ -19,7 +30,7 @@ def test_every_key_has_one_field_with_unit_and_meaning(data, model):
         assert field.meaning == quantities()[field.name].meaning != ""
 
 
-@pytest.mark.parametrize("data", [{}, {"gear": {}}, {"duty": [{}, {}]}])
+@pytest.mark.parametrize("data", [{}, {"gear": {}}, {"duty": [{}, {}]}, DRIVE])
 def test_every_table_has_a_meaning(data):
     for name in form_fields(data):
         assert bool(table_meaning(data, name)) == bool(name)
@@ -31,6 +42,36 @@ def test_lists_of_tables_have_as_many_as_there_are():
     tables = form_fields({"duty": [{}, {}]})
     assert tables["duty.2"][0].key == "duty.2.share_of_time"
     assert "duty.1" not in form_fields({"duty": 3})
+
+
+def test_every_sprocket_of_a_drive_is_a_group_of_its_own():
+    tables = form_fields(DRIVE)
+    of = [name for name in tables if name.startswith("sprocket.2")]
+    assert of[0] == "sprocket.2" and set(of[1:]) == {
+        "sprocket.2.take_up",
+        "sprocket.2.cog.1",
+        "sprocket.2.cog.2",
+        "sprocket.2.cog[]",
+        "sprocket.2.wear",
+        "sprocket.2.material",
+    }
+    assert {owner(name) for name in of[1:]} == {"sprocket.2"} and owner("sprocket.2") == ""
+    titles = [table_title(DRIVE, f"sprocket.{number}") for number in (1, 2, 3)]
+    assert titles == ["[[sprocket]] 1: chainring", "[[sprocket]] 2", "[[sprocket]] 3: 12 teeth"]
+    assert table_title(DRIVE, "sprocket.2.cog.2") == "[[sprocket.cog]] 2: 13 teeth"
+    names = [field.name for field in tables["sprocket.1"]]
+    assert names[:3] == ["name", "role", "position_mm"] and {"teeth", "profile", "power_share"} <= {*names}
+    fields = {field.key: field for field in tables["sprocket.1"]}
+    assert fields["sprocket.1.role"].choices == ("driver", "driven", "idler")
+    assert not fields["sprocket.1.teeth"].required
+    assert "hardened, dry" in tables["sprocket.1.wear"][1].proposals
+
+
+@pytest.mark.parametrize("odd", [{"sprocket": [3]}, {"sprocket": [{"cog": 3}]}, {"sprocket": []}])
+def test_fields_of_odd_sprockets(odd):
+    assert form_fields(odd)["sprocket[]"] == []
+    for name in form_fields(odd):
+        table_title(odd, name)
 
 
 def test_kinds_of_fields():

@@ -118,6 +118,41 @@ def test_tables_of_a_list_come_and_go():
     assert tomllib.loads(with_table("", "duty")) == {"duty": [{}]}
 
 
+DRIVE = """\
+[[sprocket]]
+name = "motor"  # on the left
+
+[[sprocket]]
+take_up = {guide_deg = 0}
+cog = [
+    {teeth = 11},  # small
+    {teeth = 12},
+]
+
+[load]
+power_kW = 1
+"""
+
+
+def test_tables_of_a_sprocket_come_and_go():
+    more = with_table(DRIVE, "sprocket.2.cog")
+    assert more == DRIVE.replace("    {teeth = 12},\n", "    {teeth = 12},\n    {},\n")
+    filled = with_value(more, "sprocket.2.cog.3.teeth", "13")
+    assert tomllib.loads(filled)["sprocket"][1]["cog"] == [{"teeth": 11}, {"teeth": 12}, {"teeth": 13}]
+    assert without_table(filled, "sprocket.2.cog", 3) == DRIVE
+    first = without_table(DRIVE, "sprocket.2.cog", 1)
+    assert "cog" not in tomllib.loads(without_table(first, "sprocket.2.cog", 1))["sprocket"][1]
+    assert with_value(DRIVE, "sprocket.2.take_up.guide_deg", "") == DRIVE.replace(
+        "take_up = {guide_deg = 0}\n", ""
+    )
+    third = with_value(with_table(DRIVE, "sprocket"), "sprocket.3.teeth", "17")
+    assert third == DRIVE.replace("[load]", "[[sprocket]]\nteeth = 17\n\n[load]")
+    worn = with_value(DRIVE, "sprocket.1.wear.condition", "hardened, dry", is_text=True)
+    table = '[sprocket.wear]\ncondition = "hardened, dry"\n\n'
+    assert worn == DRIVE.replace("left\n\n", f"left\n\n{table}")
+    assert tomllib.loads(with_value(worn, "sprocket.1.wear.condition", "")) == tomllib.loads(DRIVE)
+
+
 @pytest.mark.parametrize("text", ["[", "a = 1\na = 2", "a = [" * 3000, "a ="])
 def test_what_is_no_toml_has_no_tables(text):
     assert parsed_tables(text) is None

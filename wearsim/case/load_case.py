@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from wearsim.case.model import Case
-from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.input.document import CaseSource, Document, is_whole_drive, read_document
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.other_files import check_command
 from wearsim.kernels.compiled import expect
@@ -44,7 +44,7 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     """
     document = read_document(source, overrides)
     check_command(document.data, document.faults.file, "life")
-    if isinstance(document.data.get("sprocket"), list):
+    if is_whole_drive(document.data):
         text = (
             "must be one [sprocket] here: a whole drive, [[sprocket]] twice, is for wearsim check, life, "
             "compare, report, maintain, sweep, loads, profile, export and animate: run one of these, or give "

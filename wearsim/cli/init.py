@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.drive_start import KNOWN, ask_for_drive, drive_options, drive_text
+from wearsim.cli.drive_questions import ask_for_drive, drive_options
 from wearsim.command.options import common_options
 from wearsim.errors import CaseError, Fault
+from wearsim.study.whole_drive.drive_start import start_text
+from wearsim.study.whole_drive.known_drive import KNOWN
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -72,7 +74,7 @@ def _text(typed: Mapping[str, str | None], teeth: int | None, kind: str) -> str:
             )
         if at_terminal() and all(value is None for value in typed.values()):
             return ask_for_drive()
-        return drive_text(typed)
+        return start_text(typed)
     given = [known for known in KNOWN if typed[known.name] is not None and known.option != "--chain"]
     if given:
         message = (

@@ -12,8 +12,6 @@ from wearsim.errors import OutputError
 if TYPE_CHECKING:
     from wearsim.page.case_file import CaseFile
 
-_NEW = Path("drive.toml")
-
 
 @click.command(short_help="A local page to try designs: edit a case, see tooth and life change.")
 @click.argument("case", required=False, type=CasePath(path_type=Path), metavar="[CASE]")
@@ -62,11 +60,11 @@ class _Opened:
         self._path, self._settings = path, settings
 
     def __call__(self) -> "tuple[CaseFile, str]":
-        from wearsim.cli.init import new_case
-        from wearsim.page.case_file import new_file, read_file
+        from wearsim.page.case_file import NEW, new_file, read_file
+        from wearsim.study.whole_drive.drive_start import start_text
 
         if self._path is None:
-            file, text = new_file(_NEW), new_case("16B-1", 20, "strand")
+            file, text = new_file(NEW), start_text({})
         else:
             file = read_file(self._path)
             text = file.text

@@ -63,6 +63,17 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     return Document(name, folder, retitled(data, written), faults)
 
 
+def is_whole_drive(tables: Mapping[str, Any]) -> bool:
+    """Tell whether tables name every sprocket of a drive.
+
+    Examples
+    --------
+    >>> is_whole_drive({"sprocket": [{"teeth": 21}, {"teeth": 57}]}), is_whole_drive({"sprocket": {}})
+    (True, False)
+    """
+    return isinstance(tables.get("sprocket"), list)
+
+
 def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:
     """Return tables whose title tells what is no longer as it was written under that title.
 

@@ -4,10 +4,17 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
-from wearsim.errors import Fault
 from wearsim.page.answers import Pictures
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
+from wearsim.page.text_elements import (
+    assumption_list,
+    heading,
+    row_list,
+    text_element,
+    used_part,
+    warning_list,
+)
 from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
@@ -23,8 +30,6 @@ class AnswerPanel:
         self._pictures: Pictures | None = None
         self._loads: Chart | None = None
         self._views: dict[str, ChartView] = {}
-        with ui.element("section").classes("ws-faults").props("role=alert") as self._faults:
-            pass
         self._life = ui.element("section").classes("ws-life-card ws-card")
         self._tooth = ui.element("div").classes("ws-pair")
         with self._tooth:
@@ -34,16 +39,8 @@ class AnswerPanel:
         self._margins = ui.element("section").classes("ws-card")
         self._charts = ui.element("div").classes("ws-pair")
         self._text = ui.element("section").classes("ws-card")
-        for place in (self._faults, self._life, self._tooth, self._margins, self._text):
+        for place in (self._life, self._tooth, self._margins, self._text):
             place.set_visibility(False)
-
-    def show_faults(self, faults: Sequence[Fault]) -> None:
-        """Show what is wrong with the input, or nothing."""
-        self._faults.set_visibility(bool(faults))
-        self._faults.clear()
-        with self._faults:
-            for fault in faults:
-                ui.label(str(fault)).classes("ws-fault")
 
     def mark_old(self) -> None:
         """Mark everything as the answer to an earlier input."""
@@ -116,51 +113,25 @@ class AnswerPanel:
                     ("at the low end", result.life_high),
                 ):
                     with ui.element("div"):
-                        _text("dt", what)
-                        _text("dd", hours(life))
+                        text_element("dt", what)
+                        text_element("dd", hours(life))
             ui.label(f"Band: {result.band}.").classes("ws-muted")
-            if result.warnings:
-                with ui.element("ul").classes("ws-warnings").props('aria-label="Warnings"'):
-                    for warning in result.warnings:
-                        _text("li", warning)
+            warning_list(result.warnings)
 
     def _fill_text(self, result: WearResult) -> None:
         taken, defaults = stated_and_defaults(result.assumptions)
         self._text.clear()
         with self._text:
-            _head("Findings")
-            with ui.element("dl").classes("ws-findings"):
-                for label, text in findings(result):
-                    if label not in (BAND, LIMITS, OVERLOADED):
-                        _text("dt", label)
-                        _text("dd", text)
-            _head("Assumptions")
-            with ui.element("ol"):
-                for text in taken:
-                    _text("li", text)
-            if defaults:
-                _text("p", f"Defaults taken: {'; '.join(defaults)}").classes("ws-muted")
+            heading("Findings")
+            shown = (BAND, LIMITS, OVERLOADED)
+            row_list((label, text) for label, text in findings(result) if label not in shown)
+            assumption_list(taken, defaults)
 
     def _fill_margins(self, found: Sequence[Margin]) -> None:
         self._margins.clear()
         with self._margins:
-            _head("Margins of the limits")
+            heading("Margins of the limits")
             with ui.element("dl").classes("ws-margins"):
                 for one in found:
-                    _text("dt", f"{one.name}{' (ended the life)' if one.ended else ''}")
-                    with ui.element("dd"):
-                        meter = ui.element("meter").props("min=0 max=1 low=0.7 high=0.95 optimum=0")
-                        meter.props["value"] = round(one.used, 4)
-                        meter.props["aria-label"] = f"used part of {one.name}"
-                        ui.label(f"{one.value} of {one.limit} {one.unit} ({100.0 * one.used:.0f} %)")
-
-
-def _text(tag: str, text: str) -> ui.element:
-    """Add an element that holds a text, never markup."""
-    with ui.element(tag) as element:
-        ui.label(text)
-    return element
-
-
-def _head(text: str) -> None:
-    ui.label(text).classes("ws-caption").props("role=heading aria-level=2")
+                    text_element("dt", f"{one.name}{' (ended the life)' if one.ended else ''}")
+                    used_part(one.name, one.used, f"{one.value} of {one.limit} {one.unit}")

@@ -1,4 +1,4 @@
-"""The answer to an input, in steps: is it sound, about how long, how long, what it looks like."""
+"""The answer to a case of one sprocket, in steps: is it sound, about how long, how long, how it looks."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -7,9 +7,9 @@ from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.geometry.scene import Scene
-from wearsim.input.document import CaseText, retitled
+from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
-from wearsim.page.toml_source import parsed_tables
+from wearsim.page.edited_input import edited_title
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart
@@ -20,11 +20,8 @@ from wearsim.simulation import simulate
 _ROUGH = {"mechanism.phases": 4, "sprocket.nodes": 101}
 """Most of what a first estimate takes of a wrap."""
 
-_ROUGH_TOLERANCE = 0.1
-
-
-class StaleError(Exception):
-    """Nobody waits for the answer any more."""
+ROUGH_TOLERANCE = 0.1
+"""Of the life of a first estimate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +42,7 @@ def error_faults(error: WearsimError) -> tuple[Fault, ...]:
 def edited_case(source: CaseText, file: CaseFile) -> Case:
     """Return the case of an input whose title tells what is not yet in its file."""
     case = load_case(source)
-    tables, written = parsed_tables(source.text) or {}, parsed_tables(file.text) or {}
-    return replace(case, title=retitled(tables, written).get("title") or case.title)
+    return replace(case, title=edited_title(source, file) or case.title)
 
 
 def is_slow(case: Case) -> bool:
@@ -54,27 +50,19 @@ def is_slow(case: Case) -> bool:
     return case.drive.rests
 
 
-def estimate(source: CaseText, case: Case, is_stale: Callable[[], bool]) -> WearResult | None:
+def estimate(source: CaseText, case: Case, check: Callable[[float], None]) -> WearResult | None:
     """Return a first estimate of a life that takes seconds, on few points and with long steps."""
     rough = []
     for key, greatest in _ROUGH.items():
         table, _, name = key.partition(".")
         rough.append(f"{key}={min(greatest, case.inputs[table][name])}")
-    tolerance = max(_ROUGH_TOLERANCE, case.run.life_tolerance)
+    tolerance = max(ROUGH_TOLERANCE, case.run.life_tolerance)
     try:
         return simulate(
-            load_case(source, [*rough, f"run.life_tolerance={tolerance}", "run.method=advance"]),
-            _watch(is_stale, lambda part: None),
+            load_case(source, [*rough, f"run.life_tolerance={tolerance}", "run.method=advance"]), check
         )
     except WearsimError:
         return None
-
-
-def life(case: Case, is_stale: Callable[[], bool], progress: Callable[[float], None]) -> WearResult:
-    """Wear a case, as ``wearsim life`` does."""
-    if is_stale():
-        raise StaleError
-    return simulate(case, _watch(is_stale, progress))
 
 
 def pictures(case: Case, result: WearResult) -> Pictures:
@@ -86,14 +74,3 @@ def pictures(case: Case, result: WearResult) -> Pictures:
         case.drive.scene(case.engaged_every),
         margins(result, case),
     )
-
-
-def _watch(is_stale: Callable[[], bool], progress: Callable[[float], None]) -> Callable[[float], None]:
-    """Tell of progress, or end a run that nobody waits for."""
-
-    def report_progress(part: float) -> None:
-        if is_stale():
-            raise StaleError
-        progress(part)
-
-    return report_progress

@@ -6,6 +6,9 @@ from pathlib import Path
 from wearsim.errors import CaseError, Fault, OutputError
 from wearsim.files import write_file
 
+NEW = Path("drive.toml")
+"""Where a new case stands before it is saved."""
+
 
 @dataclass(frozen=True)
 class CaseFile:

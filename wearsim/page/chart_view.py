@@ -1,13 +1,21 @@
 """A chart on the page, with the slider that enlarges a depth."""
 
+from collections.abc import Callable
 from importlib import resources
 
+from markupsafe import Markup
 from nicegui import ui
 
 from wearsim.geometry.scene import Scene
 from wearsim.page.chart_colours import Palette, figure
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.sketch import sketch
+
+_LINK = """(event) => {
+    const link = event.target.closest("a");
+    if (link) { event.preventDefault(); emit(link.getAttribute("href").slice(1)); }
+}"""
+"""Tells the place that a link of a drawing leads to, and does not go there."""
 
 
 class ChartView:
@@ -78,10 +86,31 @@ class SketchView:
         self._drawing.content = str(sketch(scene))  # every text escaped
 
 
+class LinkedDrawing:
+    """A drawing whose links choose something, in the place where it is made."""
+
+    def __init__(self, title: str, on_choose: Callable[[str], None]) -> None:
+        with ui.element("figure").classes("ws-card ws-layout"):
+            ui.label(title).classes("ws-caption").props("role=heading aria-level=2")
+            self._drawing = ui.html("", sanitize=False)
+        self._drawing.on("click", lambda event: on_choose(str(event.args)), js_handler=_LINK)
+
+    def show(self, drawing: Markup) -> None:
+        """Show a drawing, of which every text is escaped."""
+        self._drawing.content = str(drawing)
+
+
 def style(palettes: tuple[Palette, Palette]) -> str:
     """Return the rules of the page."""
     named = ["".join(f"--{name}: {colour};" for name, colour in palette.items()) for palette in palettes]
-    reports = resources.files("wearsim.report.html").joinpath("style.css").read_text("utf-8")
-    sketches = [line for line in reports.splitlines() if line.startswith((".sketch", ".notes"))]
+    drawings = [
+        line
+        for package, name in (
+            ("wearsim.report.html", "style.css"),
+            ("wearsim.study.whole_drive", "templates/drive_sheet.css"),
+        )
+        for line in resources.files(package).joinpath(name).read_text("utf-8").splitlines()
+        if line.startswith((".sketch", ".notes", ".lives"))
+    ]
     own = resources.files("wearsim.page").joinpath("style.css").read_text("utf-8")
-    return "\n".join([f":root {{{named[0]}}} .body--dark {{{named[1]}}}", *sketches, own])
+    return "\n".join([f":root {{{named[0]}}} .body--dark {{{named[1]}}}", *drawings, own])

@@ -31,18 +31,21 @@ async def ask_name(name: str) -> str | None:
     return answer
 
 
-async def ask_export(formats: Sequence[str], states: Sequence[str]) -> tuple[str, str] | None:
-    """Ask what is to be exported."""
+async def ask_export(
+    wheels: Sequence[str], formats: Sequence[str], states: Sequence[str]
+) -> tuple[str, str, str] | None:
+    """Ask which wheel is to be exported, and how."""
     with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
         ui.label("The wheel for CAD").classes("ws-caption")
+        wheel = ui.select(list(wheels), label="Sprocket", value=wheels[0]).props("outlined dense")
+        wheel.set_visibility(len(wheels) > 1)
         form = ui.select(list(formats), label="Format", value=formats[0]).props("outlined dense")
         state = ui.select(list(states), label="State", value=states[0]).props("outlined dense")
         with ui.row():
-            ui.button("Download", on_click=lambda: dialog.submit((form.value, state.value))).props(
-                "flat no-caps"
-            )
+            button = ui.button("Download").props("flat no-caps")
+            button.on_click(lambda: dialog.submit((wheel.value, form.value, state.value)))
             ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
-    answer: tuple[str, str] | None = await dialog
+    answer: tuple[str, str, str] | None = await dialog
     dialog.delete()
     return answer
 

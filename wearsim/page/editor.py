@@ -2,30 +2,28 @@
 
 import asyncio
 import threading
-from collections.abc import Callable, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from nicegui import background_tasks, ui
 
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
-from wearsim.input.document import CaseText
-from wearsim.page.answer_panel import AnswerPanel
-from wearsim.page.answers import StaleError, edited_case, error_faults, estimate, is_slow, life, pictures
+from wearsim.input.document import CaseText, is_whole_drive
+from wearsim.page.answers import error_faults
+from wearsim.page.case_answer import CaseAnswer
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
+from wearsim.page.drive_answer import DriveAnswer
+from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import Field
 from wearsim.page.file_saver import FileSaver
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.header import Header
-from wearsim.page.threads import in_thread
+from wearsim.page.text_elements import FaultList
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
-from wearsim.report.answer import headline
-from wearsim.report.html.run_charts import tooth_load_chart
 from wearsim.result import WearResult
-
-Found = TypeVar("Found")
 
 _SCHEME = """
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -42,7 +40,9 @@ class CasePage:
         self._text, self._stopping = text, stopping
         self._version, self._answered, self._gone = 1, 0, False
         self._task: asyncio.Task[None] | None = None
-        self._result: tuple[int, Case, WearResult] | None = None
+        self._wheels: tuple[int, Mapping[str, tuple[Case, WearResult]]] = 0, {}
+        self._answer: CaseAnswer | DriveAnswer | None = None
+        self._palette = palettes()[0]
         self._client = ui.context.client
         self._keeper = FileSaver(file, lambda: self._text, self._found, self._reloaded, self._named)
         ui.add_css(style(palettes()))
@@ -53,9 +53,13 @@ class CasePage:
         self._client.on_disconnect(self._left)
         self._show_input("")
         self._named()
+        if file.content is None:
+            ui.timer(0.0, self._keeper.begin, once=True)
 
     def _build(self) -> None:
-        self._header = Header(self._keeper.save, self._keeper.save_as, self._keeper.export)
+        self._header = Header(
+            self._keeper.begin, self._keeper.save, self._keeper.save_as, self._keeper.export
+        )
         with ui.element("main").classes("ws-main"):
             with ui.element("section").classes("ws-input").props('aria-label="Input"'):
                 with ui.tabs().classes("ws-tabs") as tabs:
@@ -71,11 +75,14 @@ class CasePage:
                             on_change=lambda event: self._edit(event.value, "TOML"),
                         ).classes("ws-source")
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
-                self._answer = AnswerPanel(palettes()[0])
+                self._faults = FaultList()
+                self._place = ui.element("div").classes("ws-answer-place")
 
     def _draw(self, dark: bool) -> None:
         self._source.set_theme("basicDark" if dark else "basicLight")
-        self._answer.draw(palettes()[dark])
+        self._palette = palettes()[dark]
+        if self._answer is not None:
+            self._answer.panel.draw(self._palette)
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
@@ -127,7 +134,8 @@ class CasePage:
         if self._answered == self._version:
             return
         self._header.show_state("computing", "computing")
-        self._answer.mark_old()
+        if self._answer is not None:
+            self._answer.panel.mark_old()
         if self._task is None or self._task.done():
             self._task = background_tasks.create(self._catch_up(), name="answer")
 
@@ -150,42 +158,23 @@ class CasePage:
 
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
-        is_stale, report_progress = self._staleness(version), self._progress(version)
-        case = await self._step(version, lambda: edited_case(source, self._keeper.file))
-        if is_slow(case):
-            await self._show_first(version, source, case)
-        result = await self._step(version, lambda: life(case, is_stale, report_progress))
-        self._result = (version, case, result)
-        self._show_sound(case)
-        self._header.show_life(headline(result))
-        self._header.show_state("drawing", "of the present input, drawing")
-        self._answer.show_life(result)
-        if not is_slow(case):
-            self._answer.show_loads(None)
-        self._answer.show_pictures(await self._step(version, lambda: pictures(case, result)))
-        self._header.show_state("current", "of the present input")
+        edited = EditedInput(source, self._keeper.file, self._staleness(version), self._progress(version))
+        self._wheels = version, await self._fitting_answer().find(edited)
 
-    async def _show_first(self, version: int, source: CaseText, case: Case) -> None:
-        """Show what is known before a life that takes long: loads, and about how long it is."""
-        is_stale = self._staleness(version)
-        loads = await self._step(version, lambda: tooth_load_chart(case))
-        self._show_sound(case)
-        self._answer.show_loads(loads)
-        rough = await self._step(version, lambda: estimate(source, case, is_stale))
-        if rough is not None:
-            self._header.show_life(f"about {headline(rough)}")
-            self._header.show_state("estimate", "first estimate, computing")
+    def _fitting_answer(self) -> CaseAnswer | DriveAnswer:
+        """Return the answer, a new one where the input has become one of another kind."""
+        kind = DriveAnswer if is_whole_drive(parsed_tables(self._text) or {}) else CaseAnswer
+        if not isinstance(self._answer, kind):
+            self._place.clear()
+            with self._place:
+                self._answer = kind(self._header, self._show_sound, self._palette)
+        return self._answer
 
-    def _show_sound(self, case: Case) -> None:
+    def _show_sound(self, taken: Mapping[str, Any]) -> None:
+        """Show that the input has no faults, and what it takes where it gives nothing."""
         self._form.show_faults(())
-        self._answer.show_faults(())
-        self._form.show_taken({**case.inputs, "title": case.title})
-
-    async def _step(self, version: int, work: Callable[[], Found]) -> Found:
-        found = await in_thread(work)
-        if self._staleness(version)():
-            raise StaleError
-        return found
+        self._faults.show(())
+        self._form.show_taken(taken)
 
     def _staleness(self, version: int) -> Callable[[], bool]:
         return lambda: self._version != version or self._gone or self._stopping.is_set()
@@ -210,12 +199,11 @@ class CasePage:
         if self._staleness(version)():
             return
         self._form.show_faults(faults)
-        self._answer.show_faults(faults)
+        self._faults.show(faults)
         what = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
         self._header.show_state("old", f"{what}: the answer is of an earlier input")
 
-    def _found(self) -> tuple[Case, WearResult] | None:
-        """Give case and result of the present input, if they are there."""
-        if self._result is None or self._result[0] != self._version:
-            return None
-        return self._result[1:]
+    def _found(self) -> Mapping[str, tuple[Case, WearResult]]:
+        """Give cases and results of the wheels of the present input, none before they are there."""
+        version, wheels = self._wheels
+        return wheels if version == self._version else {}

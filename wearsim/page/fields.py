@@ -43,18 +43,71 @@ def form_fields(data: Mapping[str, Any]) -> dict[str, list[Field]]:
     --------
     >>> tables = form_fields({"duty": [{}, {}]})
     >>> [name for name in tables if name.startswith("duty")]
-    ['duty[]', 'duty.1', 'duty.2']
+    ['duty.1', 'duty.2', 'duty[]']
     >>> tables["load"][1].key, tables["load"][1].unit
     ('load.power_kW', 'kW')
     """
     found: dict[str, list[Field]] = {}
     for key, info in schema_fields(schema_of(data)):
-        head, brackets, _ = key.partition("[]")
-        if brackets:
-            found.setdefault(f"{head}[]", [])
-        for field in _numbered(_field(key, info), data):
-            found.setdefault(field.table, []).append(field)
+        field = _field(key, info)
+        for place in _places(key, data):
+            if place.endswith("[]"):  # where one more is added: behind those that there are
+                found[place] = found.pop(place, [])
+            else:
+                found.setdefault(place.rpartition(".")[0], []).append(replace(field, key=place))
     return found
+
+
+def owner(table: str) -> str:
+    """Return the table of a list that another table stands in, empty for none.
+
+    Examples
+    --------
+    >>> owner("sprocket.2.cog.1"), owner("sprocket.2.cog[]"), owner("sprocket.2"), owner("material.chain")
+    ('sprocket.2', 'sprocket.2', '', '')
+    """
+    head, *inner = table.split(".")
+    return f"{head}.{inner[0]}" if len(inner) > 1 and inner[0].isdigit() else ""
+
+
+def table_title(data: Mapping[str, Any], name: str) -> str:
+    """Return the header of a table, of one of a list with its number and what it is called.
+
+    Examples
+    --------
+    >>> wheels = {"sprocket": [{"name": "motor"}, {"cog": [{"teeth": 11}]}]}
+    >>> table_title(wheels, "sprocket.1"), table_title(wheels, "sprocket.2.cog.1")
+    ('[[sprocket]] 1: motor', '[[sprocket.cog]] 1: 11 teeth')
+    >>> table_title(wheels, "sprocket.2.take_up"), table_title(wheels, "duty[]")
+    ('[sprocket.take_up]', '[[duty]]')
+    """
+    header = ".".join(part for part in name.removesuffix("[]").split(".") if not part.isdigit())
+    number = name.rpartition(".")[2]
+    if name.endswith("[]"):
+        return f"[[{header}]]"
+    if not number.isdigit():
+        return f"[{header}]"
+    table = value_at(data, name)
+    teeth, called = (table.get(key) if isinstance(table, Mapping) else None for key in ("teeth", "name"))
+    words = called or (f"{teeth} teeth" if teeth else "")
+    return f"[[{header}]] {number}" + (f": {words}" if words else "")
+
+
+def value_at(data: Mapping[str, Any], key: str) -> Any:
+    """Return what stands at a key, None for nothing.
+
+    Examples
+    --------
+    >>> value_at({"duty": [{"speed_rpm": 2}]}, "duty.1.speed_rpm"), value_at({}, "load.power_kW")
+    (2, None)
+    """
+    place: Any = data
+    for part in key.split("."):
+        if isinstance(place, list | tuple) and part.isdigit() and int(part) <= len(place):
+            place = place[int(part) - 1]
+        else:
+            place = place.get(part) if isinstance(place, Mapping) else None
+    return place
 
 
 def table_meaning(data: Mapping[str, Any], name: str) -> str:
@@ -98,21 +151,23 @@ def _word(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _numbered(field: Field, data: Mapping[str, Any]) -> Iterator[Field]:
-    head, brackets, tail = field.key.partition("[]")
+def _places(key: str, data: Mapping[str, Any]) -> Iterator[str]:
+    """Give a key in every table of its list, then the list itself, ``name[]``."""
+    head, brackets, tail = key.partition("[]")
     if not brackets:
-        yield field
+        yield key
         return
-    tables = data.get(head)
+    tables = value_at(data, head)
     for number in range(1, len(tables) + 1 if isinstance(tables, list) else 1):
-        yield replace(field, key=f"{head}.{number}{tail}")
+        yield from _places(f"{head}.{number}{tail}", data)
+    yield f"{head}[]"
 
 
 def _proposals(key: str) -> tuple[str, ...]:
     if key == "chain.designation":
         return tuple(chains())
-    if key == "wear.condition":
+    if key.endswith("wear.condition"):
         return tuple(wear_conditions())
-    if key.startswith("material.") and key.endswith(".name"):
+    if "material." in key and key.endswith(".name"):
         return tuple(row["name"] for row in catalogue_rows("materials"))
     return ()

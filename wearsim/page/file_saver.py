@@ -1,6 +1,6 @@
 """Saving a case and exporting its wheel, with the questions that come before."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from nicegui import ui
@@ -9,8 +9,9 @@ from wearsim.case.model import Case
 from wearsim.errors import WearsimError
 from wearsim.export.wheel_formats import export
 from wearsim.geometry.wheel_outline import State
-from wearsim.page.case_file import CaseFile, named_beside, read_file
+from wearsim.page.case_file import NEW, CaseFile, named_beside, new_file, read_file
 from wearsim.page.dialogs import ask_export, ask_name, choose
+from wearsim.page.drive_questions import ask_drive
 from wearsim.page.threads import in_thread
 from wearsim.result import WearResult
 
@@ -25,7 +26,7 @@ class FileSaver:
         self,
         file: CaseFile,
         text: Callable[[], str],
-        found: Callable[[], tuple[Case, WearResult] | None],
+        found: Callable[[], Mapping[str, tuple[Case, WearResult]]],
         on_reload: Callable[[str], None],
         on_change: Callable[[], None],
     ) -> None:
@@ -67,16 +68,32 @@ class FileSaver:
             file = self.file.renamed(place)
         self._write(file)
 
+    async def begin(self) -> None:
+        """Ask what is known of another drive and begin with it; ask before that where a file is not saved."""
+        text = await ask_drive()
+        if text is None:
+            return
+        if self.file.content is not None:
+            question = f"{self.file.path} is not saved as it stands here."
+            lose = "Begin the new drive, and lose what is on this page"
+            if self._text() != self.file.text and await choose(question, (lose, "Cancel")) != lose:
+                return
+            self.file = new_file(self.file.path.with_name(NEW.name))
+        self._on_reload(text)
+        self._on_change()
+
     async def export(self) -> None:
         """Send the wheel as a file to the browser."""
-        if self._found() is None:
+        names = tuple(self._found())
+        if not names:
             ui.notify("The present input has no answer yet: wait for it, or mend the input.")
             return
-        wanted = await ask_export(_FORMATS, tuple(_STATES))
+        wanted = await ask_export(names, _FORMATS, tuple(_STATES))
         found = self._found()
-        if wanted is None or found is None:
+        if wanted is None or wanted[0] not in found:
             return
-        (case, result), (form, state) = found, wanted
+        name, form, state = wanted
+        case, result = found[name]
         states = _STATES[state]
         worn = result if "worn" in states else None
         try:
@@ -84,7 +101,7 @@ class FileSaver:
         except WearsimError as error:
             ui.notify(str(error), type="negative", multi_line=True)
             return
-        ui.download.content(content, f"{case.name}.{form}")
+        ui.download.content(content, f"{case.name if len(names) == 1 else name}.{form}")
 
     def _write(self, file: CaseFile) -> None:
         try:

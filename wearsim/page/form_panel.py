@@ -8,7 +8,7 @@ from nicegui import ui
 
 from wearsim.errors import Fault
 from wearsim.input.keys import schema_of
-from wearsim.page.fields import Field, form_fields, table_meaning
+from wearsim.page.fields import Field, form_fields, owner, table_meaning, table_title, value_at
 
 _MAX_CHOICES = 20
 """Words of a catalogue that a list still shows at once."""
@@ -29,7 +29,10 @@ class FormPanel:
         self._values: Mapping[str, str] = {}
         self._fields: dict[str, Field] = {}
         self._inputs: dict[str, Any] = {}
+        self._data: Mapping[str, Any] = {}
+        self._tables: Mapping[str, Sequence[Field]] = {}
         self._groups: dict[str, list[Any]] = {}
+        self._headed: dict[str, Any] = {}
         self._taken_inputs: Mapping[str, Any] = {}
         self._shape: object = None
         self._body = ui.column().classes("ws-form")
@@ -44,12 +47,14 @@ class FormPanel:
             return
         added = values.keys() - self._values.keys()
         self._values = values
-        tables = form_fields(data)
-        shape = (schema_of(data), tuple(tables))
+        self._data, self._tables = data, form_fields(data)
+        shape = (schema_of(data), tuple(self._tables))
         if shape != self._shape:
             self._shape = shape
-            self._build(data, tables)
+            self._build()
             return
+        for name, table in self._headed.items():
+            table.text = table_title(data, name)
         for key in added & self._groups.keys():
             self._open(key)
         for key, element in self._inputs.items():
@@ -68,9 +73,7 @@ class FormPanel:
         """Show each fault beside its field."""
         texts: dict[str, str] = {}
         for fault in faults:
-            key = fault.key
-            while key and key not in self._fields:
-                key = key.rpartition(".")[0]
+            key = self._nearest(fault.key)
             if key:
                 texts.setdefault(key, str(fault))
         for key in texts:
@@ -78,6 +81,13 @@ class FormPanel:
         for key, element in self._inputs.items():
             if element.error != texts.get(key):
                 element.error = texts.get(key)
+
+    def _nearest(self, key: str) -> str:
+        """Return the key of a field, of a table the first field; empty where the form has none."""
+        while key and key not in self._fields:
+            inner = next((one for one in self._fields if one.startswith(f"{key}.")), "")
+            key = inner or key.rpartition(".")[0]
+        return key
 
     def _open(self, key: str) -> None:
         """Open what a field is in: its table first, then the group of keys that are not in use."""
@@ -87,24 +97,42 @@ class FormPanel:
         if groups and key not in self._inputs:
             self._open(key)
 
-    def _build(self, data: Mapping[str, Any], tables: Mapping[str, Sequence[Field]]) -> None:
-        self._inputs, self._groups = {}, {}
-        self._fields = {field.key: field for fields in tables.values() for field in fields}
+    def _build(self) -> None:
+        self._inputs, self._groups, self._headed = {}, {}, {}
+        self._fields = {field.key: field for fields in self._tables.values() for field in fields}
         self._body.clear()
         with self._body:
-            for name, fields in tables.items():
+            for name, fields in self._tables.items():
                 if not name:
                     self._add_fields(fields)
-                    continue
-                one_of_list = name.rpartition(".")[2].isdigit()
-                given = one_of_list or any(field.key in self._values for field in fields)
-                shown = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
-                table = ui.expansion(shown, caption=table_meaning(data, name), value=given)
-                self._fill_when_open(table.classes("ws-table"), fields, partial(self._add_table, name))
+                elif not owner(name):
+                    self._add_group(name)
 
-    def _fill_when_open(
-        self, group: Any, fields: Sequence[Field], fill: Callable[[Sequence[Field]], None]
-    ) -> None:
+    def _add_group(self, name: str) -> None:
+        """Add a table with all that stand in it."""
+        inner = [one for one in self._tables if owner(one) == name]
+        fields = [field for one in (name, *inner) for field in self._tables[one]]
+        table = ui.expansion(table_title(self._data, name), caption=table_meaning(self._data, name))
+        table.value = self._is_open(name)
+        self._headed[name] = table.classes("ws-table")
+
+        def _fill() -> None:
+            self._add_table(self._tables[name])
+            for one in inner:
+                self._add_group(one)
+            self._add_buttons(name)
+
+        self._fill_when_open(table, fields, _fill)
+
+    def _is_open(self, name: str) -> bool:
+        """Whether a table is seen at first: one that is used; of a list in a table, one that is not done."""
+        given = [field.key in self._values for field in self._tables[name] if field.required]
+        one_of_list = name.rpartition(".")[2].isdigit()
+        if one_of_list and owner(name):
+            return not all(given)
+        return one_of_list or any(field.key in self._values for field in self._tables[name])
+
+    def _fill_when_open(self, group: Any, fields: Sequence[Field], fill: Callable[[], None]) -> None:
         """Make the fields of a group when they are first seen: most never are, and all cost time."""
         for field in fields:
             self._groups.setdefault(field.key, []).append(group)
@@ -114,12 +142,12 @@ class FormPanel:
             if group.value and not filled:
                 filled.append(True)
                 with group:
-                    fill(fields)
+                    fill()
 
         group.on_value_change(_fill)
         _fill()
 
-    def _add_table(self, name: str, fields: Sequence[Field]) -> None:
+    def _add_table(self, fields: Sequence[Field]) -> None:
         """Show what a table holds or must hold; the rest on demand, where there is both."""
         first = [field for field in fields if field.required or field.key in self._values]
         more = [field for field in fields if field not in first]
@@ -129,8 +157,7 @@ class FormPanel:
             self._add_fields(first)
             names = ", ".join(field.name for field in more)
             rest = ui.expansion(f"{len(more)} more", caption=names).classes("ws-more")
-            self._fill_when_open(rest, more, self._add_fields)
-        self._add_buttons(name)
+            self._fill_when_open(rest, more, partial(self._add_fields, more))
 
     def _add_fields(self, fields: Sequence[Field]) -> None:
         with ui.element("div").classes("ws-fields"):
@@ -139,9 +166,9 @@ class FormPanel:
 
     def _add_buttons(self, name: str) -> None:
         if name.endswith("[]"):
-            text = f"Add a table [[{name[:-2]}]]"
+            text = f"Add a table {table_title({}, name)}"
             ui.button(text, icon="add", on_click=lambda: self._on_add(name[:-2])).props("flat")
-        head, _, number = name.partition(".")
+        head, _, number = name.rpartition(".")
         if number.isdigit():
             ui.button(
                 "Remove this table", icon="delete", on_click=lambda: self._on_remove(head, int(number))
@@ -189,14 +216,9 @@ def _with(choices: Sequence[str], value: str) -> list[str]:
 
 
 def _taken(inputs: Mapping[str, Any], key: str) -> str:
-    place: Any = inputs
-    for part in key.split("."):
-        if isinstance(place, list | tuple) and part.isdigit() and int(part) <= len(place):
-            place = place[int(part) - 1]
-        else:
-            place = place.get(part) if isinstance(place, Mapping) else None
-    if place is None or place == "":
+    value = value_at(inputs, key)
+    if value is None or value == "":
         return ""
-    if isinstance(place, bool):
-        return str(place).lower()
-    return f"{place:.6g}" if isinstance(place, float) else str(place)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

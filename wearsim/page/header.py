@@ -10,7 +10,11 @@ class Header:
     """The bar of the page."""
 
     def __init__(
-        self, on_save: Callable[[], Any], on_save_as: Callable[[], Any], on_export: Callable[[], Any]
+        self,
+        on_new: Callable[[], Any],
+        on_save: Callable[[], Any],
+        on_save_as: Callable[[], Any],
+        on_export: Callable[[], Any],
     ) -> None:
         with ui.header().classes("ws-header"):
             with ui.element("div").classes("ws-file"):
@@ -22,6 +26,7 @@ class Header:
                 self._state = ui.label().classes("ws-state")
             with ui.element("div").classes("ws-buttons"):
                 for text, icon, action in (
+                    ("New", "add", on_new),
                     ("Save", "save", on_save),
                     ("Save as", "save_as", on_save_as),
                     ("Export wheel", "download", on_export),

@@ -6,7 +6,7 @@ from typing import Any
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import Item, String, Table
+from tomlkit.items import AoT, InlineTable, Item, String, Table
 
 
 def parsed_tables(text: str) -> dict[str, Any] | None:
@@ -41,13 +41,13 @@ def with_value(text: str, key: str, typed: str, is_text: bool = False) -> str:
     ''
     """
     document = tomlkit.parse(text)
-    *tables, last = key.split(".")
     if not typed.strip():
-        _remove(document, [*tables, last])
+        _remove(document, key.split("."))
         return tomlkit.dumps(document)
-    place: Any = document
-    for depth, part in enumerate(tables):
-        place = _below(place, part, deeper=depth + 1 < len(tables))
+    _holder(document, key)
+    # Read again, a new table takes its keys before the empty line that it ends in.
+    document = tomlkit.parse(tomlkit.dumps(document))
+    place, last = _holder(document, key)
     place[last] = typed if is_text else _value(typed.strip())
     return tomlkit.dumps(document)
 
@@ -59,25 +59,47 @@ def with_table(text: str, name: str) -> str:
     --------
     >>> with_table("title = 'A'\n", "duty")
     "title = 'A'\n\n[[duty]]\n"
+    >>> print(with_table("[[sprocket]]\nteeth = 21\n", "sprocket.1.cog"), end="")
+    [[sprocket]]
+    teeth = 21
+    [[sprocket.cog]]
     """
-    document: Any = tomlkit.parse(text)
-    if name in document:
-        document[name].append(tomlkit.table())
+    document = tomlkit.parse(text)
+    place, last = _holder(document, name)
+    if last not in place:
+        (_spaced(place) if place is document else place).add(last, tomlkit.aot())
+    tables = place[last]
+    if isinstance(tables, AoT):
+        tables.append(_table_like(tables[-1] if len(tables) else place))
     else:
-        tables = tomlkit.aot()
-        tables.append(tomlkit.table())
-        _spaced(document).add(name, tables)
+        tables.append(tomlkit.inline_table())
     return tomlkit.dumps(document)
 
 
 def without_table(text: str, name: str, number: int) -> str:
-    """Return an input file without one of the tables of a list."""
-    document: Any = tomlkit.parse(text)
-    if len(document[name]) == 1:
-        document.remove(name)
+    r"""Return an input file without one of the tables of a list.
+
+    Examples
+    --------
+    >>> without_table("cog = [{teeth = 11}, {teeth = 12}]\n", "cog", 1)
+    'cog = [{teeth = 12}]\n'
+    """
+    document = tomlkit.parse(text)
+    place, last = _holder(document, name)
+    if len(place[last]) == 1:
+        place.remove(last)
     else:
-        del document[name][number - 1]
+        del place[last][number - 1]
     return tomlkit.dumps(document)
+
+
+def _holder(document: Any, key: str) -> tuple[Any, str]:
+    """Return the table that holds a key, a new one where it is missing, and the key's own name."""
+    *tables, last = key.split(".")
+    place = document
+    for depth, part in enumerate(tables):
+        place = _below(place, part, deeper=depth + 1 < len(tables))
+    return place, last
 
 
 def _leaves(table: Any, prefix: str) -> Iterator[tuple[str, str]]:
@@ -110,7 +132,7 @@ def _below(place: Any, part: str, deeper: bool) -> Any:
     if isinstance(place, list):
         return place[int(part) - 1]
     if part not in place or not isinstance(place[part], Mapping | list):
-        new = tomlkit.table(is_super_table=deeper)
+        new = tomlkit.table(is_super_table=True) if deeper else _table_like(place)
         if part in place:
             place[part] = new
         elif isinstance(place, tomlkit.TOMLDocument):
@@ -118,6 +140,14 @@ def _below(place: Any, part: str, deeper: bool) -> Any:
         else:
             place.add(part, new)
     return place[part]
+
+
+def _table_like(place: Any) -> Table:
+    """Return a new table that ends in an empty line where the one before it does."""
+    new = tomlkit.table()
+    if isinstance(place, Table) and place.as_string().endswith("\n\n"):
+        new.add(tomlkit.nl())
+    return new
 
 
 def _spaced(document: Any) -> Any:
@@ -141,5 +171,7 @@ def _remove(document: Any, parts: list[str]) -> None:
         if isinstance(place, list) or part not in place:
             return
         del place[part]
-        if not isinstance(place, Table) or len(place) or place.as_string().strip():
+        if len(place) or not isinstance(place, InlineTable | Table):
+            return
+        if isinstance(place, Table) and place.as_string().strip():
             return

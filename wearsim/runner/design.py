@@ -11,10 +11,9 @@ from typing import Any
 from wearsim._version import __version__
 from wearsim.catalogue.catalogues import nearest
 from wearsim.errors import CaseError, Fault
-from wearsim.input.document import Document
+from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.keys import schema_fields, schema_of
 from wearsim.input.mechanism_registry import WRAP_PROFILES
-from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.input.schema.table import is_number, without_numbers
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import FILE_KEYS, file_paths
@@ -89,7 +88,7 @@ class Design:
 
 
 def _wraps(tables: Mapping[str, Any]) -> bool:
-    if isinstance(tables.get("sprocket"), list):
+    if is_whole_drive(tables):
         return True
     kind = tables.get("mechanism", {}).get("kind")
     return kind == "wrap" or tables.get("sprocket", {}).get("profile") in WRAP_PROFILES
@@ -176,9 +175,7 @@ def design(
 
 
 def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
-    drive = isinstance(document.data.get("sprocket"), list)
-    schema = CaseTablesOrDrive if drive else schema_of(document.data)
-    known = {key.replace("[]", "") for key, _ in schema_fields(schema)}
+    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
     faults = []
     for key in keys:
         plain = without_numbers(key)

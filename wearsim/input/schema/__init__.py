@@ -29,6 +29,7 @@ __all__ = [
     "CaseTablesOrDrive",
     "ChainTable",
     "DriveTable",
+    "DriveTables",
     "DutyBlock",
     "JointTable",
     "LoadTable",
@@ -68,6 +69,12 @@ class CaseTables(Table):
     service: ServiceTable | None = None
     uncertainty: Uncertainty | None = None
     optimise: OptimiseTable | None = None
+
+
+class DriveTables(CaseTables):
+    """The tables of a drive with all of its sprockets."""
+
+    sprocket: list[PlacedSprocketTable]  # type: ignore[assignment]
 
 
 class CaseTablesOrDrive(CaseTables):

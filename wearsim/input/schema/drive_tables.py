@@ -259,8 +259,8 @@ class PlaceTable(Table):
         return found
 
 
-class PlacedSprocketTable(PlaceTable, SprocketTable):
-    """All keys of a sprocket of a drive, for the schema."""
+class PlacedSprocketTable(SprocketTable, PlaceTable):
+    """A sprocket of the drive: its place in the loop and its teeth."""
 
     role: Literal["driver", "driven", "idler"] | None = None  # type: ignore[assignment]
     teeth: Annotated[int, Field(ge=5, le=1000)] | None = None  # type: ignore[assignment]

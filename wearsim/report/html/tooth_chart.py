@@ -9,8 +9,8 @@ from wearsim.geometry.scene import Circle, Stroke
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import life_time
 from wearsim.report.html.charts import Chart, Trace, ValueTable, curve, json_numbers, panels, without_hover
-from wearsim.report.worn_flank import WornFlank, around_flank, flanks_of_life
-from wearsim.result import WearResult
+from wearsim.report.worn_flank import WornFlank, around_flank, flanks_of_life, worn_flanks
+from wearsim.result import Life, WearResult
 
 _AROUND = 0.22
 """Room around the flank, as a fraction of its extent."""
@@ -20,10 +20,19 @@ def tooth_charts(result: WearResult) -> list[Chart]:
     """Return the flank worn to the end of the life, of gears those of both wheels."""
     flanks = flanks_of_life(result)
     around = [_trace(shape) for shape in around_flank(result, flanks[0])]
-    return [_chart(result, flank, [] if flank.name == "wheel" else around) for flank in flanks]
+    when = life_time(result)
+    return [_chart(flank, [] if flank.name == "wheel" else around, when) for flank in flanks]
 
 
-def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
+def worn_out_chart(result: WearResult) -> Chart:
+    """Return the flank of a sprocket worn to the end of its own life, on however many chains."""
+    (flank,) = worn_flanks(result)
+    reached = isinstance(result.parts["sprocket"], Life)
+    when = f"{grouped(result.hours_run)} h ({'its own life' if reached else 'limit not reached'})"
+    return _chart(flank, [_trace(shape) for shape in around_flank(result, flank)], when)
+
+
+def _chart(flank: WornFlank, around: list[Trace], when: str) -> Chart:
     name, new, depth = flank.name, flank.new, flank.depth[-1]
     greatest, room = float(depth.max()), _AROUND * flank.extent
     figure = panels(1)
@@ -33,7 +42,7 @@ def _chart(result: WearResult, flank: WornFlank, around: list[Trace]) -> Chart:
     figure.set_axis("y", "y, mm", range=[new.y.min() - room, new.y.max() + room], scaleanchor="x")
     return Chart(
         name=name,
-        title=f"{'flank' if name == 'tooth' else name} before and after {life_time(result)}",
+        title=f"{'flank' if name == 'tooth' else name} before and after {when}",
         alt=f"The {name} new and worn; the depth, {greatest:.3g} mm at most, is enlarged by the factor of "
         "the slider.",
         figure=figure,

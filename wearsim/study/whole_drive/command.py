@@ -23,7 +23,7 @@ from wearsim.command.options import (
 from wearsim.command.single_file import write_workbook
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.files import check_folder
-from wearsim.input.document import read_document
+from wearsim.input.document import is_whole_drive, read_document
 from wearsim.result import Life
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 def is_drive(path: Path) -> bool:
     """Tell whether an input names the sprockets of a whole drive; one that cannot be read does not."""
     try:
-        return isinstance(read_document(path, ()).data.get("sprocket"), list)
+        return is_whole_drive(read_document(path, ()).data)
     except CaseError:
         return False
 

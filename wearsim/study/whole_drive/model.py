@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from wearsim.chain.selection import RatingFinding
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
-from wearsim.study.whole_drive.keys import DriveCase
+from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 
 CHAIN = "chain"
 
@@ -132,9 +132,11 @@ def drive_life(
 
         return _report
 
+    def _run(one: DriveSprocket) -> WearResult:
+        report = _watch(one.name)
+        report(0.0)  # may end what nobody waits for before it begins
+        return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
-        runs = {
-            one.name: pool.submit(simulate, one.case.with_horizon(least_horizon or 0.0), _watch(one.name))
-            for one in drive.sprockets
-        }
+        runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
         return DriveLife(drive, {name: run.result() for name, run in runs.items()})

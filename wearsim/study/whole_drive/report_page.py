@@ -1,6 +1,5 @@
 """The sheet of a whole drive as one page of HTML that fetches nothing and prints on A4."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -12,16 +11,13 @@ from wearsim._version import __version__
 from wearsim.errors import OutputError
 from wearsim.files import check_free, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
-from wearsim.mechanisms.wrap.loop_scene import loop_scene
 from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import hours, overload_text
 from wearsim.report.html.sketch import sketch
-from wearsim.report.text_lines import stated_and_defaults
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.layout import drive_forces, loop_names
+from wearsim.study.whole_drive.layout_sketch import flank_place, layout_sketch
 from wearsim.study.whole_drive.lives_bars import lives_bars
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import DriveLife
@@ -36,15 +32,11 @@ from wearsim.study.whole_drive.page_tables import (
     rating_table,
     shaft_table,
     span_table,
-    wheel_of,
 )
-from wearsim.study.whole_drive.sheet import first_text, within_text
+from wearsim.study.whole_drive.sheet import first_text, shown_warnings, taken_for_granted, within_text
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
-
-_RATED = "outside a rating"
-"""What warnings say of what stands among the ratings."""
 
 _AROUND = 0.12
 """Room around a flank, as a fraction of its extent."""
@@ -151,7 +143,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     driver = found.results[drive.driver.name]
     ratings, notes = rating_table(found)
     plan = drive_plan(found)
-    assumptions, defaults = _taken(found)
+    assumptions, defaults = taken_for_granted(found)
     return SheetPage(
         title=drive.title,
         head=head.rows,
@@ -159,7 +151,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         first=first_text(plan),
         overloaded=overload_text(driver),
         within=within_text(driver),
-        layout=_layout(drive),
+        layout=layout_sketch(drive),
         ratings=ratings,
         rating_notes=notes,
         chain=chain_rows(drive),
@@ -175,10 +167,10 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         plan_rule=plan.best.name,
         plan_goes_on=plan.goes_on,
         flanks=[
-            FlankPicture(_flank_place(number), name, sketch(_flank(result)))
+            FlankPicture(flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
         ],
-        warnings=[text for text in found.warnings if _RATED not in text],
+        warnings=shown_warnings(found),
         assumptions=assumptions,
         defaults=defaults,
     )
@@ -187,26 +179,6 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
 def _plan_until(plan: DrivePlan) -> str:
     what, end = min(plan.ends.items(), key=lambda item: item[1])
     return f"{grouped(end)} h, {what}"
-
-
-def _flank_place(number: int) -> str:
-    return f"flank-{number}"
-
-
-def _layout(drive: DriveCase) -> Markup:
-    """Return the drawing of the loop; a click on a sprocket leads to its flank, of a cassette the first."""
-    forces = drive_forces(drive)
-    of = [wheel.name for wheel in wheel_of(drive).values()]
-    links = [
-        (
-            _flank_place(of.index(name) + 1),
-            Circle("link", (float(x), float(y)), float(radius), f"flank of {name}"),
-        )
-        for name, (x, y), radius in zip(
-            loop_names(drive), forces.loop.centres, forces.loop.pitch_radii, strict=True
-        )
-    ]
-    return sketch(loop_scene(forces, 0.5 * drive.driver.drive.chain.roller_diameter), links)
 
 
 def _flank(result: WearResult) -> Scene:
@@ -225,19 +197,3 @@ def _flank(result: WearResult) -> Scene:
         f"A gap of the sprocket new and worn, {depth_text}, drawn {flank.factor} times as deep.",
         (f"{depth_text} after {grouped(result.hours_run)} h", f"drawn {flank.factor} times as deep"),
     )
-
-
-def _taken(found: DriveLife) -> tuple[list[str], list[str]]:
-    """Return what is taken for granted, and the defaults, each once with the sprockets it is about."""
-    names: dict[str, list[str]] = {}
-    for name, result in found.results.items():
-        for text in result.assumptions:
-            names.setdefault(text, []).append(name)
-    stated, defaults = stated_and_defaults(tuple(names))
-    return [_about(text, names[text], found) for text in stated], [
-        _about(text, names[text], found) for text in defaults
-    ]
-
-
-def _about(text: str, names: Sequence[str], found: DriveLife) -> str:
-    return text if len(names) == len(found.results) else f"{', '.join(names)}: {text}"

@@ -7,12 +7,15 @@ from typing import Any
 from wearsim.quantities import grouped
 from wearsim.report.answer import ending, hours, overload_text, service_text
 from wearsim.report.service import service_keys
-from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
+from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row, stated_and_defaults
 from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
+
+_RATED = "outside a rating"
+"""What warnings say of what stands among the ratings."""
 
 _MAX_WARNINGS = 1
 _MAX_ROWS = 4
@@ -24,18 +27,31 @@ _MAX_THEN = 2
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
     rows = [
-        (CHAIN.capitalize(), _part(found, CHAIN)),
-        *(_all_sprockets(found) if explain else _sprockets(found)),
+        *part_rows(found, explain),
         ("First", first_text(drive_plan(found))),
-        ("Band", _band(found)),
+        ("Band", band_text(found)),
         ("Ratings", ratings_text(found)),
-        ("Worn most", _worn_most(found, explain)),
+        ("Worn most", worn_most_text(found, explain)),
         *((("Band from", _band_source(found)),) if explain else ()),
         ("Warnings", _warnings(found, explain)),
         ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
         ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
     ]
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
+
+
+def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
+    """Return the lives of chain and sprockets by their names, on request of every cog for itself."""
+    return [
+        (CHAIN.capitalize(), _part(found, CHAIN)),
+        *(_all_sprockets(found) if explain else _sprockets(found)),
+    ]
+
+
+def ratings_text(found: DriveLife) -> str:
+    """Return in words whether a drive is within its ratings."""
+    driver = found.results[found.drive.driver.name]
+    return f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
 
 
 def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
@@ -124,16 +140,11 @@ def part_name(name: str) -> str:
     return name if name == CHAIN else f"sprocket {name!r}"
 
 
-def _band(found: DriveLife) -> str:
+def band_text(found: DriveLife) -> str:
+    """Return in words how sure the first life is."""
     whose = found.first or next(iter(found.results))
     low, high = (hours(life) for life in found.band(whose))
     return f"{low} to {high} for the {part_name(whose)}, over the band of its wear coefficient"
-
-
-def ratings_text(found: DriveLife) -> str:
-    """Return in words whether a drive is within its ratings."""
-    driver = found.results[found.drive.driver.name]
-    return f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
 
 
 def within_text(result: WearResult) -> str:
@@ -154,7 +165,8 @@ def _band_source(found: DriveLife) -> str:
     return "; ".join(f"{', '.join(names)}: {band}" for band, names in sources.items())
 
 
-def _worn_most(found: DriveLife, explain: bool) -> str:
+def worn_most_text(found: DriveLife, explain: bool = False) -> str:
+    """Return in words where the teeth are worn most, on request of every sprocket."""
     results = found.results
     if len(results) > _MAX_ROWS and not explain:
         deepest = max(results, key=lambda name: results[name].max_depth)
@@ -168,9 +180,13 @@ def _worn(result: WearResult) -> str:
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
+def shown_warnings(found: DriveLife) -> list[str]:
+    """Return the warnings but those of ratings, which stand beside the ratings."""
+    return [text for text in found.warnings if _RATED not in text]
+
+
 def _warnings(found: DriveLife, explain: bool) -> str:
-    # What is outside of a rating stands beside the ratings.
-    warnings = [text for text in found.warnings if not text.startswith("outside a rating")]
+    warnings = shown_warnings(found)
     if explain or not warnings:
         return "; ".join(warnings) or "none"
     shown = warnings[:_MAX_WARNINGS]
@@ -180,6 +196,22 @@ def _warnings(found: DriveLife, explain: bool) -> str:
 
 def _assumptions(found: DriveLife) -> tuple[str, ...]:
     return tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
+
+
+def taken_for_granted(found: DriveLife) -> tuple[list[str], list[str]]:
+    """Return what is taken for granted, and the defaults, each once with the sprockets it is about."""
+    names: dict[str, list[str]] = {}
+    for name, result in found.results.items():
+        for text in result.assumptions:
+            names.setdefault(text, []).append(name)
+    stated, defaults = stated_and_defaults(tuple(names))
+    return [_about(text, names[text], found) for text in stated], [
+        _about(text, names[text], found) for text in defaults
+    ]
+
+
+def _about(text: str, names: Sequence[str], found: DriveLife) -> str:
+    return text if len(names) == len(found.results) else f"{', '.join(names)}: {text}"
 
 
 def drive_json(found: DriveLife) -> dict[str, Any]:

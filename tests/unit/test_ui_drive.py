@@ -1,0 +1,71 @@
+"""What the page of ``wearsim ui`` takes of a whole drive and shows of its lives."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("nicegui", reason="nicegui is not installed")
+
+from nicegui import Client, ui
+from nicegui.page import page
+
+from wearsim.input.document import CaseText
+from wearsim.page.case_file import new_file
+from wearsim.page.drive_answer import drive_headline, taken_inputs
+from wearsim.page.drive_panel import DrivePanel
+from wearsim.page.edited_input import EditedInput, StaleError
+from wearsim.page.fields import form_fields, value_at
+from wearsim.study.whole_drive import model
+from wearsim.study.whole_drive.keys import load_drive
+from wearsim.study.whole_drive.model import drive_life
+
+DRIVE = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 40"},
+    "sprocket": 2 * [{"teeth": 19, "profile": "ansi_b29", "nodes": 51}],
+    "drive": {"links": 100},
+    "mechanism": {"phases": 1},
+    "wear": {"condition": "hardened, oiled"},
+    "run": {"horizon_hours": 20, "life_tolerance": 0.1},
+}
+
+
+def test_empty_fields_show_what_a_drive_takes():
+    drive = load_drive(Path(__file__).parents[2] / "cases" / "drives" / "camshaft-loop.toml")
+    taken = taken_inputs(drive)
+    shown = {field.key for table in form_fields(taken).values() for field in table}
+    for key, value in (
+        ("sprocket.1.role", "driver"),
+        ("sprocket.2.role", "idler"),
+        ("sprocket.3.role", "driven"),
+        ("sprocket.3.name", "camshaft"),
+        ("sprocket.3.teeth", 42),
+        ("sprocket.4.form", "min"),
+        ("mechanism.phases", 8),
+        ("run.horizon_hours", 100 * 365.25 * 1.5),
+    ):
+        assert key in shown and value_at(taken, key) == value
+
+
+@pytest.mark.parametrize(
+    ("power", "words"), [(7, "OVERLOADED: plate fatigue 152 %, "), (4, "Ratings: within ")]
+)
+def test_ratings_stand_beside_the_hours(power, words):
+    """The rating of no. 40 with 19 teeth at 1000 rpm is 4.60 kW."""
+    load = {"power_kW": power, "speed_rpm": 1000}
+    found = drive_life(load_drive({**DRIVE, "load": load}))
+    with Client(page("/drive")) as client:
+        DrivePanel({}).show_lives(found)
+        texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
+    place = texts.index("> 20 h")
+    assert texts[place + 2].startswith(words)
+    assert drive_headline(found) == ("> 20 h (overloaded)" if power == 7 else "> 20 h")
+
+
+def test_runs_that_nobody_waits_for_do_not_begin(monkeypatch):
+    monkeypatch.setattr(model, "simulate", lambda case, progress: pytest.fail("began"))
+    path = Path("drive.toml")
+    edited = EditedInput(CaseText(path, ""), new_file(path), lambda: True, lambda part: pytest.fail("told"))
+    drive = load_drive({**DRIVE, "load": {"power_kW": 4, "speed_rpm": 1000}})
+    with pytest.raises(StaleError):
+        drive_life(drive, progress=edited.watch)

@@ -1,0 +1,136 @@
+"""The answer to a whole drive: its layout and flanks, lives, ratings, and what all of it rests on."""
+
+from collections.abc import Mapping
+
+from markupsafe import Markup
+from nicegui import ui
+
+from wearsim.page.chart_colours import Palette
+from wearsim.page.chart_view import ChartView, LinkedDrawing
+from wearsim.page.text_elements import (
+    assumption_list,
+    heading,
+    row_list,
+    text_element,
+    used_part,
+    warning_list,
+)
+from wearsim.quantities import grouped
+from wearsim.report.answer import hours
+from wearsim.report.html.charts import Chart
+from wearsim.study.whole_drive.layout_sketch import flank_place
+from wearsim.study.whole_drive.maintenance import drive_plan
+from wearsim.study.whole_drive.model import DriveLife
+from wearsim.study.whole_drive.sheet import (
+    band_text,
+    first_text,
+    part_rows,
+    ratings_text,
+    shown_warnings,
+    taken_for_granted,
+    worn_most_text,
+)
+
+
+class DrivePanel:
+    """The answer in the place where it is made."""
+
+    def __init__(self, palette: Palette) -> None:
+        self._palette = palette
+        self._flanks: Mapping[str, Chart] = {}
+        self._flank: ChartView | None = None
+        self._life = ui.element("section").classes("ws-life-card ws-card")
+        with ui.element("div").classes("ws-pair") as self._drive:
+            self._layout = LinkedDrawing("Layout, to scale: choose a sprocket", self._choose_place)
+            self._tooth = ui.element("section").classes("ws-stack")
+        with self._tooth:
+            self._chosen = ui.select([], label="Flank of", on_change=lambda: self._show_flank())
+            self._chosen.classes("ws-chosen").props("outlined dense")
+        with ui.element("section").classes("ws-card") as self._lives:
+            heading("Lives on one clock")
+            self._bars = ui.html("", sanitize=False)
+        self._ratings = ui.element("section").classes("ws-card")
+        self._text = ui.element("section").classes("ws-card")
+        for place in (self._life, self._drive, self._tooth, self._lives, self._ratings, self._text):
+            place.set_visibility(False)
+
+    def mark_old(self) -> None:
+        """Mark everything as the answer to an earlier input."""
+        for place in (self._life, self._drive, self._lives, self._ratings, self._text):
+            place.classes("ws-old")
+        self._tooth.classes("ws-old")
+
+    def show_layout(self, drawing: Markup) -> None:
+        """Show where the chain runs and how hard it pulls, which is known before any life."""
+        self._layout.show(drawing)
+        self._drive.set_visibility(True)
+        self._drive.classes(remove="ws-old")
+
+    def show_lives(self, found: DriveLife) -> None:
+        """Show the lives and everything in words."""
+        self._fill_life(found)
+        self._fill_ratings(found)
+        self._text.clear()
+        with self._text:
+            assumption_list(*taken_for_granted(found))
+        for place in (self._life, self._ratings, self._text):
+            place.set_visibility(True)
+            place.classes(remove="ws-old")
+
+    def show_pictures(self, bars: Markup, flanks: Mapping[str, Chart]) -> None:
+        """Show all lives over time, and the flank of the sprocket that is chosen."""
+        self._bars.content = str(bars)  # every text escaped
+        self._flanks = flanks
+        chosen = self._chosen.value
+        self._chosen.set_options(list(flanks), value=chosen if chosen in flanks else next(iter(flanks)))
+        self._show_flank()
+        for place in (self._tooth, self._lives):
+            place.set_visibility(True)
+            place.classes(remove="ws-old")
+
+    def draw(self, palette: Palette) -> None:
+        """Draw the chart in other colours."""
+        self._palette = palette
+        self._show_flank()
+
+    def _choose_place(self, place: str) -> None:
+        """Show the flank that a link of the layout leads to."""
+        places = {flank_place(number): name for number, name in enumerate(self._flanks, start=1)}
+        if place in places:
+            self._chosen.value = places[place]
+            ui.run_javascript(f'getHtmlElement({self._tooth.id}).scrollIntoView({{block: "nearest"}})')
+
+    def _show_flank(self) -> None:
+        chart = self._flanks.get(self._chosen.value or "")
+        if chart is None:
+            return
+        if self._flank is None:
+            with self._tooth:
+                self._flank = ChartView(chart, self._palette)
+        else:
+            self._flank.show(chart, self._palette)
+
+    def _fill_life(self, found: DriveLife) -> None:
+        self._life.clear()
+        with self._life:
+            ui.label(found.drive.title).classes("ws-title").props("role=heading aria-level=2")
+            ui.label(hours(found.life)).classes("ws-hours")
+            ui.label(first_text(drive_plan(found)))
+            if found.overloaded:
+                ui.label(ratings_text(found)).classes("ws-overloaded")
+            else:
+                ui.label(f"Ratings: {ratings_text(found)}.")
+            rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
+            row_list([*part_rows(found), *rows])
+            warning_list(shown_warnings(found))
+
+    def _fill_ratings(self, found: DriveLife) -> None:
+        self._ratings.clear()
+        with self._ratings:
+            heading("Ratings")
+            with ui.element("dl").classes("ws-margins"):
+                for one in found.results[found.drive.driver.name].ratings:
+                    sign = "≥" if one.at_least else "≤"
+                    text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
+                    text_element("dt", one.name if one.ok else f"{one.name} (outside)")
+                    used_part(one.name, one.used, text)

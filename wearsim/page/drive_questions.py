@@ -1,0 +1,88 @@
+"""What is known of a new drive, asked in a dialog as ``wearsim init`` asks it."""
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from nicegui import ui
+
+from wearsim.catalogue.catalogues import chains
+from wearsim.errors import CaseError, Fault
+from wearsim.page.threads import in_thread
+from wearsim.study.whole_drive.drive_start import start_text
+from wearsim.study.whole_drive.known_drive import KNOWN, Known, read_known
+
+_LOOK = "outlined dense stack-label hide-bottom-space"
+
+
+async def ask_drive() -> str | None:
+    """Ask what is known of a drive; return the text of its case, or nothing."""
+    with ui.dialog() as dialog, ui.card().classes("ws-dialog ws-questions"):
+        ui.label("New drive: one chain on two sprockets").classes("ws-caption")
+
+        async def _create() -> None:
+            create.props("loading")
+            text = await questions.answer()
+            create.props(remove="loading")
+            if text is not None:
+                dialog.submit(text)
+
+        questions = _Questions(_create)
+        with ui.row():
+            create = ui.button("Create", on_click=_create).props("flat no-caps")
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+    answer: str | None = await dialog
+    dialog.delete()
+    return answer
+
+
+class _Questions:
+    """A field for everything that may be known, in the place where it is made."""
+
+    def __init__(self, on_enter: Callable[[], Any]) -> None:
+        with ui.element("div").classes("ws-fields"):
+            self._fields = {known.name: self._field(known, on_enter) for known in KNOWN if known.asked}
+        self._others = ui.label().classes("ws-fault")
+        self._follow()
+
+    async def answer(self) -> str | None:
+        """Return the text of the case, or show what is wrong."""
+        typed = self._typed()
+        try:
+            return await in_thread(lambda: start_text(typed))
+        except CaseError as error:
+            self._show(error.faults)
+            return None
+
+    def _field(self, known: Known, on_enter: Callable[[], Any]) -> Any:
+        label, _, more = re.split("([:;,])", known.what + ";", maxsplit=1)
+        field: Any
+        if known.words:
+            field = ui.select(list(known.words), label=label, value=known.words[0])
+        else:
+            proposals = list(chains()) if known.name == "chain" else []
+            field = ui.input(label, autocomplete=proposals).props("autocomplete=off spellcheck=false")
+            field.props["hint"] = more.strip(" ;")
+            field.on("keydown.enter", on_enter)
+        field.classes("ws-field").props(_LOOK)
+        field.props["data-known"] = known.name
+        field.on_value_change(self._follow)
+        return field
+
+    def _typed(self) -> dict[str, str | None]:
+        return {name: (field.value or "").strip() or None for name, field in self._fields.items()}
+
+    def _follow(self) -> None:
+        """Show what is taken where nothing is typed, and what cannot be read."""
+        values, faults = read_known(self._typed())
+        for known in KNOWN:
+            if known.asked:
+                self._fields[known.name].props["placeholder"] = known.default(values)
+        self._show(faults)
+
+    def _show(self, faults: Sequence[Fault]) -> None:
+        texts = {fault.file: fault.message for fault in faults}
+        for known in KNOWN:
+            if known.asked:
+                self._fields[known.name].error = texts.pop(known.option, None)
+        self._others.text = "\n".join(texts.values())

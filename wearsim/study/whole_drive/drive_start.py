@@ -1,0 +1,177 @@
+"""A whole drive to start from, by what an engineer knows of it."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wearsim.catalogue.catalogues import chains
+from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
+from wearsim.errors import CaseError, Fault
+from wearsim.quantities import DAYS_OF_YEAR
+from wearsim.study.whole_drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_factors
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.study.whole_drive.keys import DriveCase
+
+_UNITS = {"power": "kW", "rpm": "rpm", "centre": "mm"}
+"""Units of the case."""
+
+_MOST_JOINT_FACTOR = 3.0
+_TOO_HARD = "\n# It is above 3, where handbooks ask for another drive."
+_COLUMN = 32
+"""Width of a line of the case before its comment."""
+
+_WHY = {
+    "hardened, oiled": "hardened teeth, and oil on teeth and joints at all times.",
+    "normalised, greased": "the row of the table for little lubricant, with softer teeth.",
+    "hardened, dry": "hardened teeth, no lubricant at all.",
+}
+"""What the conditions of wear mean that go with the ways to lubricate."""
+
+_OPTIONS = {
+    "chain.designation": "--chain",
+    "sprocket.1.teeth": "--driver",
+    "sprocket.2.teeth": "--driven",
+    "load.power_kW": "--power",
+    "load.speed_rpm": "--rpm",
+    "drive.centre_distance_mm": "--centre",
+    "drive.links": "--links",
+}
+"""Where keys of a case come from."""
+
+
+def start_text(typed: Mapping[str, str | None]) -> str:
+    """Return a drive as text, or raise everything that is wrong with what is known of it."""
+    values, faults = read_known(typed)
+    if faults:
+        raise CaseError(faults)
+    amounts = {
+        name: _as_typed(values[name], typed.get(name), unit)
+        for name, unit in _UNITS.items()
+        if values[name] is not None
+    }
+    template = Path(__file__).with_name("templates") / "drive_start.toml"
+    shown = _shown(values, amounts, _loaded(values))
+    return _aligned(template.read_text(encoding="utf-8").format(**shown))
+
+
+def _loaded(values: Values) -> "DriveCase":
+    """Return the drive, or raise its faults at the options that they come from."""
+    from wearsim.chain.standard_teeth import standard_form
+    from wearsim.study.whole_drive.keys import load_drive
+
+    factors, form = use_factors(values), standard_form(chains()[values["chain"]])
+    lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": values["chain"]},
+        "sprocket": [{"teeth": values[role], "profile": form} for role in ("driver", "driven")],
+        "drive": {
+            **{key: value for key, value in lengths.items() if value is not None},
+            "service_factor": factors.service,
+            "joint_application_factor": factors.joint,
+        },
+        "load": {"power_kW": values["power"], "speed_rpm": values["rpm"]},
+        "wear": {"condition": LUBRICATIONS[values["lubrication"]][0]},
+    }
+    try:
+        return load_drive(tables)
+    except CaseError as error:
+        # Both sprockets may tell the same, each with its own numbers.
+        found: dict[str, Fault] = {}
+        for fault in error.faults:
+            found.setdefault(fault.key, _at_option(fault))
+        raise CaseError(list(found.values())) from None
+
+
+def _at_option(fault: Fault) -> Fault:
+    if fault.key in _OPTIONS:
+        return Fault(fault.message, "", _OPTIONS[fault.key])
+    if fault.key.startswith("chain."):
+        return Fault(f"{fault.message}: take another chain", fault.key, "--chain")
+    return fault
+
+
+@dataclass(frozen=True)
+class _Amount:
+    """A number as it is written in the case, and in words."""
+
+    toml: str
+    words: str
+
+
+def _as_typed(value: float, text: str | None, unit: str) -> _Amount:
+    """Return a number as it was typed, in the unit of the case where that is as short."""
+    number = f"{value:.15g}"
+    words = f"{number} {unit}"
+    if text is None or is_plain(text):
+        return _Amount(number, words)
+    typed = text.strip()
+    return _Amount(number if len(words) <= len(typed) else json.dumps(typed, ensure_ascii=False), typed)
+
+
+def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -> dict[str, Any]:
+    """Return what the template shows."""
+    from wearsim.study.whole_drive.keys import SERVICE_YEARS
+
+    factors, (condition, oil) = use_factors(values), LUBRICATIONS[values["lubrication"]]
+    case = drive.driver.case
+    chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
+    power, rpm = amounts["power"], amounts["rpm"]
+    title = f"{chain}, {driver} to {driven} teeth, {power.words} at {rpm.words}"
+    iso, load = SHOCKS[values["shock"]]
+    shifts = shifts_in_words(values)
+    return {
+        "title": json.dumps(title, ensure_ascii=False),
+        "chain": chain,
+        "driver": driver,
+        "driven": driven,
+        "driven_rpm": values["rpm"] * driver / driven,
+        "profile": case.inputs["sprocket"]["profile"],
+        "length": _length(values, amounts, case),
+        "iso_load": iso,
+        "gost_load": load,
+        "gost_lubrication": oil,
+        "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
+        "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
+        "factors": factors,
+        "limit": _TOO_HARD if factors.joint > _MOST_JOINT_FACTOR else "",
+        "power": power.toml,
+        "rpm": rpm.toml,
+        "lubrication": values["lubrication"],
+        "why": _WHY[condition],
+        "condition": condition,
+        "hours": values["hours_per_day"],
+        "horizon": SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"],
+        "years": SERVICE_YEARS,
+        "elongation": case.inputs["stop"]["elongation_percent"],
+    }
+
+
+def _length(values: Values, amounts: Mapping[str, _Amount], case: "Case") -> str:
+    """Return the line of the case that says how long the drive is."""
+    from wearsim.chain.drive_layout import DriveLayout
+    from wearsim.mechanisms.wrap.drive import WrapDrive
+
+    assert isinstance(case.drive, WrapDrive)
+    layout = case.drive.layout
+    assert isinstance(layout, DriveLayout)
+    distance = f"{layout.centre_distance:.6g} mm between the axes"
+    if values["centre"] is not None:
+        even = f"{layout.links} links, the next even number, take {layout.centre_distance:.6g} mm"
+        return f"centre_distance_mm = {amounts['centre'].toml}  # of the axes; {even}"
+    if values["links"] is not None:
+        return f"links = {layout.links}  # {distance}; or centre_distance_mm"
+    return f"links = {layout.links}  # about 40 pitches, {distance}; or centre_distance_mm"
+
+
+def _aligned(text: str) -> str:
+    """Return a case with the comments behind its lines below one another."""
+    lines = []
+    for line in text.splitlines():
+        code, mark, comment = line.partition("  # ")
+        lines.append(f"{code.ljust(_COLUMN)}{mark}{comment}" if mark else line)
+    return "\n".join([*lines, ""])

@@ -1,0 +1,199 @@
+"""What an engineer knows of a drive: read from words, with defaults for what is not known."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
+from wearsim.chain.service_conditions import LUBRICATIONS, SHIFTS, SHOCKS, plain_word, service_conditions
+from wearsim.errors import Fault
+
+_SAFETY = 20.0
+"""Breaking load over the pull, before the factors of its use, where nobody knows the power."""
+
+
+def _whole(least: int, most: int) -> Callable[[str], int]:
+    def _read(text: str) -> int:
+        digits = text.strip()
+        if not (digits.isascii() and digits.isdecimal() and least <= float(digits) <= most):
+            raise ValueError(f"must be a whole number from {least} to {most} (got {text!r})")
+        return int(digits)
+
+    return _read
+
+
+def _quantity(unit: str, most: float = math.inf) -> Callable[[str], float]:
+    def _read(text: str) -> float:
+        number = _number(text, unit)
+        if not (0.0 < number <= most and math.isfinite(number)):
+            end = f" and at most {most:g}" if math.isfinite(most) else ""
+            raise ValueError(f"must be a number above 0{end} (got {text!r})")
+        return number
+
+    return _read
+
+
+def _number(text: str, unit: str) -> float:
+    """Return a plain number, or one with a unit in another one."""
+    from wearsim.input.units import convert
+
+    if is_plain(text):
+        return float(text)
+    try:
+        return convert(text, unit)
+    except ValueError as error:
+        raise ValueError(f"{error} (got {text!r})") from None
+
+
+def is_plain(text: str) -> bool:
+    """Tell whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _word(words: tuple[str, ...]) -> Callable[[str], str]:
+    def _read(text: str) -> str:
+        found = plain_word(text)
+        if found not in words:
+            raise ValueError(f"must be one of {', '.join(words)} (got {text!r}){nearest(text, list(words))}")
+        return found
+
+    return _read
+
+
+def _or_nothing(read: Callable[[str], Any]) -> Callable[[str], Any]:
+    return lambda text: read(text) if text.strip() else None
+
+
+Values = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Known:
+    """Something that an engineer knows of a drive."""
+
+    option: str
+    what: str  # the help of the option, and the question
+    metavar: str
+    read: Callable[[str], Any]  # the value of a text; raises ValueError
+    default: Callable[[Values], str]  # by the values of those before; empty for nothing
+    default_in_words: str = ""
+    words: tuple[str, ...] = ()  # that it may be
+    asked: bool = True
+
+    @property
+    def name(self) -> str:
+        """Name of the value."""
+        return self.option.removeprefix("--").replace("-", "_")
+
+    @property
+    def help(self) -> str:
+        """What the option is said to be."""
+        return f"{self.what}." + (f"  [default: {self.default_in_words}]" if self.default_in_words else "")
+
+
+def _fixed(option: str, what: str, metavar: str, read: Callable[[str], Any], default: str) -> Known:
+    return Known(option, what, metavar, read, lambda values: default, default)
+
+
+def _one_of(option: str, what: str, words: tuple[str, ...]) -> Known:
+    every = f"{what}: {', '.join(words[:-1])} or {words[-1]}"
+    return Known(option, every, "WORD", _word(words), lambda values: words[0], words[0], words)
+
+
+def _rounded(number: float) -> str:
+    return f"{float(f'{number:.2g}'):g}"
+
+
+def _default_rpm(values: Values) -> str:
+    return _rounded(60_000.0 / (chains()[values["chain"]].pitch * values["driver"]))
+
+
+def _default_power(values: Values) -> str:
+    chain, factors = chains()[values["chain"]], use_factors(values)
+    pull = chain.tensile / _SAFETY / max(factors.service, factors.joint)
+    return _rounded(pull * chain.pitch * values["driver"] * values["rpm"] / 6e7)
+
+
+KNOWN = (
+    _fixed("--chain", "Chain, as wearsim list chains has it", "DESIGNATION", known_chain_name, "16B-1"),
+    _fixed("--driver", "Teeth of the driver", "TEETH", _whole(5, 1000), "19"),
+    _fixed("--driven", "Teeth of the driven sprocket", "TEETH", _whole(5, 1000), "25"),
+    Known("--rpm", "Speed of the driver in rpm", "SPEED", _quantity("rpm"), _default_rpm, "chain at 1 m/s"),
+    _fixed(
+        "--centre",
+        "Distance of the axes in mm; with none about 40 pitches",
+        "LENGTH",
+        _or_nothing(_quantity("mm")),
+        "",
+    ),
+    Known(
+        "--links",
+        "Links of the chain, in place of --centre",
+        "N",
+        _or_nothing(_whole(10, 100_000)),
+        lambda values: "",
+        asked=False,
+    ),
+    _one_of("--lubrication", "Lubrication", tuple(LUBRICATIONS)),
+    _fixed("--hours-per-day", "Running hours a day", "HOURS", _quantity("h", 24.0), "8"),
+    _one_of("--shock", "Load of the driven machine", tuple(SHOCKS)),
+    Known(
+        "--power",
+        "Power in kW",
+        "POWER",
+        _quantity("kW"),
+        _default_power,
+        "5 % of the breaking load, or less",
+    ),
+)
+"""What is known of a drive, in the order of the questions."""
+
+
+def read_known(typed: Mapping[str, str | None]) -> tuple[dict[str, Any], list[Fault]]:
+    """Return all values, and what is wrong with the texts; the default stands in for such a one."""
+    values: dict[str, Any] = {}
+    faults = []
+    for known in KNOWN:
+        text = typed.get(known.name)
+        try:
+            values[known.name] = known.read(known.default(values) if text is None else text)
+        except ValueError as error:
+            faults.append(Fault(str(error), "", known.option))
+            values[known.name] = known.read(known.default(values))
+    return values, faults
+
+
+@dataclass(frozen=True)
+class UseFactors:
+    """Factors of the ratings for how a drive is used."""
+
+    service: float  # f1
+    load: float
+    lubrication: float
+    shifts: float
+    joint: float  # K_e, the product of the three
+
+
+def use_factors(values: Values) -> UseFactors:
+    """Return the factors that follow from lubrication, shocks and hours of a day."""
+    from wearsim.chain.joint_pressure import joint_application_factor
+
+    _, load = SHOCKS[values["shock"]]
+    used = service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
+    return UseFactors(
+        service=used.service_factor,
+        load=joint_application_factor(load=load),
+        lubrication=joint_application_factor(lubrication=LUBRICATIONS[values["lubrication"]][1]),
+        shifts=joint_application_factor(shifts=shifts_in_words(values)),
+        joint=used.joint_application_factor,
+    )
+
+
+def shifts_in_words(values: Values) -> str:
+    """Return in how many shifts a drive runs by the hours of its day."""
+    return next(shifts for most, shifts in SHIFTS if values["hours_per_day"] <= most)
