@@ -63,7 +63,9 @@ class _Part(codegen.JITCodeLibrary):
         whole = self.codegen.create_library(name)
         module = whole._final_module
         for part in self._with_all_below({}):
-            module.link_in(part._final_module, preserve=True)
+            # What numba has compiled in full, for a function of its own, holds all below it.
+            below = part._final_module if isinstance(part, _Part) else part._get_module_for_linking()
+            module.link_in(below, preserve=True)
         for function in module.functions:
             if not function.is_declaration:
                 function.linkage = "external" if function.name == entry else "internal"
@@ -76,11 +78,14 @@ class _Part(codegen.JITCodeLibrary):
         code: bytes = self.codegen._tm.emit_object(module)
         return code
 
-    def _with_all_below(self, found: dict["_Part", None]) -> dict["_Part", None]:
+    def _with_all_below(self, found: dict[Any, None]) -> dict[Any, None]:
         if self not in found:
             found[self] = None
             for library in self._linking_libraries:
-                library._with_all_below(found)
+                if isinstance(library, _Part):
+                    library._with_all_below(found)
+                else:
+                    found[library] = None
         return found
 
 
