@@ -5,6 +5,8 @@ import json
 import pandas as pd
 import pytest
 
+pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+
 SWEEP = """\
 format_version = 1
 case = "drive.toml"
