@@ -62,10 +62,6 @@ class PressedPlaces(ABC):
         """Way of all centres in the step under way [mm], shape (2, mates); to be set."""
 
     @abstractmethod
-    def begin_step(self, number: int) -> None:
-        """Take the phases of a step."""
-
-    @abstractmethod
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
 

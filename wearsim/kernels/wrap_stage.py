@@ -76,6 +76,16 @@ _EDGE = 0.2
 _LEAST_SWEEP = 0.05
 """Cells that a roller sweeps at least to have its wear spread."""
 
+_SETTLED = 1e-3
+"""Part of the wear of a stage by which its last two passes may differ."""
+
+_FREE_PASSES = 2
+"""Passes that take the new pressures alone; later ones take the mean of old and new, or they would swing."""
+
+# rows of the table of sums: those of `spread`, the work of every body before a pass, and the pressures of
+# the rollers of a phase before they are seated
+_FIRST_SUM, _SECOND_SUM, _MASSES, _BORDERS, WORK_BEFORE = range(5)
+
 
 @kernel(float64(float64, float64, float64, float64))
 def area_of_work(work: float, curvature: float, hard_depth: float, softness: float) -> float:
@@ -84,51 +94,45 @@ def area_of_work(work: float, curvature: float, hard_depth: float, softness: flo
     return work if work <= hard else hard + softness * (work - hard)
 
 
-@kernel(float64(VECTOR, VECTOR, VECTOR, int64, int64, float64))
-def swept(masses: Vector, first_sum: Vector, second_sum: Vector, low: int, high: int, place: float) -> float:
-    """Return the integral from the left of the masses' cumulative sum, cell j from j to j + 1."""
-    found: float = 0.0
-    if place >= high:
-        found = second_sum[high] + first_sum[high] * (place - high)
-    elif place > low:
-        k = int(place)
-        part = place - k
-        found = second_sum[k] + first_sum[k] * part + 0.5 * masses[k] * part * part
-    return found
+@kernel(void(int64, int64, float64, float64, int64, int64, TABLE))
+def add_shifted(low: int, high: int, shift: float, sign: float, begin: int, end: int, sums: Vector) -> None:
+    """Add the integral of the masses' cumulative sum from the left to every border of cells plus a shift."""
+    first, second, masses, borders = sums[_FIRST_SUM], sums[_SECOND_SUM], sums[_MASSES], sums[_BORDERS]
+    whole = math.floor(shift)
+    part, ahead = shift - whole, int(whole)
+    inside, beyond = min(max(low - ahead, begin), end + 1), min(max(high - ahead, begin), end + 1)
+    for j in range(inside, beyond):
+        k = j + ahead
+        borders[j] += sign * (second[k] + part * (first[k] + 0.5 * part * masses[k]))
+    rest = second[high] + first[high] * (part + ahead - high)
+    for j in range(beyond, end + 1):
+        borders[j] += sign * (rest + first[high] * j)
 
 
-@kernel(void(VECTOR, int64, int64, float64, float64, TABLE, VECTOR, TABLE))
+@kernel(void(int64, int64, float64, float64, TABLE, VECTOR, TABLE))
 def spread(
-    masses: Vector,
-    low: int,
-    high: int,
-    before: float,
-    after: float,
-    unworn: Vector,
-    density: Vector,
-    sums: Vector,
+    low: int, high: int, before: float, after: float, unworn: Vector, density: Vector, sums: Vector
 ) -> None:
-    """Add areas of cells to the area per unworn length, spread evenly over the cells swept."""
-    n, whole = unworn.shape[1], before + after
+    """Add the masses of cells to the area per unworn length, spread evenly over the cells swept."""
+    n, whole, masses = unworn.shape[1], before + after, sums[_MASSES]
     if high <= low:
         return
     if whole < _LEAST_SWEEP:
         for j in range(low, high):
             density[j] += masses[j] / unworn[SPACING, j]
         return
-    first, second = sums[0], sums[1]
+    first, second, borders = sums[_FIRST_SUM], sums[_SECOND_SUM], sums[_BORDERS]
     first[low], second[low] = 0.0, 0.0
     for j in range(low, high):
         first[j + 1] = first[j] + masses[j]
         second[j + 1] = second[j] + first[j] + 0.5 * masses[j]
     begin, end = max(0, int(low - before) - 1), min(n, int(high + after) + 2)
-    left = swept(masses, first, second, low, high, begin + before)
-    left -= swept(masses, first, second, low, high, begin - after)
+    for j in range(begin, end + 1):
+        borders[j] = 0.0
+    add_shifted(low, high, before, 1.0, begin, end, sums)
+    add_shifted(low, high, -after, -1.0, begin, end, sums)
     for j in range(begin, end):
-        right = swept(masses, first, second, low, high, j + 1.0 + before)
-        right -= swept(masses, first, second, low, high, j + 1.0 - after)
-        density[j] += (right - left) / (whole * unworn[SPACING, j])
-        left = right
+        density[j] += (borders[j + 1] - borders[j]) / (whole * unworn[SPACING, j])
 
 
 @kernel(void(TABLE, VECTOR, TABLE, TABLE))
@@ -155,8 +159,11 @@ def worn_by_unit_pressure(event: int, events: int, blocks: Vector, seats: Vector
     return worn
 
 
-@kernel(void(int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE))
+@kernel(void(int64, int64, float64, int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE))
 def add_work(
+    begin: int,
+    end: int,
+    sign: float,
     kinds: int,
     most: int,
     blocks: Vector,
@@ -168,10 +175,10 @@ def add_work(
     works: Vector,
     sums: Vector,
 ) -> None:
-    """Add what the pressures of all rollers wear off."""
-    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[2]
+    """Add what the pressures of some rollers wear off, or take it back by a negative sign."""
+    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[_MASSES]
     events = seats.shape[1] // blocks.shape[0]
-    for event in range(seats.shape[1]):
+    for event in range(begin, end):
         body = (event % most + event // (events // kinds) % kinds) % bodies
         first, last = int(seats[FIRST, event]), int(seats[LAST, event])
         worn = worn_by_unit_pressure(event, events, blocks, seats, numbers)
@@ -180,12 +187,14 @@ def add_work(
         width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
         for j in range(first, last):
             p = pressure[j]
-            masses[j] = worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
-        spread(masses, first, last, seats[BEFORE, event], seats[AFTER, event], unworn, works[body], sums)
+            masses[j] = sign * worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
+        spread(first, last, seats[BEFORE, event], seats[AFTER, event], unworn, works[body], sums)
 
 
-@kernel(void(int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE))
+@kernel(void(int64, int64, int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE))
 def add_yields(
+    begin: int,
+    end: int,
     kinds: int,
     most: int,
     blocks: Vector,
@@ -196,10 +205,10 @@ def add_yields(
     outlines: Vector,
     sums: Vector,
 ) -> None:
-    """Add how fast the wear of all rollers grows by their pressures; write how fast that of each does."""
-    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[2]
+    """Add how fast the wear of some rollers grows by their pressures; write how fast that of each does."""
+    bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[_MASSES]
     events = seats.shape[1] // blocks.shape[0]
-    for event in range(seats.shape[1]):
+    for event in range(begin, end):
         body = (event % most + event // (events // kinds) % kinds) % bodies
         first, last = int(seats[FIRST, event]), int(seats[LAST, event])
         seats[OWN_YIELD, event] = 0.0
@@ -217,7 +226,52 @@ def add_yields(
             masses[j] = worn * grows * unworn[SPACING, j] if p > 0.0 else 0.0
             own = masses[j] / (unworn[SPACING, j] * (1.0 + before + after))
             seats[OWN_YIELD, event] = max(seats[OWN_YIELD, event], own)
-        spread(masses, first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
+        spread(first, last, before, after, unworn, outlines[YIELD * bodies + body], sums)
+
+
+@kernel(void(int64, int64, int64, int64, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE))
+def yield_of_phase(
+    begin: int,
+    end: int,
+    kinds: int,
+    most: int,
+    blocks: Vector,
+    seats: Vector,
+    numbers: Vector,
+    unworn: Vector,
+    pressures: Vector,
+    outlines: Vector,
+    works: Vector,
+    sums: Vector,
+) -> None:
+    """Write how fast the pressures of a phase wear the outlines, and the work that these do not show yet."""
+    bodies, n = works.shape
+    for row in range(YIELD * bodies, OUTLINES * bodies):
+        for j in range(n):
+            outlines[row, j] = 0.0
+    add_yields(begin, end, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, sums)
+    for body in range(bodies):
+        rest, fast = outlines[REST * bodies + body], outlines[YIELD * bodies + body]
+        for j in range(n):
+            curvature = unworn[UNWORN_CURVATURE, j]
+            area = area_of_work(works[body, j], curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
+            rest[j] = outlines[OUTLINE_AREA * bodies + body, j] - area
+            soft = outlines[OUTLINE_DEPTH * bodies + body, j] > numbers[HARD_DEPTH]
+            fast[j] *= numbers[SOFTNESS] if soft else 1.0
+
+
+@kernel(void(int64, int64, TABLE, TABLE, TABLE))
+def take_mean(event: int, rollers: int, before: Vector, seats: Vector, pressures: Vector) -> None:
+    """Replace the pressures of a phase by the mean of theirs and those before."""
+    n = pressures.shape[1]
+    for i in range(rollers):
+        pressure, old = pressures[event + i], before[i]
+        first, last = n, 0
+        for j in range(n):
+            pressure[j] = 0.5 * (pressure[j] + old[j])
+            if pressure[j] > 0.0:
+                first, last = min(first, j), j + 1
+        seats[FIRST, event + i], seats[LAST, event + i] = min(first, last), last
 
 
 @kernel(void(float64, float64, float64, float64, int64, int64, VECTOR))
@@ -253,8 +307,9 @@ def slips(
     """Write slip, speed and the cells swept of every roller of a block.
 
     Slip of an articulation is shared out over the phases of the first and the last position, the way
-    along the path is half of that from the phase before and to the phase after. A roller sweeps
-    the cells half way to its next places, and those that it drifts over in the step of the wear.
+    along the path is half of that from the phase before and to the phase after, and at an end of the wrap
+    twice the half that is known. A roller sweeps the cells half way to its next places, and those
+    that it drifts over in the step of the wear.
 
     Equation physics.md (W9).
     """
@@ -269,7 +324,7 @@ def slips(
                 if i >= rollers or seats[PLACE, here] < 0.0:
                     continue
                 ends = (1.0 if i == 0 else 0.0) + (1.0 if i == rollers - 1 else 0.0)
-                way = 0.0
+                way, sides, last_half = 0.0, 0, 0.0
                 for side in range(2):
                     place = same_roller(kind, step, i, side, kinds, count, most)
                     if place < 0:
@@ -280,12 +335,17 @@ def slips(
                         dx = seats[SEAT_X, there] - seats[SEAT_X, here]
                         dy = seats[SEAT_Y, there] - seats[SEAT_Y, here]
                         moved = math.sqrt(dx * dx + dy * dy)
-                        way += 0.5 * moved
+                        way, sides = way + 0.5 * moved, sides + 1
                         # In its own pocket a roller turns the force without sweeping anything.
                         cells = seats[PLACE, there] - seats[PLACE, here]
                         half = 0.5 * min(abs(cells), moved / spacing)
-                        side_swept = AFTER if cells > 0.0 else BEFORE
-                        seats[side_swept, here] += half
+                        last_half = half if cells > 0.0 else -half
+                        seats[AFTER if cells > 0.0 else BEFORE, here] += half
+                if sides == 1:
+                    # Where the wrap begins or ends, the half on the other side is as long.
+                    way *= 2.0
+                    seats[BEFORE, here] += max(last_half, 0.0)
+                    seats[AFTER, here] += max(-last_half, 0.0)
                 body, k = (i + kind) % bodies, int(seats[NEAREST, here])
                 x, y = outlines[OUTLINE_X * bodies + body], outlines[OUTLINE_Y * bodies + body]
                 before, after = max(k - 1, 0), min(k + 1, n - 1)
@@ -300,12 +360,34 @@ def slips(
                 seats[SPEED, here] = slip / (pitch_time * phases[1, step])
 
 
-@kernel(int64(int64, int64, TABLE, TABLE, TABLE, VECTOR, TABLE, TABLE, TABLE, TABLE, TABLE, TABLE, int64))
+@kernel(
+    int64(
+        int64,
+        int64,
+        int64,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        VECTOR,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+    )
+)
 def sweep_phases(
-    start: int,
+    block: int,
+    number: int,
     kinds: int,
-    constants: Vector,
+    works: Vector,
+    blocks: Vector,
     phases: Vector,
+    unworn: Vector,
     seats: Vector,
     numbers: Vector,
     pressures: Vector,
@@ -314,27 +396,32 @@ def sweep_phases(
     recess: Vector,
     work: Vector,
     cells: Vector,
-    elastic: int,
+    sums: Vector,
 ) -> int:
-    """Seat the rollers of all phases of a block on the present outlines.
+    """Seat the rollers of a block phase by phase, each phase on what all others have left.
 
-    ``elastic`` 1: nothing wears meanwhile. Else a cell recedes by what its pressure wears off, as fast as
-    the pressures of all rollers together do: the tangent of the whole stage.
+    ``works`` holds what all pressures wear off, and is kept up to date. A cell recedes by what its pressure
+    wears off, as fast as the pressures of all rollers of the phase together do.
     """
-    most, count, angle = compliance.shape[0], phases.shape[1], constants[0, PITCH_ANGLE]
+    most, count, constants = compliance.shape[0], phases.shape[1], blocks[block]
+    angle, tight = constants[PITCH_ANGLE], constants[TIGHT_TENSION]
     bodies = outlines.shape[0] // OUTLINES
     n = outlines.shape[1]
     x = outlines[OUTLINE_X * bodies : (OUTLINE_X + 1) * bodies]
     y = outlines[OUTLINE_Y * bodies : (OUTLINE_Y + 1) * bodies]
     width = outlines[OUTLINE_WIDTH * bodies : (OUTLINE_WIDTH + 1) * bodies]
-    radius, reach = numbers[ROLLER_RADIUS], int(numbers[REACH])
-    tight = constants[0, TIGHT_TENSION]
+    before = sums[WORK_BEFORE + bodies :]
+    reach = int(numbers[REACH])
     for kind in range(kinds):
         for step in range(count):
             rollers = engaged(numbers[WRAP_ANGLE], angle, phases[0, step])
-            event = start + (kind * count + step) * most
+            event = ((block * kinds + kind) * count + step) * most
+            end = event + rollers
             tight_angle = angle * (phases[0, step] - 0.5)
             slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle
+            yield_of_phase(
+                event, end, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums
+            )
             for i in range(rollers):
                 body, near = (i + kind) % bodies, int(seats[NEAREST, event + i])
                 # A little beyond what the roller can reach, as the nearest cell may move.
@@ -349,34 +436,46 @@ def sweep_phases(
                     high,
                     compliance[i],
                 )
-                if elastic == 1:
-                    for j in range(low, high):
-                        recess[i, j] = 0.0
-                    continue
                 fast, rest = outlines[YIELD * bodies + body], outlines[REST * bodies + body]
-                pressure = pressures[event + i]
-                own = seats[OWN_YIELD, event + i]
+                pressure, own = pressures[event + i], seats[OWN_YIELD, event + i]
                 for j in range(low, high):
                     grows = max(fast[j], own)
                     compliance[i, j] += grows
                     recess[i, j] = grows * pressure[j] + rest[j]
+                for j in range(n):
+                    before[i, j] = pressure[j]
+            add_work(
+                event,
+                end,
+                -1.0,
+                kinds,
+                most,
+                blocks,
+                seats,
+                numbers,
+                unworn,
+                pressures,
+                outlines,
+                works,
+                sums,
+            )
             status = seat_rollers(
                 event,
                 rollers,
                 kind,
-                constants[0],
+                constants,
                 tight_angle,
                 slack_angle,
-                constants[0, FRICTION],
+                constants[FRICTION],
                 x,
                 y,
                 width,
                 compliance,
                 recess,
                 pressures,
-                1 - elastic,
+                1 if seats[LAST, event] > seats[FIRST, event] else 0,
                 reach,
-                radius,
+                numbers[ROLLER_RADIUS],
                 numbers[FACE_WIDTH],
                 numbers[TOLERANCE] * tight,
                 seats,
@@ -385,6 +484,11 @@ def sweep_phases(
             )
             if status != SEATED:
                 return status
+            if number >= _FREE_PASSES:
+                take_mean(event, rollers, before, seats, pressures)
+            add_work(
+                event, end, 1.0, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums
+            )
     return SEATED
 
 
@@ -396,7 +500,6 @@ def sweep_phases(
         int64,
         TABLE,
         TABLE,
-        int64,
         TABLE,
         VECTOR,
         TABLE,
@@ -416,7 +519,6 @@ def implicit_stage(
     kinds: int,
     blocks: Vector,
     phases: Vector,
-    elastic: int,
     seats: Vector,
     numbers: Vector,
     unworn: Vector,
@@ -430,43 +532,38 @@ def implicit_stage(
 ) -> int:
     """Replace a guess of the work done on all outlines by ``base`` plus that of the pressures in the end.
 
-    Each pass seats all rollers on the outlines as they were after the pass before, with the tangent of
-    the wear in every cell, and adds up the wear of their pressures. ``elastic`` 1: the rollers are
-    seated on the outlines of ``works``, twice since slips and widths follow from seats, and nothing wears.
+    Each pass seats the rollers on the outlines as they were after the pass before, phase by phase with
+    the wear of all other phases as it is by then, until two passes agree. In a stage of no cycles
+    nothing wears: the rollers are seated on the outlines of ``base``.
 
     Equations physics.md (W12) and (W16).
     """
     bodies, n = works.shape
     count, most, spacing = phases.shape[1], compliance.shape[0], unworn[SPACING, n // 2]
-    for _ in range(passes):
+    events = seats.shape[1]
+    for number in range(passes):
         shape_outlines(works, numbers, unworn, outlines)
-        if elastic == 0:
-            for row in range(YIELD * bodies, OUTLINES * bodies):
-                for j in range(n):
-                    outlines[row, j] = 0.0
+        if number == 0:
             for body in range(bodies):
                 for j in range(n):
-                    sums[3 + body, j] = base[body, j]
-            known = sums[3:]
-            add_work(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, known, sums)
-            add_yields(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, sums)
-            for body in range(bodies):
-                rest, fast = outlines[REST * bodies + body], outlines[YIELD * bodies + body]
-                for j in range(n):
-                    curvature = unworn[UNWORN_CURVATURE, j]
-                    area = area_of_work(known[body, j], curvature, numbers[HARD_DEPTH], numbers[SOFTNESS])
-                    rest[j] = outlines[OUTLINE_AREA * bodies + body, j] - area
-                    soft = outlines[OUTLINE_DEPTH * bodies + body, j] > numbers[HARD_DEPTH]
-                    fast[j] *= numbers[SOFTNESS] if soft else 1.0
+                    works[body, j] = base[body, j]
+            add_work(
+                0, events, 1.0, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums
+            )
+        for body in range(bodies):
+            for j in range(n):
+                sums[WORK_BEFORE + body, j] = works[body, j]
         for block in range(blocks.shape[0]):
-            start, constants = block * kinds * count * most, blocks[block : block + 1]
             if not blocks[block, TIGHT_TENSION] > 0.0:
                 continue
             status = sweep_phases(
-                start,
+                block,
+                number,
                 kinds,
-                constants,
+                works,
+                blocks,
                 phases,
+                unworn,
                 seats,
                 numbers,
                 pressures,
@@ -475,26 +572,33 @@ def implicit_stage(
                 recess,
                 work,
                 cells,
-                elastic,
+                sums,
             )
             if status != SEATED:
                 return status
             slips(
-                start,
+                block * kinds * count * most,
                 kinds,
                 numbers,
                 phases,
-                constants,
+                blocks[block : block + 1],
                 blocks[block, PITCH_TIME],
                 most,
                 spacing,
                 outlines,
                 seats,
             )
-        if elastic == 1:
-            continue
+        moved, worn = 0.0, 0.0
         for body in range(bodies):
             for j in range(n):
                 works[body, j] = base[body, j]
-        add_work(kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums)
+        add_work(
+            0, events, 1.0, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums
+        )
+        for body in range(bodies):
+            for j in range(n):
+                moved += abs(works[body, j] - sums[WORK_BEFORE + body, j])
+                worn += works[body, j] - base[body, j]
+        if number > 0 and moved <= _SETTLED * worn:
+            break
     return SEATED

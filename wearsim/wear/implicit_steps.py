@@ -42,7 +42,7 @@ class Pace:
 BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
 """Steps of which each presses every event once."""
 
-BY_STAGES = Pace(1e-4, 1e-3, 1.5, 0.04, 16)
+BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16)
 """Steps of implicit stages."""
 
 _PART_OF_AGE = 0.1

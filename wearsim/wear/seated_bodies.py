@@ -87,7 +87,6 @@ class SeatedBodies(WornBodies):
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles, or for a part of them where the mates are not found after all."""
-        self.seating.begin_step(self.updates)
         self._seat()
         kept, before = self.seating.kept(), self.depth.copy()
         for halving in range(_HALVINGS):

@@ -26,7 +26,7 @@ CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
 LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
-PHASES = 8
+PHASES = 6
 WELL_LUBRICATED = "hardened, oiled"
 """Wear condition whose joints a drive has where its case names none."""
 

@@ -59,6 +59,7 @@ from wearsim.kernels.wrap_stage import (
     SPEED_POWER,
     STAGE_NUMBERS,
     TOLERANCE,
+    WORK_BEFORE,
     WRAP_ANGLE,
     implicit_stage,
 )
@@ -69,23 +70,18 @@ if TYPE_CHECKING:
 
 Rows = NDArray[np.float64]
 
-_PASSES = 3
-"""Times that the rollers are seated in a stage."""
+_PASSES = 6
+"""Times that the rollers are seated in a stage at most."""
 
 _TOLERANCE = 1e-6
 """Force that may be left unbalanced, as a part of the tight tension."""
-
-_PLACES = (0.5, 0.7, 0.9, 0.7, 0.5, 0.3, 0.1, 0.3)
-"""Places of a phase in its part of the pitch, from step to step."""
 
 _REACH = 1.2
 """Half of the stretch of outline that a roller may touch, in its radii."""
 
 
-def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int, at: float = 0.5) -> Rows:
+def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int) -> Rows:
     """Return places and weights of phases of a pitch, both sides of where a roller leaves the wrap.
-
-    ``at``, from 0 to 1, is the place of every phase in its part of the pitch.
 
     Examples
     --------
@@ -98,11 +94,11 @@ def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int, at: float
     leaves = (wrap_angle / pitch_angle + 1.0) % 1.0
     first = round(count * leaves)
     if count < 2 or not 1e-6 < leaves < 1.0 - 1e-6:
-        return np.array([(np.arange(count) + at) / count, np.full(count, 1.0 / count)])
+        return np.array([(np.arange(count) + 0.5) / count, np.full(count, 1.0 / count)])
     first = min(max(first, 1), count - 1)
     rest = count - first
     place = np.concatenate(
-        [(np.arange(first) + at) / first * leaves, leaves + (np.arange(rest) + at) / rest * (1.0 - leaves)]
+        [(np.arange(first) + 0.5) / first * leaves, leaves + (np.arange(rest) + 0.5) / rest * (1.0 - leaves)]
     )
     return np.array([place, np.repeat([leaves / first, (1.0 - leaves) / rest], [first, rest])])
 
@@ -125,7 +121,7 @@ class WrapSeating(PressedPlaces):
         self.contact, self.unworn = contact, unworn
         mechanism, points = contact.mechanism, unworn.shape[1]
         self.kinds, most = (2 if mechanism.chain.alternating else 1), contact.most_rollers
-        self.begin_step(0)
+        self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, contact.phases)
         events = len(contact.blocks) * self.kinds * contact.phases * most
         self.most, self.seats = most, np.zeros((SEAT_ROWS, events))
         self.pressures = np.zeros((events, points))
@@ -133,7 +129,7 @@ class WrapSeating(PressedPlaces):
         self.compliance, self.recess = np.ones((most, points)), np.zeros((most, points))
         self.work = np.zeros((SEAT_WORK_ROWS, most))
         self.cells = np.zeros((CELL_ROWS + 2 + most, max(points, 8)))
-        self.sums = np.zeros((3 + contact.bodies, points + 1))
+        self.sums = np.zeros((WORK_BEFORE + contact.bodies + most, points + 1))
         self.blocks = np.zeros((len(contact.blocks), BLOCK_ROWS))
         self.numbers = self._numbers(law)
 
@@ -158,13 +154,6 @@ class WrapSeating(PressedPlaces):
         """Way of all centres in the step under way [mm], shape (2, rollers); to be set."""
         return self.seats[DRIFT_X : DRIFT_Y + 1]
 
-    def begin_step(self, number: int) -> None:
-        """Take the phases of a step: they move to and fro, so that none leaves ridges."""
-        mechanism = self.contact.mechanism
-        # A single phase cannot move without a roller more or less.
-        at = _PLACES[number % len(_PLACES)] if self.contact.phases > 1 else 0.5
-        self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, self.contact.phases, at)
-
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
         return self.seats.copy(), self.pressures.copy()
@@ -183,15 +172,14 @@ class WrapSeating(PressedPlaces):
             row[COUNT] = block.share * block.wear_factor * contact.bodies / self.kinds
             row[PITCH_TIME] = block.pitch_time
 
-    def _solve(self, base: Rows, works: Rows, elastic: bool) -> bool:
+    def _solve(self, base: Rows, works: Rows, passes: int) -> bool:
         status = implicit_stage(
             base,
             works,
-            2 if elastic else _PASSES,
+            passes,
             self.kinds,
             self.blocks,
             self.phases,
-            int(elastic),
             self.seats,
             self.numbers,
             self.unworn,
@@ -228,7 +216,7 @@ class WrapSeating(PressedPlaces):
                 self.seats[SEAT_X, mine, None] - x[body], self.seats[SEAT_Y, mine, None] - y[body]
             )
             self.seats[NEAREST, mine] = away.argmin(axis=1)
-        if not self._solve(works, works.copy(), elastic=True):
+        if not self._solve(works, works.copy(), 2):
             raise ConvergenceError(stuck(wear.elongation))
 
     def _body(self) -> NDArray[np.int64]:
@@ -244,7 +232,7 @@ class WrapSeating(PressedPlaces):
         """Replace a guess by the base and the work of so many cycles at the pressures in the end."""
         self._set(cycles, wear)
         self.numbers[[BEHIND, AHEAD]] = swept
-        return self._solve(base, works, elastic=False)
+        return self._solve(base, works, _PASSES)
 
     def jumps(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
         """Tell whether the chain jumps on rigid outlines."""
