@@ -186,7 +186,7 @@ def test_laws_by_the_loop_over_events(law):
 
 
 def test_shorter_steps_and_more_phases_hardly_move_a_life():
-    """Usual steps on four phases: within 0.1 % of steps an eighth as long, 0.3 % of three times the phases."""
+    """Usual steps, four phases: within 0.1 % of steps an eighth as long, 0.3 % of three times the phases."""
     usual = life(run_seated(contact(), LAW, LIMIT, 1e12, 0))
     assert usual == pytest.approx(life(run_seated(contact(), LAW, LIMIT, 1e12, 3)), rel=1e-3)
     assert usual == pytest.approx(

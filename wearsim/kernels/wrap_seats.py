@@ -49,7 +49,7 @@ _STIFFEST = 1e14
 _ROUNDING = 1e-11
 
 
-@kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR))
+@kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR, VECTOR))
 def near_cells(
     x: Vector,
     y: Vector,
@@ -59,21 +59,29 @@ def near_cells(
     cx: float,
     cy: float,
     nearest: float,
+    beyond: Vector,
     found: Vector,
 ) -> None:
     """Write the first cell and the one after the last that a roller may press, and the nearest one."""
     k = int(nearest)
     low, high = max(0, k - reach), min(x.size, k + reach + 1)
-    first, last, best = high, low, math.inf
+    wide = (1.0 + _MARGIN) * radius
     for j in range(low, high):
+        dx, dy, within = cx - x[j], cy - y[j], wide + recess[j]
+        beyond[j] = dx * dx + dy * dy - within * within
+    first, last = low, high
+    while first < high and beyond[first] >= 0.0:
+        first += 1
+    while last > first and beyond[last - 1] >= 0.0:
+        last -= 1
+    begin, end = (first, last) if last > first else (low, high)
+    best = math.inf
+    for j in range(begin, end):
         dx, dy = cx - x[j], cy - y[j]
         distance = dx * dx + dy * dy
-        within = radius + recess[j] + _MARGIN * radius
-        if distance < within * within:
-            first, last = min(first, j), j + 1
         if distance < best:
             best, k = distance, j
-    found[0], found[1], found[2] = first, last, k
+    found[0], found[1], found[2] = first, last if last > first else low, k
 
 
 @kernel(
@@ -319,7 +327,7 @@ def largest_of(rollers: int, row: int, work: Vector) -> float:
     return found
 
 
-@kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, VECTOR))
+@kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, TABLE))
 def look_around(
     event: int,
     i: int,
@@ -331,9 +339,10 @@ def look_around(
     radius: float,
     seats: Vector,
     work: Vector,
-    found: Vector,
+    cells: Vector,
 ) -> None:
     """Find the cells that a roller may press from its trial place."""
+    found = cells[CELL_ROWS + 1]
     near_cells(
         x[body],
         y[body],
@@ -343,6 +352,7 @@ def look_around(
         work[_TRIAL_X, i],
         work[_TRIAL_Y, i],
         seats[NEAREST, event + i],
+        cells[_FORCE],
         found,
     )
     seats[NEAREST, event + i] = found[2]
@@ -406,7 +416,7 @@ def balance_rollers(
     for i in range(rollers):
         work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
         work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
-        look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, found)
+        look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
         work[_LOW, i], work[_HIGH, i] = found[0], found[1]
         if holds == 1 and seats[LAST, event + i] > seats[FIRST, event + i]:
             work[_LOW, i] = min(found[0], seats[FIRST, event + i])
@@ -436,7 +446,7 @@ def balance_rollers(
             for i in range(rollers):
                 work[_TRIAL_X, i] += work[_STEP_X, i]
                 work[_TRIAL_Y, i] += work[_STEP_Y, i]
-                look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, found)
+                look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
                 work[_LOW, i], work[_HIGH, i] = found[0], found[1]
     for i in range(rollers):
         seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
@@ -484,7 +494,7 @@ def balance_rollers(
             away_x, away_y = work[_TRIAL_X, i] - work[_SEEN_X, i], work[_TRIAL_Y, i] - work[_SEEN_Y, i]
             if away_x * away_x + away_y * away_y > _MARGIN * _MARGIN * radius * radius:
                 low, high = work[_LOW, i], work[_HIGH, i]
-                look_around(event, i, body, x, y, recess, reach, radius, seats, work, found)
+                look_around(event, i, body, x, y, recess, reach, radius, seats, work, cells)
                 if found[1] > found[0]:
                     work[_LOW, i] = min(low, found[0]) if high > low else found[0]
                     work[_HIGH, i] = max(high, found[1]) if high > low else found[1]

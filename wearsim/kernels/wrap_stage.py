@@ -266,12 +266,14 @@ def take_mean(event: int, rollers: int, before: Vector, seats: Vector, pressures
     n = pressures.shape[1]
     for i in range(rollers):
         pressure, old = pressures[event + i], before[i]
-        first, last = n, 0
         for j in range(n):
             pressure[j] = 0.5 * (pressure[j] + old[j])
-            if pressure[j] > 0.0:
-                first, last = min(first, j), j + 1
-        seats[FIRST, event + i], seats[LAST, event + i] = min(first, last), last
+        first, last = 0, n
+        while first < n and pressure[first] == 0.0:
+            first += 1
+        while last > first and pressure[last - 1] == 0.0:
+            last -= 1
+        seats[FIRST, event + i], seats[LAST, event + i] = first, last
 
 
 @kernel(void(float64, float64, float64, float64, int64, int64, VECTOR))
