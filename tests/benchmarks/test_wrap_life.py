@@ -1,6 +1,6 @@
 """A full life on a wrap, sprocket and chain coupled, on one core, and where its time goes.
 
-Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 8 phases, 15 000 h, the coarser run
+Driver of chain no. 40, 19 teeth, 12 rollers in the wrap, 6 phases, 15 000 h, the coarser run
 included. Goal: 1 s.
 """
 
@@ -56,7 +56,7 @@ def spent(monkeypatch):
 
 def test_wrap_life(benchmark, spent):
     case = wearsim.load_case(CASE, ["run.horizon_hours=15000"])
-    assert case.drive.phases == 8
+    assert case.drive.phases == 6
     wearsim.simulate(wearsim.load_case(CASE, ["run.horizon_hours=10"]))
     spent.update(dict.fromkeys(spent, 0.0))
     with one_core():

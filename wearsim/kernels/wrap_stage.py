@@ -76,7 +76,7 @@ _EDGE = 0.2
 _LEAST_SWEEP = 0.05
 """Cells that a roller sweeps at least to have its wear spread."""
 
-_SETTLED = 1e-3
+_SETTLED = 2e-3
 """Part of the wear of a stage by which its last two passes may differ."""
 
 _FREE_PASSES = 2
