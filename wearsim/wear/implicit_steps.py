@@ -85,8 +85,8 @@ class _Snapshots:
             return
         whole, after = bodies.cycles - before.cycles, bodies.state()
         age = before.cycles - bodies.chain_new_at
-        count = int(whole / (_PART_OF_AGE * max(age, bodies.running_in.cycles)))
-        for place in range(1, min(count, SNAPSHOTS // 4) + 1):
+        count = min(int(whole / (_PART_OF_AGE * max(age, bodies.running_in.cycles))), SNAPSHOTS // 4)
+        for place in range(1, count + 1):
             self._add(before.on_the_way_to(after, place / (count + 1)))
 
     def add(self, bodies: WornBodies, last: bool = False) -> None:
