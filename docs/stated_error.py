@@ -153,7 +153,7 @@ def wrap_drive(rng: Random) -> Tables:
         "chain": {"designation": chain.designation},
         "sprocket": sprocket,
         "drive": {"mate_teeth": mate},
-        "mechanism": {"kind": "wrap", "roller_slip_fraction": uniform(rng, 0.05, 1.0), "phases": 8},
+        "mechanism": {"kind": "wrap", "roller_slip_fraction": uniform(rng, 0.05, 1.0)},
         "joint": {
             "specific_wear_rate_mm2_per_N": joint,
             "pitch": str(rng.choice(["alternating", "uniform"])),

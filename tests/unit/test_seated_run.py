@@ -1,5 +1,7 @@
 """Rollers on an elastic foundation that wears: kernels on closed forms, steps, order and errors."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
@@ -16,7 +18,7 @@ from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov, power
 from wearsim.wear.resting_bodies import WornBodies
 from wearsim.wear.seated_bodies import SeatedBodies
-from wearsim.wear.settled_run import advance_resting, run_together
+from wearsim.wear.settled_run import advance_resting, run_together, spared
 
 TABLES = {
     "format_version": 1,
@@ -239,6 +241,21 @@ def test_steps_are_halved_where_the_error_asks_for_it():
     tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
+
+
+def test_a_life_that_a_new_chain_has_spared_is_uncertain():
+    """0.96 of the limit at 6 of 10 cycles, where the first chain ends: by 5 % it may have ended there."""
+    trajectory = run_seated(contact(), LAW, LIMIT, 1e12, -1)
+    worn = np.zeros((4, 1, 3))
+    worn[:, 0, 1] = 0.0, 0.048, 0.048, 0.05
+    run = replace(
+        trajectory,
+        cycles=np.array([0.0, 6.0, 7.0, 10.0]),
+        chains=np.array([1.0, 1.0, 2.0, 2.0]),
+        all_depth=worn,
+    )
+    assert spared(run, 0.05, 0.05) == pytest.approx(1.05 / 0.6 - 1.0, rel=1e-12)
+    assert spared(run, 0.05, 0.03) == 0.03
 
 
 def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):

@@ -5,6 +5,8 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
+
 from wearsim.contact.resting_engagement import RestingContact
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.wear.implicit_steps import RestingTrajectory, run_seated
@@ -51,6 +53,17 @@ def run_together(
             raise
 
 
+def spared(run: RestingTrajectory, depth_limit: float, error: float) -> float:
+    """Return the error of a life that may have ended with a chain before, as near as the depth came then.
+
+    A new chain presses elsewhere: where the depth just misses its limit at the end of a chain, the
+    life goes on for long, and a small error of the depth is a large one of the life.
+    """
+    ends = np.flatnonzero(np.diff(run.chains) > 0.0)
+    near = ends[run.all_depth[ends].max(axis=(1, 2)) >= (1.0 - error) * depth_limit]
+    return float((1.0 + error) * run.cycles[-1] / run.cycles[near[0]] - 1.0) if near.size else error
+
+
 def advance_resting(
     contact: RestingContact,
     law: WearLaw,
@@ -64,7 +77,8 @@ def advance_resting(
 
     Beside each run goes one with steps twice as long on half of the points and phases, which takes an eighth
     of the time. It tells how wrong steps, points and phases together make the life. Where that is too much,
-    both take half of the steps, as long as this helps.
+    both take half of the steps, as long as this helps. A life that a new chain has only just prolonged is
+    as uncertain as the time since.
 
     Equation physics.md (W14).
 
@@ -104,7 +118,8 @@ def advance_resting(
     def run_at(level: int) -> tuple[RestingTrajectory, float]:
         pair = [(contact, level), (contact.coarsened() if start is None else contact, level - 1)]
         run, coarse = run_together(pair, law, stop_limits, horizon, start, progress)
-        return run, _SAFETY * difference(run, coarse) + _AT_LEAST / 2.0**level
+        error = _SAFETY * difference(run, coarse) + _AT_LEAST / 2.0**level
+        return run, spared(run, stop_limits[0].limit, error)
 
     run, error = run_at(0)
     for level in range(1, _MAX_LEVEL + 1):
