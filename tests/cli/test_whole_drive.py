@@ -68,6 +68,35 @@ def test_answer_says_what_is_replaced_first_and_on_which_day(cli, drive):
     assert "  Ratings    within all of them" in done.out
 
 
+def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
+    """The joints wear at a constant rate: half way through its life a chain has grown by half of its limit."""
+    until = ("--set", f"run.horizon_hours={lives(cli, drive)['chain'] / 2}")
+    line = cli("life", drive, *until).out.splitlines()[1]
+    assert line.startswith("  Chain      > ") and line.endswith("not yet grown by 3 %")
+    content = json.loads(cli("life", drive, *until, "--json").out)
+    assert content["chain_life_hours"] is None
+    for one in content["sprockets"]:
+        grown = next(state for state in one["limits"] if state["name"] == "elongation_percent")
+        assert (grown["limit"], grown["value"]) == (3.0, pytest.approx(1.5, rel=1e-9))
+    text = (tmp_path / "sheet.html", *until)
+    assert cli("report", drive, "--out", *text).code == 0
+    assert "not yet grown by 3 %" in text[0].read_text()
+
+
+def test_the_answer_takes_twelve_lines(cli, drive, monkeypatch):
+    """Chain, both sprockets, what is first and when, band, ratings: in this order, then the rest."""
+    monkeypatch.chdir(drive.parent)
+    out = cli("life", drive.name).out
+    labels = [line.split()[0] for line in out.splitlines()[1:] if line[2] != " "]
+    assert labels == [
+        *("Chain", "driver", "roll", "First", "Band", "Ratings", "Worn", "Warnings", "Assumes", "Next")
+    ]
+    assert len(out.splitlines()) <= 12
+    day = json.loads(cli("life", drive, "--json").out)["service"]["date"]
+    assert f" h ({day}) and again after each such time" in out
+    assert "jumping: safe\n" in out
+
+
 def test_overload_stands_beside_the_hours(cli, drive):
     text = cli("life", drive, "--set", "load.power_kW=15").out
     assert "OVERLOADED: " in text

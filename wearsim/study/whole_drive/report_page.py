@@ -33,7 +33,13 @@ from wearsim.study.whole_drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.study.whole_drive.sheet import first_text, shown_warnings, taken_for_granted, within_text
+from wearsim.study.whole_drive.sheet import (
+    first_text,
+    jumping_text,
+    shown_warnings,
+    taken_for_granted,
+    within_text,
+)
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
@@ -77,6 +83,7 @@ class SheetPage:
     first: str
     overloaded: str  # empty where it is not
     within: str
+    jumping: str
     layout: Markup
     ratings: PageTable
     rating_notes: tuple[str, ...]
@@ -94,8 +101,8 @@ class SheetPage:
     plan_goes_on: bool
     flanks: list[FlankPicture]
     warnings: list[str]
-    assumptions: list[str]
-    defaults: list[str]
+    assumptions: tuple[str, ...]
+    defaults: tuple[str, ...]
 
 
 def save_sheet(found: DriveLife, head: SheetHead, out: Path, force: bool) -> Path:
@@ -151,6 +158,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         first=first_text(plan),
         overloaded=overload_text(driver),
         within=within_text(driver),
+        jumping=jumping_text(found),
         layout=layout_sketch(drive),
         ratings=ratings,
         rating_notes=notes,
