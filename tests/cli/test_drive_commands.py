@@ -57,6 +57,30 @@ def test_wheel_and_flank_are_those_of_the_sprocket(cli, drive, tmp_path):
     assert profile != cli("profile", drive, "--sprocket", "driver").out
 
 
+def test_all_wheels_go_into_a_folder(cli, drive, tmp_path):
+    """One file a wheel, which is that of --sprocket; cogs of a cassette are wheels."""
+    out, one = tmp_path / "wheels", tmp_path / "roll.csv"
+    assert cli("export", drive, "--out", out, "--format", "csv").code == 0
+    assert sorted(file.name for file in out.iterdir() if file.suffix) == ["driver.csv", "roll.csv"]
+    assert cli("export", drive, "--sprocket", "roll", "--out", one).code == 0
+    assert (out / "roll.csv").read_bytes() == one.read_bytes()
+    assert cli("export", drive, "--out", out).code == 2
+    assert cli("export", drive, "--out", out, "--state", "worn", "--force", *SHORT).code == 0
+    assert "08B-1, 17 to 20 teeth: roll" in (out / "roll.dxf").read_text()
+    assert "Worn after 20 h: " in (out / "roll.dxf").read_text()
+
+
+def test_cogs_are_wheels_with_files_of_their_own(cli, tmp_path, cassette):
+    path, out = tmp_path / "drive.toml", tmp_path / "wheels"
+    path.write_text(cassette)
+    assert cli("export", path, "--out", out, "--format", "svg").code == 0
+    found = {file.name for file in out.iterdir() if file.suffix}
+    assert found == {"ring.svg", "cassette_13T.svg", "cassette_17T.svg"}
+    done = cli("export", path, "--out", out, "--force", "--template", tmp_path / "gauge.pdf")
+    assert done.code == 2 and "gauge of one sprocket" in done.err
+    assert "or --out FOLDER alone for all wheels" in cli("export", path, "--out", tmp_path / "a.dxf").err
+
+
 def test_a_worn_wheel_is_worn_in_its_drive(cli, drive, tmp_path):
     dxf, gif = tmp_path / "roll.dxf", tmp_path / "roll.gif"
     done = cli("export", drive, "--sprocket", "roll", "--out", dxf, "--state", "worn", *SHORT)
