@@ -185,6 +185,40 @@ def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line
     assert f"drive.toml:{line}: " in at
 
 
+IN_THE_WAY = """
+[[sprocket]]
+name = "presser"
+role = "idler"
+teeth = 20
+profile = "iso606"
+nodes = 61
+position_mm = [250, 2]
+outside = true
+"""
+
+
+def test_a_span_through_a_wheel_is_named(cli, tmp_path, two_sprockets):
+    """An idler presses the upper strand down to the lower one, 42.59 mm from it.
+
+    Pitch radius 12.7/2/sin(9 deg) = 40.592 mm, so the strands do not cross; the tips stand at
+    12.7/2 (0.6 + cot(9 deg)) = 43.902 mm.
+    """
+    path = tmp_path / "drive.toml"
+    placed = two_sprockets.replace("links = 110\n", "slack_tension_N = 50\n").replace(
+        "teeth = 17", "teeth = 20"
+    )
+    for x in (0, 500):
+        placed = placed.replace("nodes = 61\n[", f"nodes = 61\nposition_mm = [{x}, 0]\n[", 1)
+    path.write_text(placed.replace("\n[drive]", f"{IN_THE_WAY}[drive]"))
+    done = cli("check", path)
+    assert done.code == 2
+    assert "drive.toml:4: sprocket.1: " in done.err
+    assert (
+        "the span 'driver 1' to 'roll' must clear wheel 'presser', runs 42.5921 mm from its centre and needs "
+        "43.9023 mm"
+    ) in done.err
+
+
 def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
     fixed = loop.replace("take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}\n", "")
     path = tmp_path / "drive.toml"

@@ -69,7 +69,7 @@ def test_answer_says_what_is_replaced_first_and_on_which_day(cli, drive):
 
 
 def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
-    """The joints wear at a constant rate: half way through its life a chain has grown by half of its limit."""
+    """Joints wear at a constant rate: half way through its life a chain has grown by half of its limit."""
     until = ("--set", f"run.horizon_hours={lives(cli, drive)['chain'] / 2}")
     line = cli("life", drive, *until).out.splitlines()[1]
     assert line.startswith("  Chain      > ") and line.endswith("not yet grown by 3 %")

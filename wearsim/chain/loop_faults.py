@@ -119,7 +119,7 @@ def path_faults(loop: "ChainLoop") -> Iterator[str]:
             along = np.dot(loop.centres[k] - loop.starts[i], loop.directions[i])
             nearest = loop.starts[i] + np.clip(along, 0.0, loop.span_lengths[i]) * loop.directions[i]
             distance = math.dist(nearest, loop.centres[k])
-            least = loop.pitch_radii[k] + 0.5 * loop.plate_height
+            least = loop.tip_radii[k] + 0.5 * loop.plate_height
             if not distance >= least:
                 yield (
                     f"the span {loop.span_name(i)} must clear wheel {loop.wheels[k].name!r}, runs "
