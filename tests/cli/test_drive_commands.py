@@ -163,5 +163,6 @@ def test_what_is_not_for_drives_says_what_is(cli, drive, arguments):
     command, *options = arguments
     done = cli(command, drive, *options)
     assert done.code == 2
-    assert "must be one [sprocket] here" in done.err
+    assert f"{drive}:4: sprocket: must be one [sprocket] here" in done.err
     assert "is for wearsim check, life, compare" in done.err
+    assert "the case of one sprocket, [sprocket] with drive.mate_teeth" in done.err

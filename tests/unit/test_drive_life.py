@@ -78,6 +78,6 @@ def test_one_that_fails_stops_the_others(monkeypatch, drive):
         ran_on.append(case.drive.gaps)
 
     monkeypatch.setattr(model, "simulate", simulate)
-    with pytest.raises(ConvergenceError, match="17 teeth fails"):
+    with pytest.raises(ConvergenceError, match="'cassette 17T': the cog of 17 teeth fails"):
         drive_life(drive, threads=5)
     assert not ran_on

@@ -8,6 +8,7 @@ from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
 from wearsim.chain.selection import RatingFinding
+from wearsim.errors import ContactError, ConvergenceError
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
@@ -136,7 +137,10 @@ def drive_life(
     def _run(one: DriveSprocket) -> WearResult:
         report = _watch(one.name)
         report(0.0)  # may end what nobody waits for before it begins
-        return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+        try:
+            return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+        except (ContactError, ConvergenceError) as error:
+            raise type(error)(f"{one.name!r}: {error}") from error
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
