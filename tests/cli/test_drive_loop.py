@@ -185,6 +185,16 @@ def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line
     assert f"drive.toml:{line}: " in at
 
 
+def test_a_wrong_chain_makes_no_faults_of_the_loop(cli, tmp_path, loop):
+    """What fits depends on the pitch, so links are not looked at before the chain is right."""
+    path = tmp_path / "drive.toml"
+    path.write_text(loop.replace('"08B-1"', '"08X-1"'))
+    done = cli("check", path)
+    assert done.code == 2
+    (line,) = done.err.splitlines()
+    assert f"{path}:3: chain.designation: no such chain" in line
+
+
 IN_THE_WAY = """
 [[sprocket]]
 name = "presser"
