@@ -190,7 +190,7 @@ def _band_source(found: DriveLife) -> str:
 def worn_most_text(found: DriveLife, explain: bool = False) -> str:
     """Return in words where the teeth are worn most, on request of every sprocket."""
     results = found.results
-    if len(results) > _MAX_ROWS and not explain:
+    if not explain:
         deepest = max(results, key=lambda name: results[name].max_depth)
         return f"{deepest} {_worn(results[deepest])} from the right tip"
     places = "; ".join(f"{name} {_worn(result)}" for name, result in results.items())
