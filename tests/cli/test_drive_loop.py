@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 
 import pytest
 
@@ -242,6 +243,20 @@ def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
     text = fixed.replace("links = 92", "links = 92\nsag_percent = 3")
     path.write_text(text)
     assert "without a take_up the links give the sag" in cli("check", path).err
+
+
+def test_one_chain_runs_on_all_cogs(cassette):
+    """2 a/p + (z1 + z2)/2 + ((z2 - z1)/(2 pi))^2 p/a = 90.85 with 17 teeth, mostly run; 89.00 with 13."""
+    tables = tomllib.loads(cassette.replace("links = 110", "centre_distance_mm = 400"))
+    drive = load_drive(tables)
+    assert [one.drive.layout.links for one in drive.sprockets] == [92, 92, 92]
+    del tables["drive"]
+    jockey = {"role": "idler", "teeth": 11, "profile": "iso606", "nodes": 61, "position_mm": [350, -90]}
+    jockey["take_up"] = {"tensioner_force_N": 20, "travel_mm": [-60, 60]}
+    ring, cogs = tables["sprocket"]
+    tables["sprocket"] = [{**ring, "position_mm": [0, 0]}, jockey, {**cogs, "position_mm": [400, 0]}]
+    links = [one.drive.layout.links for one in load_drive(tables).sprockets]
+    assert len(links) == 4 and len(set(links)) == 1
 
 
 def test_cassettes_are_checked(cli, tmp_path, cassette):

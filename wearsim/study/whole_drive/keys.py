@@ -14,7 +14,7 @@ from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.kernels.compiled import expect
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
-from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
+from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
@@ -35,6 +35,10 @@ SERVICE_YEARS, LONGEST = 100.0, 1e6
 
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
+
+
+_GIVES_LINKS = "centre_distance_mm"
+"""Key of [drive] from which the links follow."""
 
 
 @dataclass(frozen=True)
@@ -134,20 +138,25 @@ def _sprockets(
 ) -> list[DriveSprocket]:
     """Return the cases of all sprockets; what is wrong with them goes to the faults of the drive."""
     seen: set[tuple[str, str]] = set()
-    found = []
-    for number, wheel in enumerate(wheels):
+    found: dict[int, list[DriveSprocket]] = {}
+    links: int | None = None
+    for number, wheel in sorted(enumerate(wheels), key=lambda entry: bool(entry[1].cogs)):
+        found[number] = []
         all_teeth = [teeth for teeth, _ in wheel.cogs] or [int(wheel.table["teeth"])]
         for name, teeth in zip(wheel.parts, all_teeth, strict=True):
             running = [
                 replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
             ]
-            case = _case(document, running, shares, number, seen)
+            case = _case(document, running, shares, number, seen, links if wheel.cogs else None)
             if case is not None:
-                found.append(DriveSprocket(name, wheel.role, case))
+                found[number].append(DriveSprocket(name, wheel.role, case))
+                # One chain runs on all cogs: that which fits the one that runs longest.
+                links = links or wrap_drive(case, "a drive has a chain").layout.links
+    sprockets = [one for number in range(len(wheels)) for one in found[number]]
     place = next((place for place, wheel in enumerate(wheels) if wheel.cogs), None)
     if place is None or document.faults.count:
-        return found
-    return _sharing_time(found, wheels[place], place)
+        return sprockets
+    return _sharing_time(sprockets, wheels[place], place)
 
 
 def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: int) -> list[DriveSprocket]:
@@ -219,9 +228,14 @@ def _case(
     shares: tuple[float, ...],
     number: int,
     seen: set[tuple[str, str]],
+    links: int | None,
 ) -> Case | None:
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
-    own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
+    tables = _tables(document.data, wheels, number)
+    if links is not None:
+        tables["drive"] = {key: value for key, value in tables["drive"].items() if key != _GIVES_LINKS}
+        tables["drive"]["links"] = links
+    own = Document(document.name, document.folder, tables, Faults("", "", ()))
     place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
     case = None
     try:
