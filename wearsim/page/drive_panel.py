@@ -18,6 +18,7 @@ from wearsim.page.text_elements import (
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
+from wearsim.report.text_lines import unbroken
 from wearsim.study.whole_drive.layout_sketch import flank_place
 from wearsim.study.whole_drive.maintenance import drive_plan
 from wearsim.study.whole_drive.model import DriveLife
@@ -115,7 +116,7 @@ class DrivePanel:
         with self._life:
             ui.label(found.drive.title).classes("ws-title").props("role=heading aria-level=2")
             ui.label(hours(found.life)).classes("ws-hours")
-            ui.label(first_text(drive_plan(found)))
+            ui.label(unbroken(first_text(drive_plan(found))))
             if found.overloaded:
                 ui.label(ratings_text(found)).classes("ws-overloaded")
             else:

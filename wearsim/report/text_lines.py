@@ -10,7 +10,7 @@ _LABEL = 13
 _GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
 """What sets thousands apart."""
 
-_NUMBER = re.compile(r"(?<![\w.])-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
+_NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
 """A number as it is printed, with what sets its thousands apart."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
@@ -26,13 +26,24 @@ def row(label: str, text: str) -> str:
     """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
-        _GROUP.sub("\u00a0", text),
+        unbroken(text),
         _WIDTH,
         initial_indent=lead,
         subsequent_indent=" " * _LABEL,
         break_on_hyphens=False,
         break_long_words=False,
     ).replace("\u00a0", " ")
+
+
+def unbroken(text: str) -> str:
+    """Return a text that is not folded within a number.
+
+    Examples
+    --------
+    >>> [word.split() for word in unbroken("at 1 803 h").split(" ")]
+    [['at'], ['1', '803'], ['h']]
+    """
+    return _GROUP.sub("\u00a0", text)
 
 
 def numbered_assumptions(assumptions: tuple[str, ...]) -> str:

@@ -15,6 +15,7 @@ from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import hours, overload_text
 from wearsim.report.html.sketch import sketch
+from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
 from wearsim.study.whole_drive.layout_sketch import flank_place, layout_sketch
@@ -155,7 +156,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         title=drive.title,
         head=head.rows,
         life=hours(found.life),
-        first=first_text(plan),
+        first=unbroken(first_text(plan)),
         overloaded=overload_text(driver),
         within=within_text(driver),
         jumping=jumping_text(found),
