@@ -31,6 +31,27 @@ def test_loads_of_spans_and_of_every_tooth(cli, drive):
     assert one["teeth"] == found["sprockets"][1]["teeth"]
 
 
+def test_a_chain_that_holds_needs_less_slack_tension_than_there_is(cli):
+    """On 65 teeth and grown by 3 % this one jumps where both strands are hard pulled, not as it runs."""
+    done = cli("loads", "cases/drives/escalator-duplex.toml", "--elongation", "3", "--json")
+    assert done.code == 0, done.err
+    for one in json.loads(done.out)["sprockets"]:
+        assert 0.0 < one["min_slack_tension_N"] < one["slack_tension_N"]
+
+
+def test_a_rating_that_is_not_kept_is_told_once(cli, drive, tmp_path):
+    """Loads of a duty are named with the speed of the driver, though the other one turns at another."""
+    duty = "".join(
+        f"[[duty]]\nshare_of_time = 0.5\npower_kW = {power}\nspeed_rpm = 300\n" for power in (2, 3)
+    )
+    path = tmp_path / "duty.toml"
+    path.write_text(drive.read_text().replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    found = json.loads(cli("life", path, "--json", *SHORT).out)
+    rated = [text for text in found["warnings"] if "plate fatigue" in text]
+    assert len(rated) == 1 and rated[0].startswith("outside a rating: plate fatigue of ")
+    assert " at 300 rpm 3 kW, allowed " in rated[0]
+
+
 @pytest.mark.parametrize(
     "arguments", [("export", "--out", "roll.svg"), ("profile",), ("animate", "--out", "roll.gif")]
 )

@@ -27,7 +27,6 @@ from wearsim.study.whole_drive.sheet import (
     first_text,
     part_rows,
     ratings_text,
-    shown_warnings,
     taken_for_granted,
     worn_most_text,
 )
@@ -123,7 +122,7 @@ class DrivePanel:
                 ui.label(f"Ratings: {ratings_text(found)}.")
             rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
             row_list([*part_rows(found), *rows])
-            warning_list(shown_warnings(found))
+            warning_list(found.doubts)
 
     def _fill_ratings(self, found: DriveLife) -> None:
         self._ratings.clear()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
@@ -83,10 +83,18 @@ class DriveLife:
         return self.results[self.drive.driver.name].overloaded
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What is doubtful, each once, with the sprockets that it is about."""
-        texts = {name: result.warnings for name, result in self.results.items()}
+    def doubts(self) -> tuple[str, ...]:
+        """What is doubtful but the ratings, each once, with the sprockets that it is about."""
+        texts = {
+            name: [text for text in result.warnings if text not in rating_warnings(result.ratings)]
+            for name, result in self.results.items()
+        }
         return said_of_sprockets(texts, self.drive.wheels)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful: first the ratings that are not kept, with the loads and speeds of the driver."""
+        return (*rating_warnings(self.results[self.drive.driver.name].ratings), *self.doubts)
 
 
 def drive_life(

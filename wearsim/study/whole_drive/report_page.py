@@ -34,13 +34,7 @@ from wearsim.study.whole_drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.study.whole_drive.sheet import (
-    first_text,
-    jumping_text,
-    shown_warnings,
-    taken_for_granted,
-    within_text,
-)
+from wearsim.study.whole_drive.sheet import first_text, jumping_text, taken_for_granted, within_text
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
@@ -101,7 +95,7 @@ class SheetPage:
     plan_rule: str
     plan_goes_on: bool
     flanks: list[FlankPicture]
-    warnings: list[str]
+    warnings: tuple[str, ...]
     assumptions: tuple[str, ...]
     defaults: tuple[str, ...]
 
@@ -179,7 +173,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
             FlankPicture(flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
         ],
-        warnings=shown_warnings(found),
+        warnings=found.doubts,
         assumptions=assumptions,
         defaults=defaults,
     )

@@ -15,9 +15,6 @@ from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
-_RATED = "outside a rating"
-"""What warnings say of what stands among the ratings."""
-
 _MAX_WARNINGS = 1
 _MAX_ROWS = 3
 """Sprockets with a row of their own; the cogs of a cassette share one where there are more."""
@@ -202,13 +199,8 @@ def _worn(result: WearResult) -> str:
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
-def shown_warnings(found: DriveLife) -> list[str]:
-    """Return the warnings but those of ratings, which stand beside the ratings."""
-    return [text for text in found.warnings if _RATED not in text]
-
-
 def _warnings(found: DriveLife, explain: bool) -> str:
-    warnings = shown_warnings(found)
+    warnings = found.doubts
     if explain or not warnings:
         return "; ".join(warnings) or "none"
     shown = warnings[:_MAX_WARNINGS]
