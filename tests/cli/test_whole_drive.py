@@ -209,6 +209,7 @@ speed_rpm = 300
         (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
         (("links = 110", "links = 12"), 14, "drive layout: "),
         (("teeth = 20", "teeth = 20\nposition = 3"), 11, "unknown key"),
+        (("speed_rpm = 300", "speed_rpm = -300"), 17, "must be greater than or equal to"),
         (("teeth = 20", "teeth = 21\nengaged_every = 2"), 11, "must divide the number of teeth"),
         (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "more than two"),
     ],

@@ -140,7 +140,8 @@ def _sprockets(
     seen: set[tuple[str, str]] = set()
     found: dict[int, list[DriveSprocket]] = {}
     links: int | None = None
-    for number, wheel in sorted(enumerate(wheels), key=lambda entry: bool(entry[1].cogs)):
+    first = sorted(enumerate(wheels), key=lambda entry: (bool(entry[1].cogs), entry[1].role != DRIVER))
+    for number, wheel in first:
         found[number] = []
         all_teeth = [teeth for teeth, _ in wheel.cogs] or [int(wheel.table["teeth"])]
         for name, teeth in zip(wheel.parts, all_teeth, strict=True):
@@ -248,8 +249,9 @@ def _case(
             if case is not None:
                 message = f"{wheels[number].name!r}: {message}"
                 key = _slack_key(key, wheels)
-            # Of the loop each cog of a cassette has the same fault in other numbers.
-            same = (key, "" if fault.key == LOOP_KEY else message)
+            # Of loop and load each sprocket has the same fault in other numbers.
+            alike = fault.key == LOOP_KEY or key.startswith(("load.", "duty."))
+            same = (key, "" if alike else message)
             if same not in seen:
                 document.faults.add(key, message)
             seen.add(same)
