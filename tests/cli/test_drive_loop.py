@@ -265,6 +265,7 @@ def test_cassettes_are_checked(cli, tmp_path, cassette):
         ("share_of_time = 0.75", "share_of_time = 0.7", "share_of_time of all cogs must sum to 1 (got 0.95)"),
         ('name = "cassette"', 'name = "cassette"\nteeth = 17', "the cogs give their own"),
         ("teeth = 17, share", "teeth = 13, share", "cogs must have different teeth"),
+        ('name = "ring"', 'name = "cassette 13T"', "need different names (got 'cassette 13T' twice)"),
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
         ("phases = 1", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
     ):
