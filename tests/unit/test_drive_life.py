@@ -2,14 +2,17 @@
 
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 
 from wearsim.errors import ConvergenceError
+from wearsim.result import LimitState
 from wearsim.study.whole_drive import model
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
+from wearsim.study.whole_drive.sheet import jumping_text
 from wearsim.study.whole_drive.wheels import DriveWheel
 
 RING = {"name": "ring", "teeth": 38, "profile": "iso606", "nodes": 31}
@@ -60,6 +63,23 @@ def test_all_cogs_are_their_cassette(wheels):
 def test_two_texts_of_one_cog_stay_two(wheels):
     texts = dict.fromkeys(("ring", *wheels[1].parts), ()) | {"cassette 15T": ("used 3 %", "used 5 %")}
     assert said_of_sprockets(texts, wheels) == ("cassette 15T: used 3 %", "cassette 15T: used 5 %")
+
+
+@pytest.mark.parametrize(
+    ("needed", "text"),
+    [
+        ({"ring": 4.0, "roll": 1e-6}, "jumping: safe"),
+        ({"ring": 1e-6, "roll": 8.0}, "jumping: 25 % above what is needed on the sprocket 'roll'"),
+        ({"ring": 10.0, "roll": 8.0}, "jumping: no margin on the sprocket 'ring'"),
+    ],
+)
+def test_jumping_is_told_of_the_sprocket_that_is_nearest_to_it(needed, text):
+    """With 10 N of slack tension; twice as much as is needed is safe."""
+    results = {
+        name: SimpleNamespace(limits=(LimitState("min_slack_tension_N", 10.0, value),))
+        for name, value in needed.items()
+    }
+    assert jumping_text(SimpleNamespace(results=results)) == text
 
 
 def test_one_that_fails_stops_the_others(monkeypatch, drive):
