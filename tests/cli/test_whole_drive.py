@@ -83,6 +83,20 @@ def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
     assert "not yet grown by 3 %" in text[0].read_text()
 
 
+@pytest.mark.parametrize(
+    ("joint", "limits", "words"),
+    [
+        ("1e-8", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
+        ("1e-14", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
+        ("1e-14", "{over_pins_change_mm = 1e-4}", "until the measurement over pins is 0.0001 mm less"),
+    ],
+)
+def test_what_ends_a_sprocket_is_said_alike_before_and_after_a_chain(cli, drive, joint, limits, words):
+    settings = (f"joint.specific_wear_rate_mm2_per_N={joint}", f"stop={limits}")
+    text = cli("life", drive, *(word for one in settings for word in ("--set", one))).out
+    assert words in " ".join(text.split())
+
+
 def test_the_answer_takes_twelve_lines(cli, drive, monkeypatch):
     """Chain, both sprockets, what is first and when, band, ratings: in this order, then the rest."""
     monkeypatch.chdir(drive.parent)

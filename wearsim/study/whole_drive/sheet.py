@@ -119,9 +119,9 @@ def part_ending(found: DriveLife, name: str) -> str:
 
 
 def _sprocket_ending(result: WearResult) -> str:
-    state = next((one for one in result.limits if one.name == "critical_depth_mm"), None)
-    if result.stop == "elongation_percent" and state is not None:
-        return f"worn by {state.limit:.3g} mm"
+    """Say by how much a sprocket is worn, or what else ended the run if the chain did not do so before."""
+    if result.stop in ("critical_depth_mm", "elongation_percent"):
+        return f"worn by {result.max_depth:.3g} mm"
     return ending(result)
 
 
