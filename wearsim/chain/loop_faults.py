@@ -82,7 +82,7 @@ def turning_faults(loop: "ChainLoop") -> Iterator[str]:
         yield (
             f"the chain does not touch wheel {loop.wheels[i].name!r} between {before!r} and {after!r}: its "
             f"wrap angle must be above 0, would be {wrap:.4g} deg: move it, put it on the other side, "
-            "or leave it out"
+            "leave it out, or correct the order of the wheels"
         )
     if not missed.size:
         yield (
