@@ -259,6 +259,16 @@ def test_one_chain_runs_on_all_cogs(cassette):
     assert len(links) == 4 and len(set(links)) == 1
 
 
+def test_check_names_the_cogs_of_an_assumption_once(cli, tmp_path, cassette):
+    """Their tips and shares differ, and nothing else that is said of them."""
+    path = tmp_path / "drive.toml"
+    path.write_text(cassette)
+    found = json.loads(cli("check", path, "--json").out)["assumptions"]
+    assert "cassette: the chain runs on this cog 25 to 75 % of the time and grows on all" in found
+    assert sum("sprocket.tip_diameter_mm" in text for text in found) == 2
+    assert not [text for text in found if "13T" in text or "17T" in text]
+
+
 def test_cassettes_are_checked(cli, tmp_path, cassette):
     path = tmp_path / "drive.toml"
     for before, after, message in (

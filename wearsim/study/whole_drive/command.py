@@ -248,7 +248,7 @@ def _check_json(drive: "DriveCase") -> dict[str, Any]:
         "case": drive.name,
         "sprockets": [one.name for one in drive.sprockets],
         "layout": layout_json(drive),
-        "assumptions": list(_check_assumptions(drive)),
+        "assumptions": list(drive.assumptions),
         "warnings": list(_check_warnings(drive)),
         **rating_json(drive.driver.case),
     }
@@ -262,7 +262,7 @@ def _check_text(drive: "DriveCase", path: Path) -> str:
     lines = [
         f"{path}: ok, sprockets {', '.join(one.name for one in drive.sprockets)}",
         layout_text(drive),
-        *(f"  assumes  {text}" for text in _check_assumptions(drive)),
+        *(f"  assumes  {text}" for text in drive.assumptions),
         rating_table(case),
         notes_text(case),
         *(f"  warning  {text}" for text in _check_warnings(drive)),
@@ -270,19 +270,11 @@ def _check_text(drive: "DriveCase", path: Path) -> str:
     return "\n".join(line for line in lines if line)
 
 
-def _check_assumptions(drive: "DriveCase") -> tuple[str, ...]:
-    from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
-
-    return said_of_sprockets({one.name: one.case.assumptions for one in drive.sprockets}, drive.wheels)
-
-
 def _check_warnings(drive: "DriveCase") -> tuple[str, ...]:
     from wearsim.chain.selection import rating_warnings
-    from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
-    own = said_of_sprockets({one.name: one.case.warnings for one in drive.sprockets}, drive.wheels)
     case = drive.driver.case
-    return tuple(dict.fromkeys([*own, *rating_warnings(case.drive.ratings(case))]))
+    return (*drive.warnings, *rating_warnings(case.drive.ratings(case)))
 
 
 def report_sheet(

@@ -18,6 +18,7 @@ from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
+from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 from wearsim.study.whole_drive.wheels import (
     DRIVEN,
     DRIVER,
@@ -78,8 +79,13 @@ class DriveCase:
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """What is taken for granted of any sprocket, each once."""
-        return tuple(dict.fromkeys(text for one in self.sprockets for text in one.case.assumptions))
+        """What is taken for granted, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.assumptions for one in self.sprockets}, self.wheels)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful before a run, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
 
 
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
