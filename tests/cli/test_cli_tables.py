@@ -90,6 +90,7 @@ def test_listed_cases_exist(cli):
     for row in found:
         assert Path(row["file"]).is_file()
         assert row["title"]
+    assert "packaging-conveyor" in [Path(row["file"]).stem for row in found]
 
 
 def test_unknown_table(cli):

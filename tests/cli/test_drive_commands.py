@@ -31,6 +31,27 @@ def test_loads_of_spans_and_of_every_tooth(cli, drive):
     assert one["teeth"] == found["sprockets"][1]["teeth"]
 
 
+def test_a_chain_that_holds_needs_less_slack_tension_than_there_is(cli):
+    """On 65 teeth and grown by 3 % this one jumps where both strands are hard pulled, not as it runs."""
+    done = cli("loads", "cases/drives/escalator-duplex.toml", "--elongation", "3", "--json")
+    assert done.code == 0, done.err
+    for one in json.loads(done.out)["sprockets"]:
+        assert 0.0 < one["min_slack_tension_N"] < one["slack_tension_N"]
+
+
+def test_a_rating_that_is_not_kept_is_told_once(cli, drive, tmp_path):
+    """Loads of a duty are named with the speed of the driver, though the other one turns at another."""
+    duty = "".join(
+        f"[[duty]]\nshare_of_time = 0.5\npower_kW = {power}\nspeed_rpm = 300\n" for power in (2, 3)
+    )
+    path = tmp_path / "duty.toml"
+    path.write_text(drive.read_text().replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    found = json.loads(cli("life", path, "--json", *SHORT).out)
+    rated = [text for text in found["warnings"] if "plate fatigue" in text]
+    assert len(rated) == 1 and rated[0].startswith("outside a rating: plate fatigue of ")
+    assert " at 300 rpm 3 kW, allowed " in rated[0]
+
+
 @pytest.mark.parametrize(
     "arguments", [("export", "--out", "roll.svg"), ("profile",), ("animate", "--out", "roll.gif")]
 )
@@ -55,6 +76,30 @@ def test_wheel_and_flank_are_those_of_the_sprocket(cli, drive, tmp_path):
     profile = cli("profile", drive, "--sprocket", "roll").out
     assert profile.count("\n") == 62
     assert profile != cli("profile", drive, "--sprocket", "driver").out
+
+
+def test_all_wheels_go_into_a_folder(cli, drive, tmp_path):
+    """One file a wheel, which is that of --sprocket; cogs of a cassette are wheels."""
+    out, one = tmp_path / "wheels", tmp_path / "roll.csv"
+    assert cli("export", drive, "--out", out, "--format", "csv").code == 0
+    assert sorted(file.name for file in out.iterdir() if file.suffix) == ["driver.csv", "roll.csv"]
+    assert cli("export", drive, "--sprocket", "roll", "--out", one).code == 0
+    assert (out / "roll.csv").read_bytes() == one.read_bytes()
+    assert cli("export", drive, "--out", out).code == 2
+    assert cli("export", drive, "--out", out, "--state", "worn", "--force", *SHORT).code == 0
+    assert "08B-1, 17 to 20 teeth: roll" in (out / "roll.dxf").read_text()
+    assert "Worn after 20 h: " in (out / "roll.dxf").read_text()
+
+
+def test_cogs_are_wheels_with_files_of_their_own(cli, tmp_path, cassette):
+    path, out = tmp_path / "drive.toml", tmp_path / "wheels"
+    path.write_text(cassette)
+    assert cli("export", path, "--out", out, "--format", "svg").code == 0
+    found = {file.name for file in out.iterdir() if file.suffix}
+    assert found == {"ring.svg", "cassette_13T.svg", "cassette_17T.svg"}
+    done = cli("export", path, "--out", out, "--force", "--template", tmp_path / "gauge.pdf")
+    assert done.code == 2 and "gauge of one sprocket" in done.err
+    assert "or --out FOLDER alone for all wheels" in cli("export", path, "--out", tmp_path / "a.dxf").err
 
 
 def test_a_worn_wheel_is_worn_in_its_drive(cli, drive, tmp_path):
@@ -139,5 +184,6 @@ def test_what_is_not_for_drives_says_what_is(cli, drive, arguments):
     command, *options = arguments
     done = cli(command, drive, *options)
     assert done.code == 2
-    assert "must be one [sprocket] here" in done.err
+    assert f"{drive}:4: sprocket: must be one [sprocket] here" in done.err
     assert "is for wearsim check, life, compare" in done.err
+    assert "the case of one sprocket, [sprocket] with drive.mate_teeth" in done.err

@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 
 import pytest
 
@@ -185,6 +186,50 @@ def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, before, after, line
     assert f"drive.toml:{line}: " in at
 
 
+def test_a_wrong_chain_makes_no_faults_of_the_loop(cli, tmp_path, loop):
+    """What fits depends on the pitch, so links are not looked at before the chain is right."""
+    path = tmp_path / "drive.toml"
+    path.write_text(loop.replace('"08B-1"', '"08X-1"'))
+    done = cli("check", path)
+    assert done.code == 2
+    (line,) = done.err.splitlines()
+    assert f"{path}:3: chain.designation: no such chain" in line
+
+
+IN_THE_WAY = """
+[[sprocket]]
+name = "presser"
+role = "idler"
+teeth = 20
+profile = "iso606"
+nodes = 61
+position_mm = [250, 2]
+outside = true
+"""
+
+
+def test_a_span_through_a_wheel_is_named(cli, tmp_path, two_sprockets):
+    """An idler presses the upper strand down to the lower one, 42.59 mm from it.
+
+    Pitch radius 12.7/2/sin(9 deg) = 40.592 mm, so the strands do not cross; the tips stand at
+    12.7/2 (0.6 + cot(9 deg)) = 43.902 mm.
+    """
+    path = tmp_path / "drive.toml"
+    placed = two_sprockets.replace("links = 110\n", "slack_tension_N = 50\n").replace(
+        "teeth = 17", "teeth = 20"
+    )
+    for x in (0, 500):
+        placed = placed.replace("nodes = 61\n[", f"nodes = 61\nposition_mm = [{x}, 0]\n[", 1)
+    path.write_text(placed.replace("\n[drive]", f"{IN_THE_WAY}[drive]"))
+    done = cli("check", path)
+    assert done.code == 2
+    assert "drive.toml:4: sprocket.1: " in done.err
+    assert (
+        "the span 'driver 1' to 'roll' must clear wheel 'presser', runs 42.5921 mm from its centre and needs "
+        "43.9023 mm"
+    ) in done.err
+
+
 def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
     fixed = loop.replace("take_up = {tensioner_force_N = 80, guide_deg = -37.5, travel_mm = [-25, 30]}\n", "")
     path = tmp_path / "drive.toml"
@@ -200,12 +245,37 @@ def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
     assert "without a take_up the links give the sag" in cli("check", path).err
 
 
+def test_one_chain_runs_on_all_cogs(cassette):
+    """2 a/p + (z1 + z2)/2 + ((z2 - z1)/(2 pi))^2 p/a = 90.85 with 17 teeth, mostly run; 89.00 with 13."""
+    tables = tomllib.loads(cassette.replace("links = 110", "centre_distance_mm = 400"))
+    drive = load_drive(tables)
+    assert [one.drive.layout.links for one in drive.sprockets] == [92, 92, 92]
+    del tables["drive"]
+    jockey = {"role": "idler", "teeth": 11, "profile": "iso606", "nodes": 61, "position_mm": [350, -90]}
+    jockey["take_up"] = {"tensioner_force_N": 20, "travel_mm": [-60, 60]}
+    ring, cogs = tables["sprocket"]
+    tables["sprocket"] = [{**ring, "position_mm": [0, 0]}, jockey, {**cogs, "position_mm": [400, 0]}]
+    links = [one.drive.layout.links for one in load_drive(tables).sprockets]
+    assert len(links) == 4 and len(set(links)) == 1
+
+
+def test_check_names_the_cogs_of_an_assumption_once(cli, tmp_path, cassette):
+    """Their tips and shares differ, and nothing else that is said of them."""
+    path = tmp_path / "drive.toml"
+    path.write_text(cassette)
+    found = json.loads(cli("check", path, "--json").out)["assumptions"]
+    assert "cassette: the chain runs on this cog 25 to 75 % of the time and grows on all" in found
+    assert sum("sprocket.tip_diameter_mm" in text for text in found) == 2
+    assert not [text for text in found if "13T" in text or "17T" in text]
+
+
 def test_cassettes_are_checked(cli, tmp_path, cassette):
     path = tmp_path / "drive.toml"
     for before, after, message in (
         ("share_of_time = 0.75", "share_of_time = 0.7", "share_of_time of all cogs must sum to 1 (got 0.95)"),
         ('name = "cassette"', 'name = "cassette"\nteeth = 17', "the cogs give their own"),
         ("teeth = 17, share", "teeth = 13, share", "cogs must have different teeth"),
+        ('name = "ring"', 'name = "cassette 13T"', "need different names (got 'cassette 13T' twice)"),
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
         ("phases = 1", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
     ):

@@ -215,7 +215,7 @@ def test_a_day_of_toml_is_a_start_date(cli, drive):
     short = ("--set", "run.horizon_hours=20")
     text = cli("life", drive, *short, "--set", "service.start_date=2027-01-04").out
     assert text == cli("life", drive, *short).out
-    assert "until 2027-01-05" in text
+    assert "beyond 2027-01-05" in text
 
 
 def test_a_sprocket_has_its_own_price(cli, drive):

@@ -68,6 +68,49 @@ def test_answer_says_what_is_replaced_first_and_on_which_day(cli, drive):
     assert "  Ratings    within all of them" in done.out
 
 
+def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
+    """Joints wear at a constant rate: half way through its life a chain has grown by half of its limit."""
+    until = ("--set", f"run.horizon_hours={lives(cli, drive)['chain'] / 2}")
+    line = cli("life", drive, *until).out.splitlines()[1]
+    assert line.startswith("  Chain      > ") and line.endswith("not yet grown by 3 %")
+    content = json.loads(cli("life", drive, *until, "--json").out)
+    assert content["chain_life_hours"] is None
+    for one in content["sprockets"]:
+        grown = next(state for state in one["limits"] if state["name"] == "elongation_percent")
+        assert (grown["limit"], grown["value"]) == (3.0, pytest.approx(1.5, rel=1e-9))
+    text = (tmp_path / "sheet.html", *until)
+    assert cli("report", drive, "--out", *text).code == 0
+    assert "not yet grown by 3 %" in text[0].read_text()
+
+
+@pytest.mark.parametrize(
+    ("joint", "limits", "words"),
+    [
+        ("1e-8", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
+        ("1e-14", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
+        ("1e-14", "{over_pins_change_mm = 1e-4}", "until the measurement over pins is 0.0001 mm less"),
+    ],
+)
+def test_what_ends_a_sprocket_is_said_alike_before_and_after_a_chain(cli, drive, joint, limits, words):
+    settings = (f"joint.specific_wear_rate_mm2_per_N={joint}", f"stop={limits}")
+    text = cli("life", drive, *(word for one in settings for word in ("--set", one))).out
+    assert words in " ".join(text.split())
+
+
+def test_the_answer_takes_twelve_lines(cli, drive, monkeypatch):
+    """Chain, both sprockets, what is first and when, band, ratings: in this order, then the rest."""
+    monkeypatch.chdir(drive.parent)
+    out = cli("life", drive.name).out
+    labels = [line.split()[0] for line in out.splitlines()[1:] if line[2] != " "]
+    assert labels == [
+        *("Chain", "driver", "roll", "First", "Band", "Ratings", "Worn", "Warnings", "Assumes", "Next")
+    ]
+    assert len(out.splitlines()) <= 12
+    day = json.loads(cli("life", drive, "--json").out)["service"]["date"]
+    assert f" h ({day}) and again after each such time" in out
+    assert "jumping: safe\n" in out
+
+
 def test_overload_stands_beside_the_hours(cli, drive):
     text = cli("life", drive, "--set", "load.power_kW=15").out
     assert "OVERLOADED: " in text
@@ -177,9 +220,13 @@ speed_rpm = 300
         ),
         (('name = "roll"', 'role = "driver"'), 9, "one sprocket must be 'driven' (got 'driver', 'driver')"),
         (('name = "roll"', 'name = "driver"'), 9, "different names"),
+        (('name = "roll"', 'name = " roll"'), 9, "must be one line without blanks at its ends (got ' roll')"),
+        (('name = "roll"', 'name = "ro\\nll"'), 9, "must be one line without blanks"),
+        (('name = "roll"', 'name = "Chain"'), 9, "the chain is a part of its own"),
         (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
         (("links = 110", "links = 12"), 14, "drive layout: "),
         (("teeth = 20", "teeth = 20\nposition = 3"), 11, "unknown key"),
+        (("speed_rpm = 300", "speed_rpm = -300"), 17, "must be greater than or equal to"),
         (("teeth = 20", "teeth = 21\nengaged_every = 2"), 11, "must divide the number of teeth"),
         (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "more than two"),
     ],

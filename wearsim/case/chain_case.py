@@ -268,7 +268,7 @@ def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
     """Return the tables with faults, and those whose checks rest on them."""
     wrong = {str(entry["loc"][0]) for entry in error.errors()}
     if "chain" in wrong:
-        wrong |= {"load"} | ({"sprocket"} & data.keys())
+        wrong |= {"load"} | ({"sprocket", "drive"} & data.keys())
     if wrong & {"load", "duty"}:
         wrong |= {"load"} | ({"duty"} & data.keys())
     return wrong | {"stop"} if "sprocket" in wrong else wrong

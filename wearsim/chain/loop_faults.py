@@ -82,7 +82,7 @@ def turning_faults(loop: "ChainLoop") -> Iterator[str]:
         yield (
             f"the chain does not touch wheel {loop.wheels[i].name!r} between {before!r} and {after!r}: its "
             f"wrap angle must be above 0, would be {wrap:.4g} deg: move it, put it on the other side, "
-            "or leave it out"
+            "leave it out, or correct the order of the wheels"
         )
     if not missed.size:
         yield (
@@ -119,7 +119,7 @@ def path_faults(loop: "ChainLoop") -> Iterator[str]:
             along = np.dot(loop.centres[k] - loop.starts[i], loop.directions[i])
             nearest = loop.starts[i] + np.clip(along, 0.0, loop.span_lengths[i]) * loop.directions[i]
             distance = math.dist(nearest, loop.centres[k])
-            least = loop.pitch_radii[k] + 0.5 * loop.plate_height
+            least = loop.tip_radii[k] + 0.5 * loop.plate_height
             if not distance >= least:
                 yield (
                     f"the span {loop.span_name(i)} must clear wheel {loop.wheels[k].name!r}, runs "

@@ -204,7 +204,8 @@ def loop_forces(
         span = loop.span_name(int(found.argmin()))
         message = (
             f"every span must be pulled, {span} would have {found.min():.4g} N: use more tension at the "
-            "take-up, or let its force act the other way"
+            "take-up, let its force act the other way, or put it on the slack side, where the chain leaves "
+            "a driver"
         )
         raise CaseError([Fault(f"chain loop: {message}")])
     return LoopForces(loop, found, centrifugal, friction_lever, tuple(bool(one) for one in idle))

@@ -27,7 +27,9 @@ _LONGER = 1000.0
 @click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
 @click.argument("source", type=click.Path(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
-    "--out", type=click.Path(path_type=Path, allow_dash=True), help="New file of the wheel; - is stdout."
+    "--out",
+    type=click.Path(path_type=Path, allow_dash=True),
+    help="New file of the wheel, - is stdout; of a whole drive a new folder for a file of each wheel.",
 )
 @click.option("--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells.")
 @click.option(
@@ -57,24 +59,26 @@ def export(
 
     DXF and SVG hold outlines on layers of their own, circles and a note; CSV the points; STEP a
     solid (pip install 'wearsim[step]'), STL its surface. Bore, keyway and hub come from [sprocket].
-    A worn wheel of a case is worn first, until its limit.
+    A worn wheel of a case is worn first, until its limit. Of a whole drive without --sprocket all
+    wheels go into a folder, as DXF if no --format is given.
     --template writes a gauge of the gap at the wear limit, with a bar to check the print.
     """
     if out is None and template is None:
         raise click.UsageError("give --out FILE, --template FILE or both")
+    if out is not None and sprocket is None and _takes_all(source, out):
+        if template is not None:
+            raise click.UsageError("--template is the gauge of one sprocket: give --sprocket NAME")
+        _export_all(source, settings, out, form or _FORMATS[0], state or "new", force)
+        return
     places = [path for path in (out, template) if path is not None and str(path) != "-"]
     _check_places(places, source, force)
     kind = None if out is None else format_of(out, form, _FORMATS, "--format")
     gauge = None if template is None else format_of(template, None, _GAUGES, ".pdf")
-    if kind == "step":
-        from wearsim.extras import check_installed
-
-        check_installed(("build123d",), "step", "--format step")
+    _check_step(kind)
     case, result = _loaded(source, settings, sprocket)
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
-    if kind == "stl" and len(states) > 1:
-        raise click.UsageError("an STL file holds one state of the wheel: give --state new or --state worn")
+    _check_states(kind, states)
     _check_shapes(case, kind)
     if result is None and ("worn" in states or template is not None):
         result = worn(case)
@@ -89,6 +93,36 @@ def export(
         written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
     for path, data in written:
         write_content(path, data, force)
+
+
+def _takes_all(source: Path, out: Path) -> bool:
+    """Tell whether a place is a folder for all wheels of a whole drive, and no file by its ending."""
+    from wearsim.study.whole_drive.command import is_drive
+
+    no_file = str(out) != "-" and out.suffix.lower() not in (*(f".{name}" for name in _FORMATS), ".stp")
+    return no_file and not source.is_dir() and is_drive(source)
+
+
+def _export_all(
+    source: Path, settings: tuple[str, ...], out: Path, form: str, state: str, force: bool
+) -> None:
+    from wearsim.study.whole_drive.command import export_wheels
+
+    _check_step(form)
+    _check_states(form, _STATES[state])
+    export_wheels(source, settings, out, form, _STATES[state], force)
+
+
+def _check_step(kind: str | None) -> None:
+    if kind == "step":
+        from wearsim.extras import check_installed
+
+        check_installed(("build123d",), "step", "--format step")
+
+
+def _check_states(kind: str | None, states: "tuple[State, ...]") -> None:
+    if kind == "stl" and len(states) > 1:
+        raise click.UsageError("an STL file holds one state of the wheel: give --state new or --state worn")
 
 
 def _check_shapes(case: "Case", kind: str | None) -> None:
@@ -127,7 +161,7 @@ def _loaded(
     if not source.is_dir() or sprocket is not None:
         from wearsim.study.whole_drive.command import load_one
 
-        return load_one(source, settings, sprocket), None
+        return load_one(source, settings, sprocket, or_else=", or --out FOLDER alone for all wheels"), None
     check_settings([source], settings)
     from dataclasses import replace
 

@@ -39,10 +39,10 @@ def _rows(table: str) -> list[dict[str, str]]:
 
 
 def shipped_cases() -> list[Path]:
-    """Return the cases that come with wearsim."""
+    """Return the cases that come with wearsim, whole drives last."""
     package = Path(__file__).parent.parent
     for folder in (package / "cases", package.parent / "cases"):
-        found = sorted(folder.glob("*.toml"))
+        found = [*sorted(folder.glob("*.toml")), *sorted(folder.glob("drives/*.toml"))]
         if found:
             return found
     return []

@@ -117,7 +117,7 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     if kind in ("too_short", "too_long"):
         return _length_message(entry["ctx"], kind)
     text = str(entry["msg"]).removeprefix("Value error, ")
-    text = text.replace("Input should be", "must be")
+    text = text.replace("Input should be", "must be").replace("String should have", "must have")
     if kind in ("model_type", "dict_type"):
         text = "must be a table"
     if kind == "list_type":

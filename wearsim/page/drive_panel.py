@@ -18,6 +18,7 @@ from wearsim.page.text_elements import (
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
+from wearsim.report.text_lines import unbroken
 from wearsim.study.whole_drive.layout_sketch import flank_place
 from wearsim.study.whole_drive.maintenance import drive_plan
 from wearsim.study.whole_drive.model import DriveLife
@@ -26,7 +27,6 @@ from wearsim.study.whole_drive.sheet import (
     first_text,
     part_rows,
     ratings_text,
-    shown_warnings,
     taken_for_granted,
     worn_most_text,
 )
@@ -115,14 +115,14 @@ class DrivePanel:
         with self._life:
             ui.label(found.drive.title).classes("ws-title").props("role=heading aria-level=2")
             ui.label(hours(found.life)).classes("ws-hours")
-            ui.label(first_text(drive_plan(found)))
+            ui.label(unbroken(first_text(drive_plan(found))))
             if found.overloaded:
                 ui.label(ratings_text(found)).classes("ws-overloaded")
             else:
                 ui.label(f"Ratings: {ratings_text(found)}.")
             rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
             row_list([*part_rows(found), *rows])
-            warning_list(shown_warnings(found))
+            warning_list(found.doubts)
 
     def _fill_ratings(self, found: DriveLife) -> None:
         self._ratings.clear()

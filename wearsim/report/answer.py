@@ -25,6 +25,9 @@ JUMPING = "min_slack_tension_N"
 REMOVED = "Removed"
 """Label of a check of the run, which ``--explain`` prints."""
 
+SAFE = "safe"
+"""What is said of a chain that does not jump by far."""
+
 _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
 
@@ -100,7 +103,7 @@ def jumping_margin(needed: float, limit: float) -> str:
     if needed >= limit * (1.0 - 1e-9):
         return "no margin"
     if _SAFE * needed <= limit:
-        return "safe"
+        return SAFE
     return f"{grouped(100.0 * (limit / needed - 1.0), 2)} % above what is needed"
 
 
@@ -223,15 +226,15 @@ def _limits_in_short(result: WearResult) -> str:
 
 def service_text(inputs: Mapping[str, Any], life: Life | LowerBound, before: float = 0.0) -> str:
     """Return a life in the measures that a case gives factors for, in words."""
+    bound = isinstance(life, LowerBound)
     text = ", ".join(
-        _measure(name, value) for name, value in service_measures(inputs, life.hours_run, before).items()
+        f"{'beyond' if bound else 'until'} {value}" if isinstance(value, str) else _measure(name, value)
+        for name, value in service_measures(inputs, life.hours_run, before).items()
     )
-    return f"more than {text}" if text and isinstance(life, LowerBound) else text
+    return f"more than {text}" if text and bound else text
 
 
-def _measure(name: str, value: float | str) -> str:
-    if isinstance(value, str):
-        return f"until {value}"
+def _measure(name: str, value: float) -> str:
     if name == "days" and value >= DAYS_OF_YEAR:
         return years_and_months(value)
     return f"{grouped(value)} {name}"

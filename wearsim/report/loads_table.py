@@ -1,5 +1,6 @@
 """What the teeth of a wrap carry, as a table and as JSON."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def loads_json(found: ToothLoads) -> dict[str, Any]:
         "teeth": teeth,
         "slack_tension_N": found.slack,
         "centrifugal_tension_N": found.centrifugal,
-        "min_slack_tension_N": found.smallest_slack,
+        "min_slack_tension_N": found.smallest_slack if math.isfinite(found.smallest_slack) else None,
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),
     }

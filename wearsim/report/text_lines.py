@@ -2,13 +2,16 @@
 
 import re
 import textwrap
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 
 _WIDTH = 100
 _LABEL = 13
 
 _GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
 """What sets thousands apart."""
+
+_NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
+"""A number as it is printed, with what sets its thousands apart."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
@@ -23,13 +26,24 @@ def row(label: str, text: str) -> str:
     """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
-        _GROUP.sub("\u00a0", text),
+        unbroken(text),
         _WIDTH,
         initial_indent=lead,
         subsequent_indent=" " * _LABEL,
         break_on_hyphens=False,
         break_long_words=False,
     ).replace("\u00a0", " ")
+
+
+def unbroken(text: str) -> str:
+    """Return a text that is not folded within a number.
+
+    Examples
+    --------
+    >>> [word.split() for word in unbroken("at 1 803 h").split(" ")]
+    [['at'], ['1', '803'], ['h']]
+    """
+    return _GROUP.sub("\u00a0", text)
 
 
 def numbered_assumptions(assumptions: tuple[str, ...]) -> str:
@@ -40,7 +54,12 @@ def numbered_assumptions(assumptions: tuple[str, ...]) -> str:
     >>> numbered_assumptions(("alike", "run.method = advance (default)", "wear.law = power (default)"))
     '1 alike; 2 defaults: run.method = advance, wear.law = power'
     """
-    shown, defaults = stated_and_defaults(assumptions)
+    return numbered(*stated_and_defaults(assumptions))
+
+
+def numbered(stated: Sequence[str], defaults: Sequence[str]) -> str:
+    """Return what is taken for granted with its numbers; the defaults taken share the last one."""
+    shown = list(stated)
     if defaults:
         shown.append("defaults: " + ", ".join(text.removesuffix(" (default)") for text in defaults))
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
@@ -54,7 +73,11 @@ def counted_assumptions(assumptions: tuple[str, ...]) -> str:
     >>> counted_assumptions(("alike", "run.method = advance (default)", "wear.law = power (default)"))
     '1 assumption and 2 defaults: --explain shows them'
     """
-    stated, defaults = stated_and_defaults(assumptions)
+    return counted(*stated_and_defaults(assumptions))
+
+
+def counted(stated: Sequence[str], defaults: Sequence[str]) -> str:
+    """Return how much is taken for granted, and how many defaults are taken."""
     return f"{_counted(stated, 'assumption')} and {_counted(defaults, 'default')}: --explain shows them"
 
 
@@ -84,10 +107,35 @@ def defaults_by_kind(texts: Iterable[str]) -> list[tuple[str, int]]:
     """
     found: dict[str, tuple[str, int]] = {}
     for text in texts:
-        kind = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", text)
+        kind = kind_of_text(text)
         first, count = found.get(kind, (text, 0))
         found[kind] = first, count + 1
     return sorted(found.values(), key=lambda entry: -entry[1])
+
+
+def kind_of_text(text: str) -> str:
+    """Return a text without its numbers.
+
+    Examples
+    --------
+    >>> kind_of_text("08B-1 from -4.5e3 h to 33 320 h")
+    '08B-1 from # h to # h'
+    """
+    return _NUMBER.sub("#", text)
+
+
+def with_ranges(texts: Sequence[str]) -> str:
+    """Return texts of one kind as one, with the range of each number that is not the same in all.
+
+    Examples
+    --------
+    >>> with_ranges(["error 0.12 exceeds 0.05", "error 0.083 exceeds 0.05", "error 0.1 exceeds 0.05"])
+    'error 0.083 to 0.12 exceeds 0.05'
+    """
+    columns = zip(*(_NUMBER.findall(text) for text in texts), strict=True)
+    ranges = (sorted(column, key=lambda number: float(number.replace(" ", ""))) for column in columns)
+    shown = iter([" to ".join(dict.fromkeys((each[0], each[-1]))) for each in ranges])
+    return _NUMBER.sub(lambda _: next(shown), texts[0])
 
 
 def literal(text: str) -> str:

@@ -318,7 +318,10 @@ class WrapMechanism:
         low = 1e-9 * self.pull.tight
         high = max(self.pull.tight - self.pull.slack, self.pull.slack)
         if not _holding(high):
-            return math.inf
+            # A chain that rides high on many teeth may jump where both of its strands are hard pulled.
+            high = self.pull.slack
+            if not _holding(high):
+                return math.inf
         if _holding(low):
             return low
         while high > 1.01 * low:

@@ -20,9 +20,9 @@ def case_tables(
     drive : CandidateDrive
         Chain, teeth, links.
     need : DriveRequirements
-        Load, factors and the wear rate of the joints.
+        Load and factors.
     condition : str
-        Row of the table of wear conditions.
+        Row of the table of wear conditions: of the teeth and, with their band, of the joints.
     hours_per_day : float
         Running hours of a day.
     """
@@ -43,7 +43,6 @@ def case_tables(
             "service_factor": _digits(need.service_factor),
             "joint_application_factor": _digits(need.joint_application_factor),
         },
-        "joint": {"specific_wear_rate_mm2_per_N": need.joint_rate},
         "load": {"power_kW": need.power, "speed_rpm": need.speed},
         "wear": {"condition": condition},
         # Rounded down, so that it stays within the rule.

@@ -28,6 +28,7 @@ from wearsim.result import Life
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
     from wearsim.study.whole_drive.keys import DriveCase
     from wearsim.study.whole_drive.model import DriveLife
@@ -50,20 +51,46 @@ def are_drives(cases: Sequence[Path]) -> bool:
     return bool(drives)
 
 
-def load_one(path: Path, settings: Sequence[str], sprocket: str | None, as_json: bool = False) -> "Case":
-    """Return the case of an input, or of one sprocket where the input is a whole drive."""
+def load_one(
+    path: Path, settings: Sequence[str], sprocket: str | None, as_json: bool = False, or_else: str = ""
+) -> "Case":
+    """Return the case of an input, or of one sprocket where the input is a whole drive.
+
+    What may be given in place of a sprocket is told where none is.
+    """
     if not is_drive(path):
         if sprocket is not None:
             raise click.UsageError(f"--sprocket belongs to a whole drive, but {path} is none: leave it out")
         (case,) = load_cases([path], settings, as_json)
         return case
-    drive = _loaded(path, settings, as_json)
-    cases = {one.name: one.case for one in drive.sprockets}
+    cases = _titled_cases(_loaded(path, settings, as_json))
     if sprocket not in cases:
-        got = "" if sprocket is None else f" (got {sprocket!r})"
+        got = or_else if sprocket is None else f" (got {sprocket!r})"
         names = ", ".join(map(repr, cases))
         raise click.UsageError(f"{path} is a whole drive: give --sprocket, one of {names}{got}")
-    return replace(cases[sprocket], title=f"{drive.title}: {sprocket}")
+    return cases[sprocket]
+
+
+def _titled_cases(drive: "DriveCase") -> "dict[str, Case]":
+    """Return the cases of all sprockets under titles that say which one of what drive it is."""
+    return {one.name: replace(one.case, title=f"{drive.title}: {one.name}") for one in drive.sprockets}
+
+
+def export_wheels(
+    path: Path, settings: Sequence[str], out: Path, form: str, states: "Sequence[State]", force: bool
+) -> None:
+    """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
+    from wearsim.export.wheel_formats import export
+    from wearsim.files import new_folder
+    from wearsim.report.html.page_writer import page_names
+
+    check_folder(out, force)
+    cases = _titled_cases(_loaded(path, settings, False))
+    results = lived([path], settings, False)[path].results if "worn" in states else {}
+    with new_folder(out, force) as place:
+        for file, (name, case) in zip(page_names(list(cases)), cases.items(), strict=True):
+            (place / f"{file}.{form}").write_bytes(export(case, results.get(name), states, form))
+    warn(f"written to {out}: {len(cases)} wheels")
 
 
 def loaded_teeth(
@@ -246,9 +273,8 @@ def _check_text(drive: "DriveCase", path: Path) -> str:
 def _check_warnings(drive: "DriveCase") -> tuple[str, ...]:
     from wearsim.chain.selection import rating_warnings
 
-    own = [text for one in drive.sprockets for text in one.case.warnings]
     case = drive.driver.case
-    return tuple(dict.fromkeys([*own, *rating_warnings(case.drive.ratings(case))]))
+    return (*drive.warnings, *rating_warnings(case.drive.ratings(case)))
 
 
 def report_sheet(

@@ -14,10 +14,11 @@ from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.kernels.compiled import expect
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
-from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
+from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
+from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 from wearsim.study.whole_drive.wheels import (
     DRIVEN,
     DRIVER,
@@ -35,6 +36,10 @@ SERVICE_YEARS, LONGEST = 100.0, 1e6
 
 JOINT_FRICTION = 0.11
 """Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
+
+
+_GIVES_LINKS = "centre_distance_mm"
+"""Key of [drive] from which the links follow."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +79,13 @@ class DriveCase:
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """What is taken for granted of any sprocket, each once."""
-        return tuple(dict.fromkeys(text for one in self.sprockets for text in one.case.assumptions))
+        """What is taken for granted, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.assumptions for one in self.sprockets}, self.wheels)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful before a run, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
 
 
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
@@ -134,20 +144,26 @@ def _sprockets(
 ) -> list[DriveSprocket]:
     """Return the cases of all sprockets; what is wrong with them goes to the faults of the drive."""
     seen: set[tuple[str, str]] = set()
-    found = []
-    for number, wheel in enumerate(wheels):
+    found: dict[int, list[DriveSprocket]] = {}
+    links: int | None = None
+    first = sorted(enumerate(wheels), key=lambda entry: (bool(entry[1].cogs), entry[1].role != DRIVER))
+    for number, wheel in first:
+        found[number] = []
         all_teeth = [teeth for teeth, _ in wheel.cogs] or [int(wheel.table["teeth"])]
         for name, teeth in zip(wheel.parts, all_teeth, strict=True):
             running = [
                 replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
             ]
-            case = _case(document, running, shares, number, seen)
+            case = _case(document, running, shares, number, seen, links if wheel.cogs else None)
             if case is not None:
-                found.append(DriveSprocket(name, wheel.role, case))
+                found[number].append(DriveSprocket(name, wheel.role, case))
+                # One chain runs on all cogs: that which fits the one that runs longest.
+                links = links or wrap_drive(case, "a drive has a chain").layout.links
+    sprockets = [one for number in range(len(wheels)) for one in found[number]]
     place = next((place for place, wheel in enumerate(wheels) if wheel.cogs), None)
     if place is None or document.faults.count:
-        return found
-    return _sharing_time(found, wheels[place], place)
+        return sprockets
+    return _sharing_time(sprockets, wheels[place], place)
 
 
 def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: int) -> list[DriveSprocket]:
@@ -219,9 +235,14 @@ def _case(
     shares: tuple[float, ...],
     number: int,
     seen: set[tuple[str, str]],
+    links: int | None,
 ) -> Case | None:
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
-    own = Document(document.name, document.folder, _tables(document.data, wheels, number), Faults("", "", ()))
+    tables = _tables(document.data, wheels, number)
+    if links is not None:
+        tables["drive"] = {key: value for key, value in tables["drive"].items() if key != _GIVES_LINKS}
+        tables["drive"]["links"] = links
+    own = Document(document.name, document.folder, tables, Faults("", "", ()))
     place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
     case = None
     try:
@@ -234,8 +255,9 @@ def _case(
             if case is not None:
                 message = f"{wheels[number].name!r}: {message}"
                 key = _slack_key(key, wheels)
-            # Of the loop each cog of a cassette has the same fault in other numbers.
-            same = (key, "" if fault.key == LOOP_KEY else message)
+            # Of loop and load each sprocket has the same fault in other numbers.
+            alike = fault.key == LOOP_KEY or key.startswith(("load.", "duty."))
+            same = (key, "" if alike else message)
             if same not in seen:
                 document.faults.add(key, message)
             seen.add(same)

@@ -4,15 +4,21 @@ import math
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.selection import RatingFinding, rating_warnings
+from wearsim.errors import ContactError, ConvergenceError
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
+from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
 CHAIN = "chain"
+
+
+class _GivenUpError(Exception):
+    """The run of another sprocket of the drive has failed."""
 
 
 @dataclass(frozen=True)
@@ -77,16 +83,18 @@ class DriveLife:
         return self.results[self.drive.driver.name].overloaded
 
     @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is doubtful but the ratings, each once, with the sprockets that it is about."""
+        texts = {
+            name: [text for text in result.warnings if text not in rating_warnings(result.ratings)]
+            for name, result in self.results.items()
+        }
+        return said_of_sprockets(texts, self.drive.wheels)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
-        """What is doubtful, each once, with the sprocket where it is about one."""
-        found: dict[str, list[str]] = {}
-        for name, result in self.results.items():
-            for text in result.warnings:
-                found.setdefault(text, []).append(name)
-        return tuple(
-            text if len(names) == len(self.results) else f"{', '.join(names)}: {text}"
-            for text, names in found.items()
-        )
+        """What is doubtful: first the ratings that are not kept, with the loads and speeds of the driver."""
+        return (*rating_warnings(self.results[self.drive.driver.name].ratings), *self.doubts)
 
 
 def drive_life(
@@ -122,10 +130,12 @@ def drive_life(
         As `wearsim.simulate` does for the case of a sprocket.
     """
     done = dict.fromkeys((one.name for one in drive.sprockets), 0.0)
-    lock = threading.Lock()
+    lock, given_up = threading.Lock(), threading.Event()
 
     def _watch(name: str) -> Callable[[float], None]:
         def _report(part: float) -> None:
+            if given_up.is_set():
+                raise _GivenUpError
             with lock:
                 done[name] = part
                 progress(math.fsum(done.values()) / len(done))
@@ -135,8 +145,16 @@ def drive_life(
     def _run(one: DriveSprocket) -> WearResult:
         report = _watch(one.name)
         report(0.0)  # may end what nobody waits for before it begins
-        return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+        try:
+            return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+        except (ContactError, ConvergenceError) as error:
+            raise type(error)(f"{one.name!r}: {error}") from error
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
-        return DriveLife(drive, {name: run.result() for name, run in runs.items()})
+        try:
+            ended, _ = wait(runs.values(), return_when=FIRST_EXCEPTION)
+        finally:
+            given_up.set()  # one has failed, or the user has stopped them
+        results = {name: run.result() for name, run in runs.items() if run in ended}
+    return DriveLife(drive, results)

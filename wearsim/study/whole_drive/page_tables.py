@@ -16,7 +16,7 @@ from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.sheet import sprocket_ending
+from wearsim.study.whole_drive.sheet import part_ending
 from wearsim.study.whole_drive.wheels import DriveWheel
 
 
@@ -234,7 +234,7 @@ def life_table(found: DriveLife) -> PageTable:
                 hours(life),
                 _band(found, name, life),
                 *(_measured(found, life, measure) for measure in measures),
-                _ends(found, name, life),
+                part_ending(found, name),
             )
         )
     head = ("part", "life", "over the band", *measures, "what ends it")
@@ -262,15 +262,6 @@ def _band(found: DriveLife, name: str, life: Life | LowerBound) -> str:
         scale = life.hours / result.life.hours_run
         ends = [scale * end.hours_run for end in (result.life_low, result.life_high)]
     return f"{grouped(ends[0])} to {grouped(ends[1])} h"
-
-
-def _ends(found: DriveLife, name: str, life: Life | LowerBound) -> str:
-    if name == CHAIN:
-        limit = 100.0 * found.drive.driver.drive.joint.elongation_limit
-        return f"grown by {limit:.3g} %" if isinstance(life, Life) else f"not yet grown by {limit:.3g} %"
-    result, chains = found.results[name], found.chains_with(name)
-    text = sprocket_ending(result) if isinstance(life, Life) else f"{result.max_depth:.3g} mm worn by then"
-    return f"{text}, chain {chains}" if chains > 1 else text
 
 
 def plan_table(plan: DrivePlan) -> PageTable:

@@ -15,6 +15,7 @@ from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import hours, overload_text
 from wearsim.report.html.sketch import sketch
+from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
 from wearsim.study.whole_drive.layout_sketch import flank_place, layout_sketch
@@ -33,7 +34,7 @@ from wearsim.study.whole_drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.study.whole_drive.sheet import first_text, shown_warnings, taken_for_granted, within_text
+from wearsim.study.whole_drive.sheet import first_text, jumping_text, taken_for_granted, within_text
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
@@ -77,6 +78,7 @@ class SheetPage:
     first: str
     overloaded: str  # empty where it is not
     within: str
+    jumping: str
     layout: Markup
     ratings: PageTable
     rating_notes: tuple[str, ...]
@@ -93,9 +95,9 @@ class SheetPage:
     plan_rule: str
     plan_goes_on: bool
     flanks: list[FlankPicture]
-    warnings: list[str]
-    assumptions: list[str]
-    defaults: list[str]
+    warnings: tuple[str, ...]
+    assumptions: tuple[str, ...]
+    defaults: tuple[str, ...]
 
 
 def save_sheet(found: DriveLife, head: SheetHead, out: Path, force: bool) -> Path:
@@ -148,9 +150,10 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         title=drive.title,
         head=head.rows,
         life=hours(found.life),
-        first=first_text(plan),
+        first=unbroken(first_text(plan)),
         overloaded=overload_text(driver),
         within=within_text(driver),
+        jumping=jumping_text(found),
         layout=layout_sketch(drive),
         ratings=ratings,
         rating_notes=notes,
@@ -170,7 +173,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
             FlankPicture(flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
         ],
-        warnings=shown_warnings(found),
+        warnings=found.doubts,
         assumptions=assumptions,
         defaults=defaults,
     )

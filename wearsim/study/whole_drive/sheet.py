@@ -5,20 +5,18 @@ from collections.abc import Sequence
 from typing import Any
 
 from wearsim.quantities import grouped
-from wearsim.report.answer import ending, hours, overload_text, service_text
-from wearsim.report.service import service_keys
-from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row, stated_and_defaults
+from wearsim.report.answer import JUMPING, SAFE, ending, hours, jumping_margin, overload_text, service_text
+from wearsim.report.service import service_keys, service_measures
+from wearsim.report.text_lines import counted, numbered, row, stated_and_defaults
 from wearsim.result import Life, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
-
-_RATED = "outside a rating"
-"""What warnings say of what stands among the ratings."""
+from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
 _MAX_WARNINGS = 1
-_MAX_ROWS = 4
+_MAX_ROWS = 3
 """Sprockets with a row of their own; the cogs of a cassette share one where there are more."""
 _MAX_THEN = 2
 """Stops that are named after the first one."""
@@ -34,7 +32,7 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
         ("Worn most", worn_most_text(found, explain)),
         *((("Band from", _band_source(found)),) if explain else ()),
         ("Warnings", _warnings(found, explain)),
-        ("Assumes", (numbered_assumptions if explain else counted_assumptions)(_assumptions(found))),
+        ("Assumes", (numbered if explain else counted)(*taken_for_granted(found))),
         ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
     ]
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
@@ -49,9 +47,21 @@ def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
 
 
 def ratings_text(found: DriveLife) -> str:
-    """Return in words whether a drive is within its ratings."""
+    """Return in words whether a drive is within its ratings, and whether its chain may jump."""
     driver = found.results[found.drive.driver.name]
-    return f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
+    rated = f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
+    return f"{rated}; {jumping_text(found)}"
+
+
+def jumping_text(found: DriveLife) -> str:
+    """Return in words whether the chain may jump, with the sprocket on which it is nearest to that."""
+    states = {
+        name: next(state for state in result.limits if state.name == JUMPING)
+        for name, result in found.results.items()
+    }
+    nearest = max(states, key=lambda name: states[name].value / states[name].limit)
+    margin = jumping_margin(states[nearest].value, states[nearest].limit)
+    return f"jumping: {margin}" if margin == SAFE else f"jumping: {margin} on the {part_name(nearest)}"
 
 
 def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
@@ -93,24 +103,25 @@ def _part(found: DriveLife, name: str) -> str:
     if service:
         text += f"   ({service})"
     if name == CHAIN:
-        return f"{text}   grown by {_elongation_limit(found):.3g} %"
-    chains = found.chains_with(name)
-    result = found.results[name]
-    teeth = result.inputs["sprocket"]["teeth"]
-    worn = sprocket_ending(result) if isinstance(life, Life) else f"{result.max_depth:.3g} mm worn by then"
-    return f"{text}   {teeth} teeth, {worn}" + (f", chain {chains}" if chains > 1 else "")
+        return f"{text}   {part_ending(found, name)}"
+    return f"{text}   {found.results[name].inputs['sprocket']['teeth']} teeth, {part_ending(found, name)}"
 
 
-def _elongation_limit(found: DriveLife) -> float:
-    limits = found.results[found.drive.driver.name].limits
-    return next(state.limit for state in limits if state.name == "elongation_percent")
+def part_ending(found: DriveLife, name: str) -> str:
+    """Return in words what ends the life of chain or sprocket, or that nothing does within the run."""
+    reached = isinstance(found.parts[name], Life)
+    if name == CHAIN:
+        limit = 100.0 * found.drive.driver.drive.joint.elongation_limit
+        return f"{'' if reached else 'not yet '}grown by {limit:.3g} %"
+    result, chains = found.results[name], found.chains_with(name)
+    text = _sprocket_ending(result) if reached else f"{result.max_depth:.3g} mm worn"
+    return f"{text}, chain {chains}" if chains > 1 else text
 
 
-def sprocket_ending(result: WearResult) -> str:
-    """Return in words what ends the life of a sprocket."""
-    state = next((one for one in result.limits if one.name == "critical_depth_mm"), None)
-    if result.stop == "elongation_percent" and state is not None:
-        return f"worn by {state.limit:.3g} mm"
+def _sprocket_ending(result: WearResult) -> str:
+    """Say by how much a sprocket is worn, or what else ended the run if the chain did not do so before."""
+    if result.stop in ("critical_depth_mm", "elongation_percent"):
+        return f"worn by {result.max_depth:.3g} mm"
     return ending(result)
 
 
@@ -120,7 +131,8 @@ def first_text(plan: DrivePlan) -> str:
     if not stops:
         return f"nothing is to be replaced within {grouped(plan.until)} h"
     first, *after = stops
-    text = f"replace {_parts_at(plan, first)}"
+    when = _in_service(plan, first.hours)
+    text = f"replace {_parts_at(plan, first)}" + (f" ({when})" if when else "")
     if first.parts == (CHAIN,):
         text += " and again after each such time"
     then = ", ".join(_parts_at(plan, stop) for stop in after[:_MAX_THEN])
@@ -133,6 +145,13 @@ def _parts_at(plan: DrivePlan, stop: Stop) -> str:
     chain = plan.chain_at(stop.hours)
     with_chain = f" with chain {chain}" if chain and CHAIN not in stop.parts else ""
     return f"{names}{with_chain} at {grouped(stop.hours)} h"
+
+
+def _in_service(plan: DrivePlan, at: float) -> str:
+    """Return on which day hours of running are over; how long that is where no day is known to begin."""
+    inputs = plan.drive.driver.case.inputs
+    day = service_measures(inputs, at).get("date")
+    return str(day) if day else service_text(inputs, Life(0.0, at))
 
 
 def part_name(name: str) -> str:
@@ -168,11 +187,11 @@ def _band_source(found: DriveLife) -> str:
 def worn_most_text(found: DriveLife, explain: bool = False) -> str:
     """Return in words where the teeth are worn most, on request of every sprocket."""
     results = found.results
-    if len(results) > _MAX_ROWS and not explain:
+    if not explain:
         deepest = max(results, key=lambda name: results[name].max_depth)
-        return f"{deepest} {_worn(results[deepest])} from the gap's right tip"
+        return f"{deepest} {_worn(results[deepest])} from the right tip"
     places = "; ".join(f"{name} {_worn(result)}" for name, result in results.items())
-    return f"{places} from the gap's right tip"
+    return f"{places} from the right tip"
 
 
 def _worn(result: WearResult) -> str:
@@ -180,13 +199,8 @@ def _worn(result: WearResult) -> str:
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
 
 
-def shown_warnings(found: DriveLife) -> list[str]:
-    """Return the warnings but those of ratings, which stand beside the ratings."""
-    return [text for text in found.warnings if _RATED not in text]
-
-
 def _warnings(found: DriveLife, explain: bool) -> str:
-    warnings = shown_warnings(found)
+    warnings = found.doubts
     if explain or not warnings:
         return "; ".join(warnings) or "none"
     shown = warnings[:_MAX_WARNINGS]
@@ -194,24 +208,12 @@ def _warnings(found: DriveLife, explain: bool) -> str:
     return "; ".join(shown) + (f"; and {more} more (--explain)" if more else "")
 
 
-def _assumptions(found: DriveLife) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(text for result in found.results.values() for text in result.assumptions))
-
-
-def taken_for_granted(found: DriveLife) -> tuple[list[str], list[str]]:
+def taken_for_granted(found: DriveLife) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return what is taken for granted, and the defaults, each once with the sprockets it is about."""
-    names: dict[str, list[str]] = {}
-    for name, result in found.results.items():
-        for text in result.assumptions:
-            names.setdefault(text, []).append(name)
-    stated, defaults = stated_and_defaults(tuple(names))
-    return [_about(text, names[text], found) for text in stated], [
-        _about(text, names[text], found) for text in defaults
-    ]
-
-
-def _about(text: str, names: Sequence[str], found: DriveLife) -> str:
-    return text if len(names) == len(found.results) else f"{', '.join(names)}: {text}"
+    split = {name: stated_and_defaults(result.assumptions) for name, result in found.results.items()}
+    stated, defaults = ({name: texts[kind] for name, texts in split.items()} for kind in (0, 1))
+    wheels = found.drive.wheels
+    return said_of_sprockets(stated, wheels), said_of_sprockets(defaults, wheels)
 
 
 def drive_json(found: DriveLife) -> dict[str, Any]:

@@ -121,14 +121,7 @@ def _wheel(number: int, table: Mapping[str, Any], count: int, faults: Faults) ->
 
 
 def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
-    names = [wheel.name for wheel in wheels]
-    for number, wheel in enumerate(wheels, start=1):
-        if wheel.name == "chain":
-            faults.add(f"sprocket.{number}.name", "must be another one: the chain is a part of its own")
-        if wheel.name in names[: number - 1]:
-            faults.add(
-                f"sprocket.{number}.name", f"sprockets need different names (got {wheel.name!r} twice)"
-            )
+    _check_names(wheels, faults)
     roles = [wheel.role for wheel in wheels]
     for role in (DRIVER, DRIVEN):
         if role not in roles:
@@ -160,6 +153,20 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     cassettes = [number for number, wheel in enumerate(wheels, start=1) if wheel.cogs]
     if len(cassettes) > 1:
         faults.add(f"sprocket.{cassettes[1]}.cog", "one sprocket can have cogs: remove those of the other")
+
+
+def _check_names(wheels: Sequence[DriveWheel], faults: Faults) -> None:
+    taken: set[str] = set()
+    for number, wheel in enumerate(wheels, start=1):
+        key = f"sprocket.{number}.name"
+        if wheel.name != wheel.name.strip() or not wheel.name.isprintable():
+            faults.add(key, f"must be one line without blanks at its ends (got {wheel.name!r})")
+        if wheel.name.lower() == "chain":
+            faults.add(key, "must be another one: the chain is a part of its own")
+        names = {wheel.name, *wheel.parts}
+        if twice := sorted(names & taken):
+            faults.add(key, f"sprockets need different names (got {twice[0]!r} twice)")
+        taken |= names
 
 
 def power_shares(document: Document, wheels: Sequence[DriveWheel]) -> tuple[float, ...]:
