@@ -96,6 +96,22 @@ def test_kernel_with_memory_of_its_own_is_left_to_numba():
     assert made(np.array([3.0, 21.0])) == 42.0
 
 
+NUMBA_FIRST = """
+from wearsim.kernels.compiled import kernel_of
+from wearsim.kernels.object_code import numba_function, object_code
+one = kernel_of("controlled_steps.between")
+assert numba_function(one, None).overloads
+print(len(object_code(one)))
+"""
+
+
+def test_kernel_that_numba_has_compiled_in_full_before_is_linked_all_the_same():
+    """In a process of its own: what numba compiles in full first depends on what ran before."""
+    done = subprocess.run([sys.executable, "-c", NUMBA_FIRST], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 1000
+
+
 def test_processes_without_the_libraries_of_c_leave_kernels_to_numba(monkeypatch, tmp_path):
     monkeypatch.setattr(compiled, "usable", lambda: False)
     known = kernel_of("controlled_steps.states_between")
