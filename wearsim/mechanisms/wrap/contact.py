@@ -114,12 +114,13 @@ class WrapContact(RestingContact):
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
-        """Return the contact on every second point and half of the phases."""
+        """Return the contact on every second point and half of the phases; one phase becomes two."""
         outline = self.profile
         points = outline.x.size
         keep = np.unique(np.linspace(0, points - 1, (points + 1) // 2).round().astype(int))
         coarse = Profile(outline.x[keep], outline.y[keep])
-        return replace(self.on_outline(coarse), phases=max(1, self.phases // 2))
+        phases = 1 if self.phases == 2 else max(2, self.phases // 2)
+        return replace(self.on_outline(coarse), phases=phases)
 
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline."""
