@@ -81,6 +81,13 @@ def test_cases_but_no_other_files(complete):
     assert complete("life", "drive.toml", "cases/a") == plain("cases/a.toml")
 
 
+def test_shipped_cases_once_something_is_typed(complete):
+    assert complete("life", "pack") == plain("packaging-conveyor")
+    assert complete("strength", "strength-b") == plain("strength-b-carburised")
+    assert complete("sweep", "teeth-") == plain("teeth-and-tension")
+    assert complete("check", "fzg-c14-16t-mild", "--set", "gear.mod") == plain("gear.module_mm=")
+
+
 def test_runs_for_compare(complete):
     assert complete("compare", "r") == plain("run")
     assert complete("life", "r") == ["file,r"]

@@ -130,7 +130,7 @@ def test_kernel_that_does_not_compile(cli, monkeypatch):
 
 
 def test_missing_files(cli, monkeypatch):
-    monkeypatch.setattr(wearsim.cli.doctor, "shipped_cases", list)
+    monkeypatch.setattr(wearsim.cli.doctor, "shipped_cases", dict)
     content, failed = findings(cli, 1)
     assert failed == ["self-test"]
     assert "missing" in content["self-test"]["found"]

@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 import click
 
-from wearsim.cli.list import shipped_cases
+from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.command.options import common_options
 
 _NOT_IN_ORDER = 1
@@ -23,8 +23,7 @@ def doctor(as_json: bool) -> int:
     """
     from wearsim.installation import installation_checks
 
-    case = next((path for path in shipped_cases() if path.stem == _SELF_TEST), None)
-    found = installation_checks(case)
+    found = installation_checks(shipped_cases().get(_SELF_TEST))
     failed = [one.name for one in found if one.state == "failed"]
     if as_json:
         content = {"schema_version": 1, "in_order": not failed, "findings": [asdict(one) for one in found]}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.cases_and_runs import check_settings
+from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, overrides, sprocket_option, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import CaseError, Fault, OutputError
@@ -25,7 +26,7 @@ _LONGER = 1000.0
 
 
 @click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
-@click.argument("source", type=click.Path(path_type=Path), metavar="CASE_OR_RUN")
+@click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
     "--out",
     type=click.Path(path_type=Path, allow_dash=True),

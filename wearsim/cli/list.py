@@ -1,29 +1,70 @@
 """``wearsim list``: the tables that come with wearsim."""
 
 import json
+import textwrap
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import click
 
 from wearsim.command.options import common_options
 
-_TABLES = ("chains", "materials", "wear-conditions", "cases", "quantities")
+_WIDTH = 100
+_DOUBTFUL = "?"
+
+_COLUMNS: dict[str, dict[str, str]] = {
+    "chains": {
+        "designation": "designation",
+        "pitch_mm": "p\nmm",
+        "roller_diameter_mm": "d1\nmm",
+        "inner_width_mm": "b1\nmm",
+        "pin_diameter_mm": "d2\nmm",
+        "bearing_area_mm2": "A\nmm2",
+        "transverse_pitch_mm": "p_t\nmm",
+        "tensile_kN": "Q\nkN",
+        "mass_kg_per_m": "q\nkg/m",
+        "source": "source",
+        _DOUBTFUL: _DOUBTFUL,
+    },
+    "materials": {
+        "name": "name",
+        "youngs_modulus_MPa": "E\nMPa",
+        "poissons_ratio": "nu",
+        "density_kg_per_m3": "rho\nkg/m3",
+        "source": "source",
+    },
+    "wear-conditions": {
+        "condition": "condition",
+        "lubricated": "lubri-\ncated",
+        "low_mm2_per_N": "k low\nmm2/N",
+        "typical_mm2_per_N": "typical",
+        "high_mm2_per_N": "high",
+        "joint_low_mm2_per_N": "k_j low\nmm2/N",
+        "joint_typical_mm2_per_N": "typical",
+        "joint_high_mm2_per_N": "high",
+    },
+    "cases": {"name": "name", "command": "command", "title": "title"},
+    "quantities": {"name": "name", "symbol": "symbol", "unit": "unit", "meaning": "meaning"},
+}
+"""Columns of each table on the screen, with their headings; JSON has all of them, under their names."""
 
 
 @click.command("list", short_help="Chains, materials, wear conditions, cases, quantities.")
-@click.argument("table", type=click.Choice(_TABLES))
-@click.option("--json", "as_json", is_flag=True, help="As a JSON array.")
+@click.argument("table", type=click.Choice(tuple(_COLUMNS)))
+@click.option("--json", "as_json", is_flag=True, help="As a JSON array, with all columns.")
 @common_options
 def list_table(table: str, as_json: bool) -> None:
-    """Print a TABLE with the source of its numbers."""
+    """Print a TABLE with the source of its numbers.
+
+    The rows of cases are those that come with wearsim; a command takes them by their names.
+    """
     rows = _rows(table)
     if as_json:
         click.echo(json.dumps(rows, ensure_ascii=False))
         return
-    names = list(rows[0])
-    widths = {name: max(len(name), *(len(row[name]) for row in rows)) for name in names}
-    for row in ({name: name for name in names}, *rows):
-        click.echo("  ".join(f"{row[name]:<{widths[name]}}" for name in names).rstrip())
+    click.echo(_table_text(_COLUMNS[table], rows))
+    for line in (*_legend(_COLUMNS[table]), *_sources(_COLUMNS[table], rows), *_doubts(table)):
+        click.echo(line)
 
 
 def _rows(table: str) -> list[dict[str, str]]:
@@ -32,24 +73,61 @@ def _rows(table: str) -> list[dict[str, str]]:
 
         return [vars(quantity) for quantity in quantities().values()]
     if table == "cases":
-        return [_case(path) for path in shipped_cases()]
+        from wearsim.catalogue.shipped_cases import shipped_cases
+
+        return [_case(name, path) for name, path in shipped_cases().items()]
     from wearsim.catalogue.catalogues import catalogue_rows
 
     return list(catalogue_rows(table.replace("-", "_")))
 
 
-def shipped_cases() -> list[Path]:
-    """Return the cases that come with wearsim, whole drives last."""
-    package = Path(__file__).parent.parent
-    for folder in (package / "cases", package.parent / "cases"):
-        found = [*sorted(folder.glob("*.toml")), *sorted(folder.glob("drives/*.toml"))]
-        if found:
-            return found
-    return []
-
-
-def _case(path: Path) -> dict[str, str]:
+def _case(name: str, path: Path) -> dict[str, str]:
     import tomllib
 
-    title = tomllib.loads(path.read_text(encoding="utf-8")).get("title", "")
-    return {"file": str(path), "title": title}
+    from wearsim.input.other_files import command_of
+
+    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    return {"name": name, "command": command_of(tables), "title": tables.get("title", ""), "file": str(path)}
+
+
+def _table_text(columns: Mapping[str, str], rows: list[dict[str, str]]) -> str:
+    """Return some columns side by side, long words folded so that a line has at most 100 characters."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
+    for name, heading in columns.items():
+        if "_" in name:
+            table.add_column(heading, justify="right", no_wrap=True)
+        else:
+            table.add_column(heading, overflow="fold")
+    for row in rows:
+        flag = _DOUBTFUL if "doubtful" in row.get("trust", "") else ""
+        table.add_row(*({**row, _DOUBTFUL: flag}[name] for name in columns))
+    console = Console(width=_WIDTH, color_system=None, markup=False, emoji=False, highlight=False)
+    with console.capture() as shown:
+        console.print(table)
+    return "\n".join(line.rstrip() for line in shown.get().splitlines())
+
+
+def _legend(columns: Mapping[str, str]) -> Iterator[str]:
+    """Give what the symbols above columns stand for."""
+    from wearsim.quantities import quantities
+
+    known = (quantities()[name] for name in columns if name in quantities())
+    lines = [f"{one.symbol:<4} {one.meaning}" for one in known if one.symbol]
+    yield from ["", *lines] if lines else []
+
+
+def _sources(columns: Mapping[str, str], rows: list[dict[str, str]]) -> Iterator[str]:
+    """Give the sources of each row where they are too long for a column."""
+    for name in (name for name in rows[0] if name.endswith("source") and name not in columns):
+        yield f"\n{name.replace('_', ' ')}"
+        for row in rows:
+            text = f"{next(iter(row.values()))}: {row[name]}"
+            yield textwrap.fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+
+
+def _doubts(table: str) -> Iterator[str]:
+    if _DOUBTFUL in _COLUMNS[table]:
+        yield f"{_DOUBTFUL:<4} has doubtful numbers: wearsim list {table} --json names them in trust and note"

@@ -11,55 +11,15 @@ from types import FrameType
 import click
 
 from wearsim._version import __version__
-from wearsim.cli.animate import animate
-from wearsim.cli.check import check
-from wearsim.cli.cite import cite
-from wearsim.cli.compare import compare
-from wearsim.cli.completion import completion, use_own_bash
-from wearsim.cli.doctor import doctor
-from wearsim.cli.export import export
-from wearsim.cli.init import init
-from wearsim.cli.life import life
-from wearsim.cli.list import list_table
-from wearsim.cli.loads import loads
-from wearsim.cli.profile import profile
-from wearsim.cli.report import report
-from wearsim.cli.schema import schema
-from wearsim.cli.ui import ui
-from wearsim.cli.warm import warm
+from wearsim.cli.command_groups import COMMAND_GROUPS, CommandGroups
+from wearsim.cli.completion import use_own_bash
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
-from wearsim.handbook.convex_concave.command import convex_concave
-from wearsim.handbook.face_load.command import face_load
-from wearsim.handbook.hertz_check.command import hertz_check
-from wearsim.handbook.stiffness_spectrum.command import stiffness_spectrum
-from wearsim.handbook.strength.command import strength
-from wearsim.handbook.synthesise.command import synthesise
-from wearsim.handbook.wave_drive.command import wave_drive
-from wearsim.study.calibrate.command import calibrate
-from wearsim.study.maintain.command import maintain
-from wearsim.study.optimise.command import optimise
-from wearsim.study.remaining.command import remaining
-from wearsim.study.select.command import select
-from wearsim.study.sensitivity.command import sensitivity
-from wearsim.study.sweep.command import sweep
-from wearsim.study.uncertainty.command import uncertainty
 
-_EXAMPLES = """\b
-How long will this sprocket live?
-  wearsim init --out pair.toml       a whole drive from what is known of it
-  wearsim init --teeth 20 > drive.toml         a case of one of its sprockets
-  wearsim check drive.toml           is it complete, and can it run?
-  wearsim life drive.toml            the life in hours
-  wearsim compare drive.toml other.toml --out reports/first
-  wearsim report drive.toml --out reports/page      pages for a browser
-  wearsim ui drive.toml              a local page: edit it, see the life change
-  wearsim select --power "3 kW" --rpm 120 --ratio 2.7 --hours 15000
-  wearsim maintain drive.toml        when to replace the chain, and the cost
-  wearsim remaining drive.toml --hours 4200 --depth-mm 0.18
-  wearsim calibrate drive.toml readings.csv         coefficients and hours left
-  wearsim uncertainty drive.toml     what 9 of 10, half, 1 of 10 drives exceed
-  wearsim optimise drive.toml        the best profile by its table [optimise]
+_HELP = """How long will this sprocket live?
+
+Start from what you know of a drive (init, select, ui), then ask for its life. CASE is a file
+(.toml), - for standard input, or the name of a shipped case (wearsim list cases).
 
 \b
 Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
@@ -82,7 +42,12 @@ def announce_compiling() -> None:
     compile_by(compile_together)
 
 
-@click.group(help=_EXAMPLES, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    cls=CommandGroups,
+    help=_HELP,
+    short_help="Life of chain drives and gears by wear.",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(__version__, prog_name="wearsim")
 @common_options
 def wearsim_command() -> None:
@@ -90,40 +55,10 @@ def wearsim_command() -> None:
     announce_compiling()
 
 
-for _command in (
-    life,
-    check,
-    loads,
-    profile,
-    export,
-    animate,
-    compare,
-    report,
-    ui,
-    select,
-    maintain,
-    remaining,
-    sweep,
-    uncertainty,
-    sensitivity,
-    calibrate,
-    optimise,
-    strength,
-    stiffness_spectrum,
-    wave_drive,
-    face_load,
-    convex_concave,
-    synthesise,
-    hertz_check,
-    init,
-    schema,
-    list_table,
-    cite,
-    doctor,
-    warm,
-    completion,
-):
-    wearsim_command.add_command(_command)
+for _commands in COMMAND_GROUPS.values():
+    for _command, _example in _commands.items():
+        _command.epilog = f"\b\nExample:\n  {_example}"
+        wearsim_command.add_command(_command)
 
 
 class _Interrupt:

@@ -5,11 +5,12 @@ from pathlib import Path
 import click
 
 from wearsim.command.cases_and_runs import results_of
+from wearsim.command.complete import RunPath
 from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
-@click.argument("sources", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RUN_OR_CASE...")
+@click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="RUN_OR_CASE...")
 @click.option(
     "--out",
     required=True,

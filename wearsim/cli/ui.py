@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.catalogue.shipped_cases import place_of_case
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, overrides, warn
 from wearsim.errors import OutputError
@@ -66,8 +67,12 @@ class _Opened:
         if self._path is None:
             file, text = new_file(NEW), start_text({})
         else:
-            file = read_file(self._path)
+            place = place_of_case(self._path)
+            file = read_file(place)
             text = file.text
+            if place != self._path:
+                # A shipped case is changed in a file of one's own.
+                file = new_file(Path(f"{self._path}.toml"))
         for setting in self._settings:
             text = _with_setting(text, setting)
         return file, text

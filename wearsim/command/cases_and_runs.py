@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.catalogue.shipped_cases import place_of_case
 from wearsim.command.options import error_json, exit_code, load_cases, show_error, worn
 from wearsim.errors import OutputError, WearsimError
 
@@ -20,8 +21,10 @@ def results_of(
     from wearsim.result import WearResult
 
     for path in sources:
-        if not path.is_dir() and path.suffix != ".toml" and str(path) != "-":
-            raise OutputError(f"{path}: must be a case (.toml) or the folder of a run")
+        if not path.is_dir() and place_of_case(path).suffix != ".toml" and str(path) != "-":
+            raise OutputError(
+                f"{path}: must be a case (.toml, or the name of a shipped one) or the folder of a run"
+            )
     check_settings(sources, settings)
     paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]
     cases = dict(zip(paths, load_cases(paths, settings, as_json), strict=True))

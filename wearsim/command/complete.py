@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.catalogue.shipped_cases import place_of_case, shipped_cases
+
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
@@ -30,13 +32,14 @@ class _OfferedPath(click.Path):
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> "list[CompletionItem[str]]":
-        """Offer what lies in the folder that is being typed, and one folder below."""
-        found = _items(path for path in _below(incomplete) if self.offered(Path(path)))
-        return found or super().shell_complete(ctx, param, incomplete)
+        """Offer what lies in the folder that is being typed and one below, then the shipped cases."""
+        paths = [path for path in _below(incomplete) if self.offered(Path(path))]
+        shipped = [name for name in shipped_cases() if incomplete and name.startswith(incomplete)]
+        return _items(iter([*paths, *shipped])) or super().shell_complete(ctx, param, incomplete)
 
 
 class CasePath(_OfferedPath):
-    """A case: ``.toml``, or - for one on stdin."""
+    """A case: ``.toml``, - for one on stdin, or the name of a shipped one."""
 
 
 class RunPath(_OfferedPath):
@@ -150,10 +153,10 @@ def _model(context: click.Context) -> "type[Table]":
 
 
 def _cases(context: click.Context) -> list[Path]:
-    """Words of the line that end like a case: half a line is not yet sorted into arguments."""
+    """Places of the words of the line that are cases: half a line is not yet sorted into arguments."""
     case = context.params.get("case")
     words = [*context.args, *([str(case)] if case else [])]
-    return [Path(word) for word in words if word.endswith(".toml")]
+    return [path for path in map(place_of_case, map(Path, words)) if path.suffix == ".toml"]
 
 
 def _is_gear(path: Path) -> bool:

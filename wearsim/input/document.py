@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from wearsim.catalogue.shipped_cases import place_of_case, similar_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.faults import Faults
 from wearsim.input.former_words import present_key, present_tables
@@ -41,13 +42,13 @@ class Document:
 
 
 def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
-    """Read a TOML file, or take its text or a mapping with the same tables."""
+    """Read a TOML file or a shipped case by its name, or take a text or a mapping with the same tables."""
     if isinstance(source, Mapping):
         file, name, text, folder = "case", "case", "", Path()
         _check_depth(dict(source), file)
         data = copy.deepcopy(dict(source))
     else:
-        path = source.path if isinstance(source, CaseText) else Path(source)
+        path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
         file, name, folder = str(path), "case" if path == STDIN else path.stem, path.parent
         text = source.text if isinstance(source, CaseText) else _text(path)
         data = _parsed(path, text)
@@ -130,7 +131,10 @@ def _text(path: Path) -> str:
     try:
         return (stdin_bytes() if path == STDIN else path.read_bytes()).decode("utf-8-sig")
     except OSError as error:
-        raise CaseError([Fault(f"must be a readable file: {error.strerror}", "", str(path))]) from None
+        similar = similar_case(path)
+        hint = f"; did you mean the shipped case {similar!r}?" if similar else ""
+        text = f"must be a readable file: {error.strerror}{hint}"
+        raise CaseError([Fault(text, "", str(path))]) from None
     except UnicodeDecodeError:
         raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
 

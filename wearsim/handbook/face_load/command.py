@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import CalculationSheet
 
 
-@calculation("face-load", "Face load factor of a wide misaligned pair, new and run in.")
+@calculation("face-load", "Face load factor of a misaligned pair, new and run in.")
 def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Spread the load of the pair of CASE over its face width, and wear the flanks.
 

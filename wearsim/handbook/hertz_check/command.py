@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @calculation(
     "hertz-check",
-    "Contact stress of a gear pair at the pitch point, against a published one and finite elements.",
+    "Contact stress of gears, held against finite elements.",
     click.option("--fem", is_flag=True, help="Solve it by finite elements too (pip install 'wearsim[fem]')."),
 )
 def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "CalculationSheet":

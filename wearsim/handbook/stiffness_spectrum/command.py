@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import CalculationSheet
 
 
-@calculation("stiffness-spectrum", "Spectrum of the mesh stiffness of gears with pitch errors.")
+@calculation("stiffness-spectrum", "Mesh stiffness spectrum of gears with pitch errors.")
 def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Give the lines of the mesh stiffness of the gear pair of CASE with its pitch errors.
 

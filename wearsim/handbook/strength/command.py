@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import CalculationSheet
 
 
-@calculation("strength", "Allowable stresses, life factors and fatigue life of a gear pair.")
+@calculation("strength", "Allowable stresses and fatigue life of a gear pair.")
 def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Find what the teeth of the gear pair of CASE endure, in contact, in bending, in overloads.
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import CalculationSheet
 
 
-@calculation("synthesise", "Profiles of a gear pair with a prescribed contact stress.")
+@calculation("synthesise", "Profiles of gears with a prescribed contact stress.")
 def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Find paths of contact and both profiles with the contact stress that CASE prescribes.
 

@@ -4,21 +4,22 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, overrides, warn
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 
 @click.command(short_help="Lives over values of any keys: grids, lists, designs.")
-@click.argument("study", type=click.Path(path_type=Path), metavar="STUDY.toml")
+@click.argument("study", type=CasePath(path_type=Path), metavar="STUDY")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
 @study_options
 @overrides
 @common_options
 def sweep(study: Path, as_json: bool, place: StudyOptions, settings: tuple[str, ...]) -> int:
-    """Run a case over values of its keys and print the lives.
+    """Run the case of STUDY (.toml) over values of its keys and print the lives.
 
-    STUDY.toml names the case and gives values in [grid] (every combination), [[zip]] (keys that
+    STUDY names the case and gives values in [grid] (every combination), [[zip]] (keys that
     go together) and [[design]] (as they are). --set overrides keys of the case.
 
     With --out, DIR holds cases.csv, summary.md, pictures, and what is finished: run again, the

@@ -51,7 +51,7 @@ def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
         tuple(itertools.chain.from_iterable(parts))
         for parts in itertools.product(*(axis.rows for axis in axes))
     ]
-    document, written = (read_document(path.parent / tables.case, sets) for sets in (overrides, ()))
+    document, written = (read_document(given.folder / tables.case, sets) for sets in (overrides, ()))
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
