@@ -1,10 +1,15 @@
 """``wearsim ui``: what is refused before a page is served; tests/browser has the rest."""
 
 import importlib.util
+import io
 import socket
+import sys
+from pathlib import Path
 
 import pytest
 
+from wearsim.cli.ui import _Opened
+from wearsim.input.document import stdin_bytes
 from wearsim.page import request_guard as listener
 
 FOUND = importlib.util.find_spec("click")
@@ -68,3 +73,15 @@ def test_there_is_no_other_address(cli):
 def test_help_names_the_extra(cli):
     done = cli("ui", "--help")
     assert done.code == 0 and "wearsim[ui]" in done.out
+
+
+def test_a_page_begins_with_what_is_typed_or_with_a_shipped_case(monkeypatch):
+    """Neither is a file that the page could write over."""
+    stdin_bytes.cache_clear()
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"title = 'typed'\n")))
+    file, text = _Opened(Path("-"), ())()
+    stdin_bytes.cache_clear()
+    assert (file.path, file.content, text) == (Path("drive.toml"), None, "title = 'typed'\n")
+    file, text = _Opened(Path("16b-20t-oiled"), ())()
+    assert (file.path, file.content) == (Path("16b-20t-oiled.toml"), None)
+    assert 'designation = "16B-1"' in text

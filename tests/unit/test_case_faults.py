@@ -355,3 +355,17 @@ def test_mapping_is_left_as_it_was():
     load_case(tables, ["sprocket.teeth=21"])
     assert tables["sprocket"]["teeth"] == 20
     assert tables["load"]["power_kW"] == "3 kW"
+
+
+@pytest.mark.parametrize(
+    ("setting", "hint"),
+    [
+        ("load.tenson_N=3", "'tension_N'"),
+        ("lod.tension_N=3", "'load'"),
+        ("power_kW=3", "'load.power_kW' or 'duty.power_kW'"),
+        ("drive.centre=800", "'centre_distance_mm'"),
+    ],
+)
+def test_misspelt_override_names_the_key_that_is_meant(faults, setting, hint):
+    (found,) = faults(MINIMAL, setting)
+    assert found.endswith(f"; did you mean {hint}?")

@@ -61,11 +61,14 @@ class _Opened:
         self._path, self._settings = path, settings
 
     def __call__(self) -> "tuple[CaseFile, str]":
+        from wearsim.input.document import STDIN, text_of
         from wearsim.page.case_file import NEW, new_file, read_file
         from wearsim.study.whole_drive.drive_start import start_text
 
         if self._path is None:
             file, text = new_file(NEW), start_text({})
+        elif self._path == STDIN:
+            file, text = new_file(NEW), text_of(STDIN)
         else:
             place = place_of_case(self._path)
             file = read_file(place)

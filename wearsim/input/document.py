@@ -50,7 +50,7 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     else:
         path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
         file, name, folder = str(path), "case" if path == STDIN else path.stem, path.parent
-        text = source.text if isinstance(source, CaseText) else _text(path)
+        text = source.text if isinstance(source, CaseText) else text_of(path)
         data = _parsed(path, text)
     keys = [item.partition("=")[0].strip() for item in overrides]
     faults = Faults(file, text, keys)
@@ -127,7 +127,8 @@ def stdin_bytes() -> bytes:
     return sys.stdin.buffer.read()
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path) -> str:
+    """Return the text of a file, or what is on standard input."""
     try:
         return (stdin_bytes() if path == STDIN else path.read_bytes()).decode("utf-8-sig")
     except OSError as error:

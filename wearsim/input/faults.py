@@ -12,6 +12,7 @@ from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
 _MAX_SHOWN = 20
+_MAX_SIMILAR = 3
 
 
 class Faults:
@@ -155,13 +156,18 @@ def _similar(key: str, names: list[str]) -> str:
     table, _, last = without_numbers(key).rpartition(".")
     if table and table not in names:
         return ""
-    siblings = {name.rpartition(".")[2]: name for name in names if name.rpartition(".")[0] == table}
-    close = difflib.get_close_matches(last, siblings, n=1, cutoff=0.6)
-    if close:
-        return f"; did you mean '{close[0]}'?"
-    everywhere = {name.rpartition(".")[2]: name for name in names}
-    close = difflib.get_close_matches(last, everywhere, n=1, cutoff=0.6)
-    return f"; did you mean '{everywhere[close[0]]}'?" if close else ""
+    siblings = [name.rpartition(".")[2] for name in names if name.rpartition(".")[0] == table]
+    if close := _closest(last, siblings):
+        return f"; did you mean '{close}'?"
+    close = _closest(last, [name.rpartition(".")[2] for name in names])
+    found = [f"'{name}'" for name in names if name.rpartition(".")[2] == close]
+    return f"; did you mean {' or '.join(found[:_MAX_SIMILAR])}?" if found else ""
+
+
+def _closest(word: str, names: list[str]) -> str:
+    """Return the name most like a word, else the first that begins with it; empty where none does."""
+    close = difflib.get_close_matches(word, names, n=1, cutoff=0.6)
+    return next(iter([*close, *(name for name in names if name.startswith(f"{word}_"))]), "")
 
 
 def line_of(text: str, key: str) -> int:
