@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, load_cases, overrides
 
@@ -42,6 +43,6 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
             click.echo(f"  assumes  {text}")
         for text in (rating_table(case), notes_text(case)):
             if text:
-                click.echo(text)
+                show(text)
         for text in warnings:
-            click.echo(f"  warning  {text}")
+            show(f"  warning  {text}")

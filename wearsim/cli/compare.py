@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.cases_and_runs import results_of
+from wearsim.command.colours import show
 from wearsim.command.complete import RunPath
 from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
@@ -64,7 +65,7 @@ def compare(
         for result in results:
             click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
     else:
-        click.echo(comparison_text(results))
+        show(comparison_text(results))
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
     if xlsx is not None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath, complete_key
 from wearsim.command.options import (
     NOT_MET,
@@ -219,11 +220,11 @@ def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: b
     else:
         from wearsim.report.answer import answer, grid_text
 
-        click.echo(answer(result, str(path), explain))
+        show(answer(result, str(path), explain))
         if grid is not None:
             from wearsim.report.answer import grid_text
 
-            click.echo(grid_text(grid))
+            show(grid_text(grid))
 
 
 def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> bool:

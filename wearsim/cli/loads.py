@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, finite, overrides, sprocket_option, warn
 
@@ -60,6 +61,6 @@ def loads(
     if as_json:
         click.echo(json.dumps(loads_json(found), ensure_ascii=False, allow_nan=False))
     else:
-        click.echo(loads_table(found))
+        show(loads_table(found))
     for text in loaded.warnings:
         warn(f"{case}: warning: {text}")

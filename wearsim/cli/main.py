@@ -13,6 +13,7 @@ import click
 from wearsim._version import __version__
 from wearsim.cli.command_groups import COMMAND_GROUPS, CommandGroups
 from wearsim.cli.completion import use_own_bash
+from wearsim.command.colours import uses_colour
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 
@@ -83,7 +84,7 @@ def main() -> None:
             use_own_bash()
             wearsim_command.main(prog_name="wearsim")
         # Not click's own main: it turns a closed pipe into exit code 1.
-        with wearsim_command.make_context("wearsim", sys.argv[1:]) as context:
+        with wearsim_command.make_context("wearsim", sys.argv[1:], color=uses_colour()) as context:
             code = wearsim_command.invoke(context)
         sys.stdout.flush()
         sys.exit(code if isinstance(code, int) else 0)

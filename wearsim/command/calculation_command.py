@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     common_options,
@@ -78,7 +79,7 @@ def _show(
     if as_json:
         print_json(sheet.content, case, sheet.warnings)
     else:
-        click.echo(sheet.text)
+        show(sheet.text)
         for text in notes:
             warn(f"{case}: note: {text}")
         for text in sheet.warnings:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from wearsim.command.colours import coloured
 from wearsim.command.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
 
@@ -65,7 +66,7 @@ def sprocket_option(function: Function) -> Function:
 def warn(text: str) -> None:
     """Print a note on stderr unless ``-q`` was given."""
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
-        click.echo(text, err=True)
+        click.echo(coloured(text), err=True)
 
 
 @contextmanager

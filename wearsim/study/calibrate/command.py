@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, finite, overrides, print_json, warn, working
 
@@ -90,7 +91,7 @@ def calibrate(
     if as_json:
         print_json(calibration_json(found), case, found.warnings)
     else:
-        click.echo(calibration_text(found))
+        show(calibration_text(found))
     if out is not None:
         save_calibration(found, out, force)
         warn(f"written to {out}")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, error_json, load_cases, overrides, print_json, warn
 from wearsim.errors import WearsimError
@@ -52,7 +53,7 @@ def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings:
     if as_json:
         print_json(maintenance_json(plan), case, plan.warnings)
     else:
-        click.echo(maintenance_text(plan))
+        show(maintenance_text(plan))
     if out is not None:
         warn(f"written to {out}")
 

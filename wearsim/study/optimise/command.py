@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, overrides, print_json, warn
 from wearsim.command.study import StudyOptions, study_options
@@ -76,7 +77,7 @@ def optimise(
     if as_json:
         print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:
-        click.echo(optimise_text(outcome))
+        show(optimise_text(outcome))
     if place.out is not None:
         save_optimise(outcome, place.out)
         warn(f"written to {place.out}")

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     common_options,
@@ -103,4 +104,4 @@ def remaining(
         content = remaining_json(found, loaded.inputs)
         print_json(content, case, found.warnings)
     else:
-        click.echo(remaining_text(found, loaded.inputs))
+        show(remaining_text(found, loaded.inputs))

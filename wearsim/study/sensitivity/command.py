@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, overrides, print_json, warn, working
 from wearsim.command.study import StudyOptions, study_options
@@ -80,7 +81,7 @@ def sensitivity(
     if as_json:
         print_json(sensitivity_json(answer), case, answer.warnings)
     else:
-        click.echo(sensitivity_text(answer))
+        show(sensitivity_text(answer))
     if place.out is not None:
         save_sensitivity(answer, table, place.out)
         warn(f"written to {place.out}")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.options import NOT_MET, error_json, load_cases, print_json, warn, working
 from wearsim.errors import CaseError, Fault, WearsimError
 
@@ -80,7 +81,7 @@ def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as
     else:
         label = "Solved " if solved.met else "Nearest"
         click.echo(f"  {label}    {_sentence(solved, key, hours)}")
-        click.echo(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
+        show(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
     if not solved.met:
         warn(
             f"{path}: no value of {key} was found from {solved.low:.6g} to {solved.high:.6g} that lives "

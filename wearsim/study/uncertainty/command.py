@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import NOT_MET, common_options, finite, overrides, print_json, warn, working
 from wearsim.command.study import StudyOptions, study_options
@@ -95,7 +96,7 @@ def uncertainty(
     if as_json:
         print_json(uncertainty_json(answer), case, uncertainty_warnings(answer))
     else:
-        click.echo(uncertainty_text(answer))
+        show(uncertainty_text(answer))
     if place.out is not None:
         save_uncertainty(answer, place.out)
         warn(f"written to {place.out}")

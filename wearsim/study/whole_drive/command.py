@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim.command.colours import show
 from wearsim.command.options import (
     NOT_MET,
     SOME_FAILED,
@@ -110,7 +111,7 @@ def loaded_teeth(
         return
     click.echo(f"{drive.title}\n{layout_text(drive)}")
     for name, found in teeth.items():
-        click.echo(loads_table(replace(found, title=name)))
+        show(loads_table(replace(found, title=name)))
 
 
 def live(
@@ -139,7 +140,7 @@ def live(
         if as_json:
             print_json(drive_json(one), path, one.warnings)
         else:
-            click.echo(drive_text(one, str(path), explain))
+            show(drive_text(one, str(path), explain))
         missed = _missed(one, hours, strict) or missed
     if len(found) < len(set(paths)):
         return SOME_FAILED
@@ -205,7 +206,7 @@ def compared(
         for path, one in found.items():
             print_json(drive_json(one), path)
     else:
-        click.echo(drives_text(drives))
+        show(drives_text(drives))
     if out is not None:
         save_drives(drives, out, force)
         warn(f"written to {out}")
@@ -225,7 +226,7 @@ def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | No
     if as_json:
         print_json(plan_json(plan), path, plan.found.warnings)
     else:
-        click.echo(plan_text(plan, str(path)))
+        show(plan_text(plan, str(path)))
     if out is not None:
         warn(f"written to {out}")
 
@@ -236,7 +237,7 @@ def checked(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> No
         if as_json:
             click.echo(json.dumps(_check_json(drive), ensure_ascii=False))
         else:
-            click.echo(_check_text(drive, path))
+            show(_check_text(drive, path))
 
 
 def _check_json(drive: "DriveCase") -> dict[str, Any]:
