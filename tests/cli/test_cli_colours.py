@@ -14,7 +14,9 @@ COMMAND = [sys.executable, "-m", "wearsim", "check", "packaging-conveyor"]
 
 def environment(**more):
     hidden = {"NO_COLOR", "FORCE_COLOR"}
-    return {name: value for name, value in os.environ.items() if name not in hidden} | {"TERM": "xterm"} | more
+    return (
+        {name: value for name, value in os.environ.items() if name not in hidden} | {"TERM": "xterm"} | more
+    )
 
 
 def on_terminal(**more):

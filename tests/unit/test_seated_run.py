@@ -236,9 +236,10 @@ def test_one_failing_run_fails_all_and_progress_rises():
 
 
 def test_steps_are_halved_where_the_error_asks_for_it():
-    of = contact()
+    of, told = contact(), []
     loose, error = advance_resting(of, LAW, LIMIT, 1e12, 0.1)
-    tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error)
+    tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error, progress=told.append)
+    assert told == sorted(told) and (told[0], told[-1]) == (0.0, 1.0)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
 

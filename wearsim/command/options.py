@@ -93,13 +93,7 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(text, total=None)
-
-        def report_progress(part: float) -> None:
-            if part < bar.tasks[0].completed:
-                bar.reset(task)
-            bar.update(task, completed=part, total=1.0)
-
-        yield report_progress
+        yield lambda part: bar.update(task, completed=part, total=1.0)
 
 
 def worn(case: "Case") -> "WearResult":

@@ -23,8 +23,7 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     case : Case
         A complete case.
     progress : callable, optional
-        Told by a wrap how much of its run is done, from 0 to 1; from 0 again where a run
-        with smaller steps follows.
+        Told by a wrap how much of its run is done, from 0 to 1; it only rises.
 
     Returns
     -------

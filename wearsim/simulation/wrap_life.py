@@ -18,7 +18,7 @@ from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.simulation.wear_task import case_running_in, limit_states, running_in_assumptions, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
-from wearsim.wear.implicit_steps import RestingTrajectory, reported_progress, run_resting
+from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
@@ -28,6 +28,9 @@ from wearsim.wear.trajectory import Trajectory, difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
+
+_ADVANCED = 0.1
+"""Part of the progress of a run cycle by cycle that the long steps before take."""
 
 
 def wrap_of(case: Case) -> WrapDrive:
@@ -132,14 +135,17 @@ def _run(
 ) -> tuple[RestingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
     amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
+    by_cycles = case.run.method == "per_cycle"
+    first = part_of(progress, 0.0, _ADVANCED) if by_cycles else progress
     run, error = advance_resting(
-        contact, law, stop_limits, horizon, tolerance / amplification, progress=progress
+        contact, law, stop_limits, horizon, tolerance / amplification, progress=first
     )
-    if case.run.method == "per_cycle":
+    if by_cycles:
         check, end, cycles = run, float(run.cycles[-1]), case.run.cycles_per_update
         check_length(contact, law, stop_limits, end, cycles)
         until = horizon if check.met else end
-        run = run_resting(contact, law, stop_limits, until, 0, float(cycles), reported_progress(progress))
+        watch = reported_progress(part_of(progress, _ADVANCED, 1.0))
+        run = run_resting(contact, law, stop_limits, until, 0, float(cycles), watch)
         error += difference(run, check)
     error *= amplification
     if error > tolerance:

@@ -173,6 +173,19 @@ def _done(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, horizon: float
     return min(1.0, max(float(bodies.depth.max()) / stop_limits[0].limit, bodies.cycles / horizon))
 
 
+def part_of(progress: Callable[[float], None], begin: float, end: float) -> Callable[[float], None]:
+    """Return what is told the progress of a run that is only a part of the whole.
+
+    Examples
+    --------
+    A tenth of a run that stands for the third quarter:
+
+    >>> part_of(print, 0.5, 0.75)(0.1)
+    0.525
+    """
+    return lambda part: progress(begin + (end - begin) * part)
+
+
 def reported_progress(progress: Callable[[float], None]) -> Watch:
     """Return a watch over a run that only tells how much of it is done."""
 

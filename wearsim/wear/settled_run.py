@@ -9,13 +9,16 @@ import numpy as np
 
 from wearsim.contact.resting_engagement import RestingContact
 from wearsim.contact.stop_limits import StopLimit
-from wearsim.wear.implicit_steps import RestingTrajectory, run_seated
+from wearsim.wear.implicit_steps import RestingTrajectory, part_of, run_seated
 from wearsim.wear.law import WearLaw
 from wearsim.wear.resting_bodies import StartState
 from wearsim.wear.trajectory import difference
 
 _MAX_LEVEL = 3
 """Times that the steps are halved at most."""
+
+_KEPT = 0.2
+"""Part of the progress still to come that is kept for finer runs, of which nobody knows before."""
 
 _SAFETY, _AT_LEAST = 1.5, 5e-3
 """On the error of a run, and what runs that agree by accident may leave, at level 0: with both the stated
@@ -98,7 +101,7 @@ def advance_resting(
         What has worn off already; nothing by default. It stands on the points of the contact, which are
         kept then.
     progress : callable, optional
-        Told how much of the run is done, from 0 to 1.
+        Told how much is done, from 0 to 1: it only rises, by a leap where no finer run follows.
 
     Returns
     -------
@@ -117,7 +120,8 @@ def advance_resting(
 
     def run_at(level: int) -> tuple[RestingTrajectory, float]:
         pair = [(contact, level), (contact.coarsened() if start is None else contact, level - 1)]
-        run, coarse = run_together(pair, law, stop_limits, horizon, start, progress)
+        report = part_of(progress, 1.0 - _KEPT**level, 1.0 - _KEPT ** (level + 1))
+        run, coarse = run_together(pair, law, stop_limits, horizon, start, report)
         error = _SAFETY * difference(run, coarse) + _AT_LEAST / 2.0**level
         return run, spared(run, stop_limits[0].limit, error)
 
@@ -130,4 +134,5 @@ def advance_resting(
             # Points or phases are too few.
             break
         run, error = finer, left
+    progress(1.0)
     return run, error
