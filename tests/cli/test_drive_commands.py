@@ -187,3 +187,24 @@ def test_what_is_not_for_drives_says_what_is(cli, drive, arguments):
     assert f"{drive}:4: sprocket: must be one [sprocket] here" in done.err
     assert "is for wearsim check, life, compare" in done.err
     assert "the case of one sprocket, [sprocket] with drive.mate_teeth" in done.err
+
+
+def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
+    """Joints that are hardened and oiled: 9e-11 to 1.5e-10 mm2/N about 1.2e-10, 1.25 and 0.75 of it."""
+    path, book = tmp_path / "oiled.toml", tmp_path / "oiled.xlsx"
+    text = drive.read_text().replace("[joint]\nspecific_wear_rate_mm2_per_N = 1e-8\n", "")
+    path.write_text(text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "hardened, oiled"'))
+    few = ("--set", "stop.elongation_percent=0.05", "--set", "run.horizon_hours=1500")
+    found = json.loads(cli("life", path, *few, "--json", "--xlsx", book).out)
+    assert found["first"] == "chain"
+    chain, low, high = (found[name] for name in ("chain_life_hours", "life_hours_low", "life_hours_high"))
+    assert (low, high) == (pytest.approx(chain / 1.25), pytest.approx(chain / 0.75))
+    motor, roll = found["sprockets"]
+    assert (roll["life_hours_low"], motor["life_hours_high"]) == (pytest.approx(low), pytest.approx(high))
+    sheet = pd.read_excel(book, sheet_name=0, header=None).astype(str)
+    rows = dict(zip(sheet[0][:10], sheet[1][:10], strict=True))
+    screen = " ".join(cli("life", path, *few, "--explain").out.split())
+    for label in ("Chain", "roll", "First", "Band", "Ratings"):
+        assert f"{label} {' '.join(rows[label].split())}" in screen
+    assert rows["roll"].startswith("> 1 500 h ")
+    assert float(sheet.set_index(0)[3]["life_hours_low"]) == pytest.approx(low)

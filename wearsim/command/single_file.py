@@ -1,8 +1,9 @@
 """What commands that write one file share: its place, its ending, stdout for ``-``; and ``--xlsx``."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -69,12 +70,18 @@ def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
 
 
 def write_workbook(
-    results: "Mapping[Path, WearResult] | Mapping[str, WearResult]", file: Path, force: bool
+    results: "Mapping[Path, WearResult] | Mapping[str, WearResult]",
+    file: Path,
+    force: bool,
+    said: Mapping[str, Sequence[tuple[str, str]]] = MappingProxyType({}),
 ) -> None:
-    """Write results into a workbook, with titles that tell them apart, and say where it is."""
+    """Write results into a workbook, with titles that tell them apart, and say where it is.
+
+    Sentences about several of them, each with its label, stand above them under a title.
+    """
     from wearsim.report.comparison import distinct
     from wearsim.report.workbook import save_workbook
 
     names = [str(path) for path in results]
-    save_workbook(distinct(list(results.values()), names), file, force)
+    save_workbook(distinct(list(results.values()), names), file, force, said)
     warn(f"written to {file}")

@@ -1,7 +1,8 @@
 """Results as a workbook of Excel: answer, a sheet for each result, inputs, native charts."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from wearsim.errors import OutputError
 from wearsim.extras import library
@@ -25,13 +26,17 @@ def check_workbook(path: Path, force: bool) -> None:
     library("xlsxwriter", "report", "--xlsx")
 
 
-def workbook(results: Sequence[WearResult]) -> bytes:
-    """Return results as a workbook."""
+Said = Mapping[str, Sequence[tuple[str, str]]]
+"""Sentences about several results, each with its label, under a title."""
+
+
+def workbook(results: Sequence[WearResult], said: Said = MappingProxyType({})) -> bytes:
+    """Return results as a workbook, with what is said of several of them on the first sheet."""
     title = "; ".join(result.title for result in results)
     book = WorkbookWriter(library("xlsxwriter", "report", "--xlsx"), title)
     first, inputs = "Answer" if len(results) == 1 else "Comparison", "Inputs"
     names = worksheet_names([result.case for result in results], taken=(first, inputs))
-    page, free_column = write_answer_page(book, first, results, names)
+    page, free_column = write_answer_page(book, first, results, names, said)
     places = []
     for name, result in zip(names, results, strict=True):
         own, place = write_result_page(book, name, result)
@@ -42,7 +47,9 @@ def workbook(results: Sequence[WearResult]) -> bytes:
     return book.content()
 
 
-def save_workbook(results: Sequence[WearResult], path: Path, force: bool) -> None:
+def save_workbook(
+    results: Sequence[WearResult], path: Path, force: bool, said: Said = MappingProxyType({})
+) -> None:
     """Write results into a workbook, all of it or nothing."""
     check_workbook(path, force)
-    write_file(path, workbook(results), force)
+    write_file(path, workbook(results, said), force)

@@ -4,7 +4,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.quantities import quantities
-from wearsim.report.answer import JUMPING, governing_text, hours, limit_name, limit_state, overload_text
+from wearsim.report.answer import (
+    JUMPING,
+    governing_text,
+    hours,
+    limit_name,
+    limit_state,
+    overload_text,
+    service_text,
+)
 from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.rating import rule
 from wearsim.report.service import life_json
@@ -23,9 +31,10 @@ _FIRST_VALUE = 2
 _BOLD = ("life", "overloaded", "life_hours")
 _AT_LEAST = "_at_least"
 _MEANINGS = {
-    "life": "the life in words; > where no limit was met within the running time",
+    "life": "life in words, on a wrap that of chain or sprocket, whichever ends first; > where none has ended",
     "governs": "which of wear and contact fatigue ends the life first, with the lives of all",
-    "case": "stem of the case file",
+    "in service": "life in the measures of the machine in service",
+    "case": "name of the case file without .toml; of a whole drive that of the sprocket",
     "cycles": "loading cycles of one gap or tooth in this life; empty where no limit was met",
     "max_depth_mm": "depth worn off at the deepest point at the end of the run",
     **{
@@ -43,9 +52,13 @@ _MEANINGS = {
 
 
 def write_answer_page(
-    book: WorkbookWriter, name: str, results: Sequence[WearResult], labels: Sequence[str]
+    book: WorkbookWriter,
+    name: str,
+    results: Sequence[WearResult],
+    labels: Sequence[str],
+    said: Mapping[str, Sequence[tuple[str, str]]],
 ) -> tuple[WorksheetPage, int]:
-    """Write the first sheet: a row for every quantity, a column for every result."""
+    """Write the first sheet: what is said of several results, a row for every quantity, a column for each."""
     page = WorksheetPage(book, name)
     meaning = _FIRST_VALUE + len(results)
     for column, width in enumerate([_LABEL, _UNIT, *[_VALUE] * len(results), _MEANING]):
@@ -55,7 +68,13 @@ def write_answer_page(
         page.put(0, column, title, **HEADER)
     page.fit_height(0, [(title, _VALUE) for title in titles])
     page.freeze(1, _FIRST_VALUE)
-    row = _write_rows(page, 1, _answers(results))
+    row = 1
+    for title, texts in said.items():
+        row = _write_texts(page, row, title, texts, meaning)
+    if said:
+        _write_section(page, row, "each sprocket with the chains that run on it", meaning)
+        row += 1
+    row = _write_rows(page, row, _answers(results))
     row = _write_limits(page, row, results)
     row = _write_ratings(page, row, results)
     row = _write_texts(page, row, "warnings", _warnings(results, labels), meaning)
@@ -68,6 +87,9 @@ def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
     """Values of every quantity, one for each result."""
     answers = [_flat(life_json(result)) for result in results]
     rows: dict[str, list[Any]] = {"life": [_in_words(result) for result in results]}
+    service = [service_text(result.inputs, result.life) for result in results]
+    if any(service):
+        rows["in service"] = service
     if any(result.fatigue for result in results):
         rows["governs"] = [governing_text(result) if result.fatigue else None for result in results]
     if any(result.overloaded for result in results):

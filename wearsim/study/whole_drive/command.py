@@ -127,14 +127,15 @@ def live(
 ) -> int:
     """Print how long every part of some drives lives, and write their files; return the exit code."""
     from wearsim.study.whole_drive.folder import write_drive
-    from wearsim.study.whole_drive.sheet import drive_json, drive_text
+    from wearsim.study.whole_drive.sheet import drive_json, drive_text, found_rows
 
     found = lived(paths, settings, as_json, hours)
     for path, folder in zip(paths, folders, strict=True):
         if folder is not None and path in found:
             write_drive(found[path], folder, force)
     if xlsx is not None:
-        write_workbook(_by_sprocket(found.values()), xlsx, force)
+        said = {one.drive.title: found_rows(one, explain=True) for one in found.values()}
+        write_workbook(_by_sprocket(found.values()), xlsx, force, said)
     missed = False
     for path, one in found.items():
         if as_json:
@@ -172,9 +173,9 @@ def lived(
 
 def _by_sprocket(drives: "Iterable[DriveLife]") -> "dict[str, WearResult]":
     return {
-        f"{one.drive.name} {name}": replace(result, case=name, title=f"{one.drive.title}: {name}")
+        f"{one.drive.name} {name}": replace(one.shown(name), case=name, title=f"{one.drive.title}: {name}")
         for one in drives
-        for name, result in one.results.items()
+        for name in one.results
     }
 
 

@@ -5,7 +5,7 @@ import os
 import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.errors import ContactError, ConvergenceError
@@ -60,17 +60,27 @@ class DriveLife:
 
         The chain's is that of its joints where they take that of a wear condition, else that of the teeth.
         """
-        driver = self.drive.driver
-        joint, result = driver.drive.joint, self.results[driver.name if name == CHAIN else name]
         if name != CHAIN:
-            return result.life_low, result.life_high
+            return self.results[name].life_low, self.results[name].life_high
+        return self._chain_band(self.chain)
+
+    def shown(self, name: str) -> WearResult:
+        """Return the result of a sprocket; where the chain ends its life, with the band of the chain."""
+        result, joint = self.results[name], self.drive.driver.drive.joint
+        if result.stop != "elongation_percent" or joint.low is None or joint.high is None:
+            return result
+        low, high = self._chain_band(result.life)
+        band = f"specific wear rate of the joints {joint.low:g} to {joint.high:g} mm2/N"
+        return replace(result, life_low=low, life_high=high, band=band)
+
+    def _chain_band(self, life: Life | LowerBound) -> tuple[Life | LowerBound, Life | LowerBound]:
+        """Return what becomes of a life of the chain at both ends of its band."""
+        joint, wear = self.drive.driver.drive.joint, self.drive.driver.case.wear
         if joint.low is None or joint.high is None:
-            wear = driver.case.wear
             factors = wear.high, wear.low
         else:
             factors = joint.high / joint.coefficient, joint.low / joint.coefficient
-        chain = self.chain
-        low, high = (type(chain)(chain.cycles_run / factor, chain.hours_run / factor) for factor in factors)
+        low, high = (type(life)(life.cycles_run / factor, life.hours_run / factor) for factor in factors)
         return low, high
 
     def chains_with(self, name: str) -> int:

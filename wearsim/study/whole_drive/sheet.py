@@ -25,10 +25,7 @@ _MAX_THEN = 2
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
     rows = [
-        *part_rows(found, explain),
-        ("First", first_text(drive_plan(found))),
-        ("Band", band_text(found)),
-        ("Ratings", ratings_text(found)),
+        *found_rows(found, explain),
         ("Worn most", worn_most_text(found, explain)),
         *((("Band from", _band_source(found)),) if explain else ()),
         ("Warnings", _warnings(found, explain)),
@@ -36,6 +33,16 @@ def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
         ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
     ]
     return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
+
+
+def found_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
+    """Return lives, what is replaced first, the band and the ratings, on request of every cog for itself."""
+    return [
+        *part_rows(found, explain),
+        ("First", first_text(drive_plan(found))),
+        ("Band", band_text(found)),
+        ("Ratings", ratings_text(found)),
+    ]
 
 
 def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
@@ -161,9 +168,13 @@ def part_name(name: str) -> str:
 
 def band_text(found: DriveLife) -> str:
     """Return in words how sure the first life is."""
-    whose = found.first or next(iter(found.results))
-    low, high = (hours(life) for life in found.band(whose))
-    return f"{low} to {high} for the {part_name(whose)}, over the band of its wear coefficient"
+    low, high = (hours(life) for life in found.band(_banded(found)))
+    return f"{low} to {high} for the {part_name(_banded(found))}, over the band of its wear coefficient"
+
+
+def _banded(found: DriveLife) -> str:
+    """Return whose band is shown: that of the part that ends first, of the first sprocket if none does."""
+    return found.first or next(iter(found.results))
 
 
 def within_text(result: WearResult) -> str:
@@ -218,19 +229,21 @@ def taken_for_granted(found: DriveLife) -> tuple[tuple[str, ...], tuple[str, ...
 
 def drive_json(found: DriveLife) -> dict[str, Any]:
     """Return what ``wearsim life --json`` prints of a whole drive."""
-    drive = found.drive
+    drive, (low, high) = found.drive, found.band(_banded(found))
     return {
         "schema_version": 1,
         "case": drive.name,
         "title": drive.title,
         **life_keys("life_hours", found.life),
+        **life_keys("life_hours_low", low),
+        **life_keys("life_hours_high", high),
         "first": found.first or None,
         **life_keys("chain_life_hours", found.chain),
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
         "sprockets": [
-            {"name": name, **result.summary(), "chains": found.chains_with(name)}
-            for name, result in found.results.items()
+            {"name": name, **found.shown(name).summary(), "chains": found.chains_with(name)}
+            for name in found.results
         ],
         "layout": layout_json(drive),
         "warnings": list(found.warnings),
