@@ -14,6 +14,7 @@ from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels import wrap_seats as seats
 from wearsim.kernels import wrap_stage as stage
 from wearsim.mechanisms.wrap.seating import phases_of_pitch
+from wearsim.wear import settled_run
 from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov, power
 from wearsim.wear.resting_bodies import WornBodies
@@ -242,6 +243,30 @@ def test_steps_are_halved_where_the_error_asks_for_it():
     assert told == sorted(told) and (told[0], told[-1]) == (0.0, 1.0)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
+
+
+def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch):
+    """The errors that runs state stand for runs here: phases and halvings, until 0.02 or nothing is left."""
+    stated = {(1, 0): 0.09, (1, 1): 0.08, (1, 2): 0.085, (2, 1): 0.03, (2, 2): 0.01}
+    of, asked = contact("mechanism.phases=2"), []
+
+    def pair(contacts, *rest):
+        (fine, level), (coarse, below) = contacts
+        asked.append((fine.phases // 2, level))
+        assert (coarse.phases, below) == (max(1, fine.phases // 2), level - 1)
+        return [stated[asked[-1]], 0.0]
+
+    monkeypatch.setattr(settled_run, "run_together", pair)
+    monkeypatch.setattr(settled_run, "difference", lambda run, coarse: 0.0)
+    monkeypatch.setattr(settled_run, "spared", lambda run, limit, error: run)
+    assert advance_resting(of, LAW, LIMIT, 1e12, 0.02) == (0.01, 0.01)
+    assert asked == [(1, 0), (1, 1), (1, 2), (2, 1), (2, 2)]
+    asked.clear()
+    assert advance_resting(of, LAW, LIMIT, 1e12, 0.04) == (0.03, 0.03)
+    assert asked == [(1, 0), (1, 1), (1, 2), (2, 1)]
+    asked.clear()
+    assert advance_resting(of, LAW, LIMIT, 1e12, 0.09) == (0.09, 0.09)
+    assert asked == [(1, 0)]
 
 
 def test_a_life_that_a_new_chain_has_spared_is_uncertain():

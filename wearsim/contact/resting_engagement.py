@@ -222,6 +222,10 @@ class RestingContact(ABC):
     def coarsened(self) -> "RestingContact":
         """Return the same contacts on about every second point."""
 
+    def refined(self) -> "RestingContact | None":
+        """Return the same contacts, looked at in more phases of a cycle; None where there are no more."""
+        return None
+
     @abstractmethod
     def memory(self) -> Rows:
         """Return what ``events`` is to remember from call to call, as it is before the first."""

@@ -150,7 +150,8 @@ def _run(
     error *= amplification
     if error > tolerance:
         warnings.append(
-            f"{exceeds(error, tolerance)}: use more nodes or phases, or a larger run.life_tolerance"
+            f"{exceeds(error, tolerance)}, even with steps halved and phases doubled: use more nodes or "
+            "phases, or a larger run.life_tolerance"
         )
     return run, error
 

@@ -122,6 +122,10 @@ class WrapContact(RestingContact):
         phases = 1 if self.phases == 2 else max(2, self.phases // 2)
         return replace(self.on_outline(coarse), phases=phases)
 
+    def refined(self) -> "WrapContact":
+        """Return the contact with twice the phases."""
+        return replace(self, phases=2 * self.phases)
+
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline."""
         path = roller_path(outline, self.roller_radius, (outline.x.size + 1) // 2)

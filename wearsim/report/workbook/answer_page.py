@@ -31,7 +31,7 @@ _FIRST_VALUE = 2
 _BOLD = ("life", "overloaded", "life_hours")
 _AT_LEAST = "_at_least"
 _MEANINGS = {
-    "life": "life in words, on a wrap that of chain or sprocket, whichever ends first; > where none has ended",
+    "life": "life in words, on a wrap of chain or sprocket, whichever ends first; > where none has ended",
     "governs": "which of wear and contact fatigue ends the life first, with the lives of all",
     "in service": "life in the measures of the machine in service",
     "case": "name of the case file without .toml; of a whole drive that of the sprocket",
