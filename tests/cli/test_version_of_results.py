@@ -9,7 +9,7 @@ import wearsim
 
 SIZING = Path(__file__).parents[2] / "cases" / "sizing"
 READING = ("--hours", "100", "--depth-mm", "0.01", "--reading-error-mm", "0.001")
-SCATTER = '[uncertainty]\n"wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = 0.4}\n'
+SCATTER = '[uncertainty]\n"wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = 1}\n'
 STUDY = 'format_version = 1\ncase = "drive.toml"\n[grid]\n"sprocket.teeth" = [20, 25]\n'
 OPTIMISE = """\
 [optimise]
