@@ -1,6 +1,7 @@
 """How Sphinx builds the documentation: ``python -m sphinx -W docs DIR``.
 
-Nothing is fetched: formulas become MathML in the page, set in the maths font of _static, text in the reader's fonts.
+Nothing is fetched: formulas become MathML in the page and are set in the maths font of _static, text in the
+reader's own fonts.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """Build the pages as one version of a site: ``python docs/site_versions.py DIR``.
 
-DIR/VERSION gets the pages, DIR/versions.js the list of all versions in DIR, and DIR/index.html leads to the newest one.
-Any server of plain files can serve DIR.
+DIR/VERSION gets the pages, DIR/versions.js the list of all versions in DIR, and DIR/index.html leads to the
+newest one. Any server of plain files can serve DIR.
 """
 
 import json
@@ -44,6 +44,19 @@ if __name__ == "__main__":
     site = Path(sys.argv[1])
     pages = site / wearsim.__version__
     doctrees = DOCS.parent / "build" / "doctrees"
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", doctrees, DOCS, pages]
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        "html",
+        "-d",
+        doctrees,
+        DOCS,
+        pages,
+    ]
     subprocess.run(command, check=True)
     write_root(site)

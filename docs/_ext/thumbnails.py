@@ -1,4 +1,4 @@
-"""The directive ``{thumbnails}``: a card for every page of the gallery, with the first picture of that page."""
+"""The directive ``{thumbnails}``: a card for every page of the gallery, with its first picture."""
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -20,7 +20,9 @@ class ThumbnailsDirective(Directive):
 def _card(app: Sphinx, page: str, seen_from: str) -> nodes.paragraph:
     picture = next(app.env.get_doctree(page).findall(nodes.image)).deepcopy()
     picture["alt"] = ""  # the title beside it says what it is
-    link = nodes.reference("", "", picture, internal=True, refuri=app.builder.get_relative_uri(seen_from, page))
+    link = nodes.reference(
+        "", "", picture, internal=True, refuri=app.builder.get_relative_uri(seen_from, page)
+    )
     link += nodes.inline(text=app.env.titles[page].astext())
     return nodes.paragraph("", "", link)
 
