@@ -35,7 +35,7 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     for row in table.to_dict("records"):
         known = {name: plain(value) for name, value in row.items()}
         inputs = {key: known.pop(key) for key in sweep.design.keys}
-        content = {**ANSWER_HEAD, "case": sweep.design.name, "inputs": inputs, **known}
+        content = ANSWER_HEAD | {"case": sweep.design.name, "inputs": inputs, **known}
         lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
     return lines
 
