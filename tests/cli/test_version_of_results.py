@@ -96,3 +96,14 @@ def test_stored_result_keeps_the_version_that_computed_it(cli, drive, tmp_path, 
     path = run / "environment.json"
     path.write_text(path.read_text().replace(version, "0.1.0"))
     assert wearsim.WearResult.load(run).summary()["wearsim_version"] == "0.1.0"
+
+
+def test_no_answer_begins_without_it():
+    """All take the head of answers; what is told of a failure holds no number to trace."""
+    package = Path(wearsim.__file__).parent
+    own = {
+        str(path.relative_to(package))
+        for path in package.rglob("*.py")
+        if '"schema_version": 1' in path.read_text("utf-8")
+    }
+    assert own == {"_version.py", str(Path("command", "options.py"))}
