@@ -1,6 +1,7 @@
 """How Sphinx builds the documentation: ``python -m sphinx -W docs DIR``.
 
-Nothing is fetched: formulas become MathML in the page, fonts are the reader's.
+Nothing is fetched: formulas become MathML in the page and are set in the maths font of _static, text in the
+reader's own fonts.
 """
 
 import sys
@@ -18,19 +19,35 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_click",
+    "sphinx_design",
     "mathml",
     "equations",
     "gallery",
     "key_tables",
+    "root_pages",
+    "thumbnails",
 ]
 exclude_patterns = ["_build", "tooth_forms_head.md", "validation_head.md", "measured_head.md"]
 html_theme = "furo"
 html_title = f"wearsim {release}"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
-html_css_files = ["math.css", "gallery.css"]
+html_css_files = ["math.css", "gallery.css", "versions.css"]
+html_js_files = ["version_switch.js"]
+templates_path = ["_templates"]
+html_sidebars = {
+    "**": [
+        "sidebar/brand.html",
+        "versions.html",
+        "sidebar/search.html",
+        "sidebar/scroll-start.html",
+        "sidebar/navigation.html",
+        "sidebar/scroll-end.html",
+    ]
+}
 html_copy_source = False
 html_show_sphinx = False
+html_show_copyright = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True

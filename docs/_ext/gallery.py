@@ -44,8 +44,8 @@ class _Folder:
 
     def __init__(self, env: BuildEnvironment) -> None:
         page = Path(env.doc2path(env.docname))
-        cases = page.parent.parent / "cases"
-        self.path = Path(env.doctreedir) / "gallery" / _digest(page, cases)
+        cases = Path(env.srcdir).parent / "cases"
+        self.path = Path(env.doctreedir) / "runs" / page.stem / _digest(page, cases)
         self._answers = self.path / "answers.json"
         self._known: list[str] = []
         self._next = 0
@@ -157,8 +157,9 @@ class Picture(Directive):
         file = _folder(self).path / self.arguments[0]
         if not file.exists():
             raise ExtensionError(f"no example has made {self.arguments[0]}")
-        source = self.state.document.settings.env.srcdir
-        uri = Path(os.path.relpath(file, source)).as_posix()
+        env: BuildEnvironment = self.state.document.settings.env
+        page = Path(env.doc2path(env.docname))
+        uri = Path(os.path.relpath(file, page.parent)).as_posix()
         return [nodes.image(uri=uri, alt=" ".join(self.content), classes=["example"])]
 
 
@@ -173,7 +174,8 @@ class LivePage(Directive):
         env: BuildEnvironment = self.state.document.settings.env
         made = (_folder(self).path / self.arguments[0]).parent
         shutil.copytree(made, Path(env.app.outdir) / "_examples" / made.name, dirs_exist_ok=True)
-        place = f"_examples/{self.arguments[0]}"
+        up = "../" * env.docname.count("/")
+        place = f"{up}_examples/{self.arguments[0]}"
         title = html.escape(" ".join(self.content), quote=True)
         frame = f'<iframe class="example" src="{place}" title="{title}" loading="lazy"></iframe>'
         link = f'<p><a href="{place}">Open the page</a></p>'

@@ -20,6 +20,7 @@ PATHS = {path.stem: path for path in sorted(FOLDER.glob("*.toml"))}
 LAWS = ("archard", "power", "drozdov")
 SUMMARY_KEYS = [
     "schema_version",
+    "wearsim_version",
     "case",
     "life_hours",
     "cycles",

@@ -36,7 +36,7 @@ def test_json(cli, drive):
     done = cli("check", "--json", drive("one"), drive("two"))
     objects = [json.loads(line) for line in done.out.splitlines()]
     assert [content["case"] for content in objects] == ["one", "two"]
-    assert list(objects[0]) == ["schema_version", "case", "assumptions", "warnings"]
+    assert list(objects[0]) == ["schema_version", "wearsim_version", "case", "assumptions", "warnings"]
     assert any("sprocket.face_width_mm = 16.17" in text for text in objects[0]["assumptions"])
 
 

@@ -57,7 +57,7 @@ def test_json_and_files_agree(cli, tmp_path):
     done = cli("hertz-check", CASE, "--json", "--out", out)
     assert done.code == 0
     found = json.loads(done.out)
-    assert list(found)[:3] == ["schema_version", "case", "title"]
+    assert list(found)[:4] == ["schema_version", "wearsim_version", "case", "title"]
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {".wearsim", "result.json", *TABLES, *PICTURES}
     assert found["difference_references"] == ["larger"]
@@ -126,7 +126,8 @@ def test_a_contact_of_ones_own(cli, tmp_path):
     assert "What one key alone" not in done.out
     assert done.err == ""
     found = json.loads(cli("hertz-check", path, "--json").out)
-    assert set(found) == {"schema_version", "case", "title", "contact", "assumptions", "warnings"}
+    head = {"schema_version", "wearsim_version", "case", "title"}
+    assert set(found) == {*head, "contact", "assumptions", "warnings"}
     assert found["contact"]["contact_ratio"] is None
 
 

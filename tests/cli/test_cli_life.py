@@ -12,6 +12,7 @@ from wearsim.simulation import simulate
 
 KEYS = (
     "schema_version",
+    "wearsim_version",
     "case",
     "life_hours",
     "cycles",

@@ -79,6 +79,7 @@ def test_other_columns_follow_from_those(loads):
     assert found["centrifugal_tension_N"] == pytest.approx(0.6 * speed**2, rel=0.1)
     assert set(found) == {
         "schema_version",
+        "wearsim_version",
         "case",
         "phase",
         "elongation_percent",

@@ -40,7 +40,7 @@ def test_json_and_files_agree(cli, tmp_path):
     done = cli("wave-drive", CASE, "--json", "--out", out)
     assert done.code == 0
     found = json.loads(done.out)
-    assert list(found)[:3] == ["schema_version", "case", "title"]
+    assert list(found)[:4] == ["schema_version", "wearsim_version", "case", "title"]
     assert found == json.loads((out / "result.json").read_text())
     assert {path.name for path in out.iterdir()} == {
         ".wearsim",

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, load_cases, overrides
@@ -30,7 +31,7 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
         warnings = [*case.warnings, *rating_warnings(case.drive.ratings(case))]
         if as_json:
             content = {
-                "schema_version": 1,
+                **ANSWER_HEAD,
                 "case": case.name,
                 "assumptions": list(case.assumptions),
                 "warnings": warnings,

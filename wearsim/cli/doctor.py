@@ -5,6 +5,7 @@ from dataclasses import asdict
 
 import click
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.command.options import common_options
 
@@ -26,7 +27,7 @@ def doctor(as_json: bool) -> int:
     found = installation_checks(shipped_cases().get(_SELF_TEST))
     failed = [one.name for one in found if one.state == "failed"]
     if as_json:
-        content = {"schema_version": 1, "in_order": not failed, "findings": [asdict(one) for one in found]}
+        content = {**ANSWER_HEAD, "in_order": not failed, "findings": [asdict(one) for one in found]}
         click.echo(json.dumps(content, ensure_ascii=False))
         return _NOT_IN_ORDER if failed else 0
     width = max(len(one.name) for one in found)

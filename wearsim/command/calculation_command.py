@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
@@ -72,7 +73,7 @@ def _show(
         click.echo(error_json(case.stem, error))
         show_error(error)
         raise click.exceptions.Exit(exit_code(error)) from None
-    content = {"schema_version": 1, "case": case.stem, **found.content}
+    content = {**ANSWER_HEAD, "case": case.stem, **found.content}
     sheet = replace(found, content={**content, "notes": notes} if notes else content)
     if out is not None:
         sheet.save(out, force)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
 from wearsim.quantities import grouped
 from wearsim.report.answer import jumping
@@ -43,7 +44,7 @@ def loads_json(found: ToothLoads) -> dict[str, Any]:
         for row in range(found.loads.force.size)
     ]
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": found.case,
         "phase": found.phase,
         "elongation_percent": 100.0 * found.elongation,

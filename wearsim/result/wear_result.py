@@ -163,6 +163,7 @@ class WearResult:
         reached = isinstance(self.life, Life)
         return {
             "schema_version": SCHEMA_VERSION,
+            "wearsim_version": self.environment["wearsim"],
             "case": self.case,
             "title": self.title,
             **life_keys("life_hours", self.life),

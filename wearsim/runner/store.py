@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import MARKER, check_free, mark, write_file, written
@@ -140,7 +141,7 @@ def _found(folder: Path, text: str, force: bool) -> str | None:
 
 
 def _manifest(design: Design, manifest: Mapping[str, Any]) -> str:
-    content = {"schema_version": 1, **manifest, "cases": len(design.rows), "sha256": design.address()}
+    content = {**ANSWER_HEAD, **manifest, "cases": len(design.rows), "sha256": design.address()}
     return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
@@ -62,7 +63,7 @@ def calibration_text(found: Calibration) -> str:
 def calibration_json(found: Calibration) -> dict[str, Any]:
     """Return the answer as ``wearsim calibrate --json`` prints it."""
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": found.case.name,
         "title": found.case.title,
         "confidence": found.options.confidence,

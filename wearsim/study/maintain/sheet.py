@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
@@ -56,7 +57,7 @@ def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
     """Return the plan as ``wearsim maintain --json`` prints it."""
     cheapest = plan.cheapest
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": plan.case,
         "title": plan.title,
         "policies": policy_rows(plan),

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import defaults_by_kind
@@ -186,7 +187,7 @@ def optimise_json(outcome: OptimiseOutcome) -> dict[str, Any]:
     study = outcome.study
     failed = [one for one in outcome.candidates if not one.feasible]
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": study.case.name,
         "objectives": list(study.objectives),
         "seed": study.seed,

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours, service_text
 from wearsim.report.service import service_keys
@@ -43,7 +44,7 @@ def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str,
     """Return the answer as ``wearsim remaining --json`` prints it."""
     reading = found.reading
     content = {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": found.case,
         "title": found.title,
         "part": found.part,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.select.considered_chains import ConsideredChains
@@ -100,7 +101,7 @@ def selection_json(answer: SelectionAnswer) -> dict[str, Any]:
     """Return what ``wearsim select --json`` prints."""
     miss = None if answer.passing else nearest_miss(answer.drives)
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "criterion": "cost" if answer.priced else "mass",
         "chains": len(answer.considered.chains),
         "judged": len(answer.drives),

@@ -9,6 +9,7 @@ from typing import Any
 import pandas as pd
 from matplotlib.figure import Figure
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
@@ -96,7 +97,7 @@ def sensitivity_json(answer: SensitivityAnswer) -> dict[str, Any]:
     rows = sensitivity_table(answer).to_dict("records")
     scattered = answer.study.scattered
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": scattered.case.name,
         "life_hours": answer.hours,
         "seed": answer.study.seed,

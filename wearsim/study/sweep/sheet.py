@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.runner.shard import life_columns
@@ -34,7 +35,7 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     for row in table.to_dict("records"):
         known = {name: plain(value) for name, value in row.items()}
         inputs = {key: known.pop(key) for key in sweep.design.keys}
-        content = {"schema_version": 1, "case": sweep.design.name, "inputs": inputs, **known}
+        content = ANSWER_HEAD | {"case": sweep.design.name, "inputs": inputs, **known}
         lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
     return lines
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
@@ -53,7 +54,7 @@ def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     """Return the answer as plain values."""
     study = answer.study
     case = study.scattered.case
-    content: dict[str, Any] = {"schema_version": 1, "case": case.name, "title": case.title}
+    content: dict[str, Any] = {**ANSWER_HEAD, "case": case.name, "title": case.title}
     for found in answer.percentiles:
         name = f"p{100 * found.share:.0f}_hours"
         content[name] = found.hours if found.known else None

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.command.colours import show
 from wearsim.command.options import (
     NOT_MET,
@@ -107,7 +108,7 @@ def loaded_teeth(
     if as_json:
         sprockets = [{"name": name, **loads_json(found)} for name, found in teeth.items()]
         layout = layout_json(drive)
-        print_json({"schema_version": 1, "case": drive.name, "layout": layout, "sprockets": sprockets}, path)
+        print_json({**ANSWER_HEAD, "case": drive.name, "layout": layout, "sprockets": sprockets}, path)
         return
     click.echo(f"{drive.title}\n{layout_text(drive)}")
     for name, found in teeth.items():
@@ -246,7 +247,7 @@ def _check_json(drive: "DriveCase") -> dict[str, Any]:
     from wearsim.study.whole_drive.layout import layout_json
 
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": drive.name,
         "sprockets": [one.name for one in drive.sprockets],
         "layout": layout_json(drive),

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
@@ -28,7 +29,7 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
     """Return the plan as ``wearsim maintain --json`` prints it."""
     best = plan.cheapest
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": plan.drive.name,
         "title": plan.drive.title,
         "parts": [{"part": name, **life_keys("life_hours", life)} for name, life in plan.lives.items()],

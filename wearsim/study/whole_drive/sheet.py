@@ -4,6 +4,7 @@ import shlex
 from collections.abc import Sequence
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer import JUMPING, SAFE, ending, hours, jumping_margin, overload_text, service_text
 from wearsim.report.service import service_keys, service_measures
@@ -231,7 +232,7 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
     """Return what ``wearsim life --json`` prints of a whole drive."""
     drive, (low, high) = found.drive, found.band(_banded(found))
     return {
-        "schema_version": 1,
+        **ANSWER_HEAD,
         "case": drive.name,
         "title": drive.title,
         **life_keys("life_hours", found.life),

@@ -1,0 +1,76 @@
+"""The site: its versions, its links, the install page, and the font that formulas need."""
+
+import re
+import runpy
+import tomllib
+from pathlib import Path
+
+import pytest
+from fontTools.ttLib import TTFont
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+LINKS = runpy.run_path(str(ROOT / ".ci" / "links.py"))
+
+
+@pytest.fixture
+def site(tmp_path):
+    """A site of four versions, and a folder that is none."""
+    for name in ("0.2.0", "0.10.0", "0.9.1", "1.0.0rc1", "_static"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "index.html").touch()
+    return tmp_path
+
+
+def test_newest_version_is_first_and_the_front_page_leads_to_the_newest_release(site):
+    runpy.run_path(str(DOCS / "site_versions.py"))["write_root"](site)
+    listed = (site / "versions.js").read_text()
+    assert listed == 'window.siteVersions = ["1.0.0rc1", "0.10.0", "0.9.1", "0.2.0"];\n'
+    assert 'url=0.10.0/index.html"' in (site / "index.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("link", "lost"),
+    [
+        ("b.html", False),
+        ("b.html#there", False),
+        ("#here", False),
+        ("https://example.org/none", False),
+        ("c.html", True),
+        ("b.html#elsewhere", True),
+        ("#nowhere", True),
+    ],
+)
+def test_link_that_leads_nowhere_is_found(tmp_path, link, lost):
+    at, other = tmp_path / "a.html", tmp_path / "b.html"
+    at.write_text(f'<p id="here"><a href="{link}">x</a></p>')
+    other.write_text('<p id="there"></p>')
+    pages = {path: LINKS["Page"](path) for path in (at, other)}
+    assert pages[at].links == [link]
+    assert LINKS["broken"](at, link, pages) is lost
+
+
+def test_install_page_has_every_extra():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    table = (DOCS / "installation.md").read_text("utf-8").split("## Extras")[1].split("\n## ")[0]
+    first_cells = [row.split("|")[1] for row in table.splitlines() if row.startswith("| `")]
+    stated = [name for cell in first_cells for name in cell.replace("`", "").replace(",", " ").split()]
+    assert sorted(stated) == sorted(project["optional-dependencies"])
+
+
+def test_every_page_of_the_gallery_is_in_its_list_and_has_a_picture():
+    listed = [
+        line for line in (DOCS / "gallery.md").read_text("utf-8").splitlines() if line.startswith("gallery/")
+    ]
+    pages = sorted((DOCS / "gallery").glob("*.md"))
+    assert sorted(listed) == [f"gallery/{page.stem}" for page in pages]
+    assert [page.name for page in pages if "```{picture} " not in page.read_text("utf-8")] == []
+
+
+def test_font_of_the_formulas_can_draw_roots_and_comes_with_its_licence():
+    folder = DOCS / "_static" / "maths-font"
+    (file,) = re.findall(r'url\("maths-font/(.+?)"\)', (DOCS / "_static" / "math.css").read_text("utf-8"))
+    font = TTFont(folder / file)
+    growing = font["MATH"].table.MathVariants.VertGlyphCoverage.glyphs
+    assert {font.getBestCmap()[ord(sign)] for sign in "\u221a()[]|"} <= set(growing)
+    assert "SIL OPEN FONT LICENSE" in (folder / "OFL.txt").read_text("utf-8")
