@@ -181,7 +181,7 @@ def test_worn_wrap(cli, wrap, tmp_path, profile):
     assert lost == pytest.approx(teeth / len(kinds) * run.removed_area, rel=2e-3)
     gauge = tmp_path / "gauge.dxf"
     assert cli("export", folder, "--template", gauge, "-q").code == 0
-    check_gauge(gauge, last_points(run, 0.55))
+    check_gauge(gauge, last_points(run, 0.92))
 
 
 def check_gauge(path, points):
@@ -357,12 +357,12 @@ def test_gauge_in_all_formats_is_one(cli, drive, tmp_path):
     for kind in ("svg", "dxf"):
         assert cli("export", path, "--template", tmp_path / f"g.{kind}").code == 0
     run = wearsim.simulate(load_case(path))
-    check_gauge(tmp_path / "g.dxf", last_points(run, 0.55))
+    check_gauge(tmp_path / "g.dxf", last_points(run, 0.92))
     root = ET.parse(tmp_path / "g.svg").getroot()  # noqa: S314
     assert (root.get("width"), root.get("height")) == ("210mm", "297mm")
     note = " ".join(texts(tmp_path / "g.dxf"))
     told = ("20 teeth, chain 16B-1", "critical depth = 0.02 mm", "Print at 100 %", "50 mm")
-    way = ("from the side of the wheel, along the axis", "Good: it does not go in", "Worn out, replace")
+    way = ("from above along the arrow", "degrees towards W", "Good: it does not go in", "Worn out, replace")
     for part in told + way:
         assert part in note
 
@@ -372,7 +372,7 @@ def test_gauge_looks_for_a_limit_beyond_the_horizon(cli, drive, tmp_path):
     assert cli("life", path, "--set", "run.horizon_hours=1", "--out", folder).code == 0
     assert isinstance(WearResult.load(folder).life, wearsim.result.LowerBound)
     assert cli("export", folder, "--template", out).code == 0
-    check_gauge(out, last_points(wearsim.simulate(load_case(path)), 0.55))
+    check_gauge(out, last_points(wearsim.simulate(load_case(path)), 0.92))
 
 
 def test_gears_have_two_gauges(cli, gears, tmp_path):
