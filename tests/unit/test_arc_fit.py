@@ -36,12 +36,12 @@ def test_lines_with_a_corner_keep_it():
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 def test_an_ellipse_stays_within_the_tolerance(tolerance):
-    """An arc that meets a curve at both ends and its middle leaves it by k' s^3 / (72 sqrt(3)), k' the change of its curvature."""
+    """An arc that meets a curve at both ends and its middle leaves it by k' s^3 / (72 sqrt(3))."""
     angle = np.linspace(0.0, 0.5 * math.pi, 2001)
     curve = along_points("flank", np.column_stack([20.0 * np.cos(angle), 12.0 * np.sin(angle)]))
     arcs = with_few_arcs(curve, tolerance)
     assert shapely.hausdorff_distance(fine(arcs), fine(curve)) < tolerance
-    # k' is at most 0.0114 per mm2 here, where the quarter is 25.5 mm long.
+    # k', the change of the curvature, is at most 0.0114 per mm2 here, where the quarter is 25.5 mm long.
     assert len(arcs.bulges) < 2.0 + 25.5 / (72.0 * math.sqrt(3.0) * tolerance / 0.0114) ** (1.0 / 3.0)
 
 

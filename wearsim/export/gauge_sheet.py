@@ -147,13 +147,14 @@ def _text(case: Case, result: WearResult, gauges: list[GaugeOutline]) -> list[st
     return [
         f"Go/no-go gauge of wear: {case.title} (case {case.name}; {case.drive.teeth_in_words(case)})",
         f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge "
-        f"reaches as far as such a gap; elsewhere on side W it keeps {gauges[0].clearance:.2g} mm off the new "
-        "tooth.",
+        f"reaches as far as such a gap; elsewhere on side W it keeps {gauges[0].clearance:.2g} mm off "
+        "the new tooth.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
         "by 10 mm, else do not use this sheet.",
         f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
         f"3. Push it in from above along the arrow{_slants(gauges)}: edge W to the side of the gap that "
-        f"carries the load, edge U to the other, both shoulders on the tips. Try the gap worn most.{_edge(gauges)}",
+        "carries the load, edge U to the other, both shoulders on the tips. Try the gap worn most."
+        f"{_edge(gauges)}",
         "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
         "with both shoulders on the tips; light along W then shows wear beyond the limit.",
         f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {__version__}",
