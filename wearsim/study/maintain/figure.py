@@ -5,6 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from wearsim.report.text_lines import literal
 from wearsim.result import Life
@@ -22,6 +23,7 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
             _draw(panels, policies, reversed_, priced)
     panels[0].set_ylabel("sprocket's life, h")
     panels[1].set_ylabel("chains per sprocket")
+    panels[1].yaxis.set_major_locator(MaxNLocator(5, integer=True))
     if priced:
         panels[2].set_ylabel("cost per 1000 h")
     for panel in panels:
