@@ -13,6 +13,7 @@ from wearsim.report.figures import flanks_figure
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.figure import maintenance_figure
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
+from wearsim.study.maintain.sheet import maintenance_text
 from wearsim.study.sweep.figure import sweep_figures
 
 STRAND = {
@@ -148,6 +149,16 @@ def test_a_single_elongation_of_maintenance(last):
     assert mark.get_ydata() == [last.hours_run]
     shape = ("o", "tab:orange") if isinstance(last, Life) else ("^", "white")
     assert (mark.get_marker(), mark.get_markerfacecolor()) == shape
+
+
+def test_maintenance_names_no_cheapest_among_costs_that_are_not_known():
+    """The cost of a sprocket whose limit was not reached may be less than any."""
+    straight = ReplacementPolicy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
+    open_ = ReplacementPolicy(0.005, False, 3500.0, LowerBound(1e9, 50_000.0), 0.01, None)
+    assert "cheapest: a new chain at 1 %" in maintenance_text(plan(straight))
+    assert "cheapest of those whose cost is known: a new chain at 1 %" in maintenance_text(
+        plan(open_, straight)
+    )
 
 
 def test_bounds_of_a_sweep_are_open_arrows_with_their_sign():
