@@ -12,6 +12,7 @@ import io
 import json
 import logging
 import os
+import re
 import shlex
 import shutil
 import sys
@@ -21,6 +22,7 @@ from unittest.mock import patch
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
+from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.errors import ExtensionError
@@ -125,8 +127,16 @@ def _rest(answer: str) -> nodes.raw:
     return nodes.raw("", whole, format="html")
 
 
+def _block(text: str, language: str) -> nodes.literal_block:
+    """What is typed or printed, of a size at which 100 columns fit the page."""
+    return nodes.literal_block(text, text, language=language, classes=["example"])
+
+
 class Run(Directive):
-    """Commands (``sh``) or Python, shown, run, and what they print: all or the first ``:shows:`` lines."""
+    """Commands (``sh``) or Python, shown, run, and what they print: all or the first ``:shows:`` lines.
+
+    What is printed as a table of Markdown becomes one.
+    """
 
     required_arguments = 1
     option_spec: ClassVar = {"shows": directives.nonnegative_int}
@@ -136,11 +146,16 @@ class Run(Directive):
         """Return the block and its answer."""
         language, text = self.arguments[0], "\n".join(self.content)
         answer = _folder(self).answer(language, text)
-        found: list[nodes.Node] = [nodes.literal_block(text, text, language=language)]
+        found: list[nodes.Node] = [_block(text, language)]
         lines = answer.splitlines()
         shown = "\n".join(lines[: self.options.get("shows", len(lines))])
-        if shown:
-            found.append(nodes.literal_block(shown, shown, language="text"))
+        if shown.startswith("|"):
+            table = nodes.container()
+            whole = re.sub(r"(?<=\d) (?=\d|h\b|mm\b)", "\N{NO-BREAK SPACE}", shown)
+            self.state.nested_parse(StringList(whole.splitlines()), self.content_offset, table)
+            found.append(table)
+        elif shown:
+            found.append(_block(shown, "text"))
         if len(shown.splitlines()) < len(lines):
             found.append(_rest(answer))
         return found

@@ -1,5 +1,6 @@
 """The pages of ``wearsim report`` in a real browser."""
 
+import re
 import time
 
 import pytest
@@ -143,6 +144,16 @@ def test_print_shows_still_pictures(watched, reports):
     assert not watched.locator("[data-chart]").first.is_visible()
     width = "img => [img.complete, img.naturalWidth]"
     assert all(img.evaluate(width)[1] > 0 for img in watched.locator("img.still").all())
+
+
+@pytest.mark.parametrize(("drive", "sheets"), [("strand", 5), ("wrap", 6)])
+def test_a_printed_page_wastes_no_sheets(watched, reports, drive, sheets):
+    """On A4 as the page itself asks for it; before, pictures that fill a sheet left others half empty."""
+    shown(watched, reports / drive)
+    pdf = watched.pdf(prefer_css_page_size=True)
+    assert len(re.findall(rb"/Type\s*/Page\b", pdf)) <= sheets
+    (width, height) = re.search(rb"/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]", pdf).groups()
+    assert [float(width), float(height)] == pytest.approx([595.3, 841.9], abs=1.0)
 
 
 def test_without_scripts_the_still_pictures_stand(new_context, reports):

@@ -105,6 +105,22 @@ def test_options_change_the_samples(cli, case):
         assert other != base
 
 
+def test_only_the_wear_coefficient_scatters(cli, case):
+    """Why there is one bar, and lines that give more of them when they are put into the case."""
+    path = case("")
+    done = cli("sensitivity", path, "--samples", 8, "--trajectories", 4)
+    assert "only wear coefficients scatter" in done.out
+    assert "are not known well" not in done.out
+    offered = done.out[done.out.index("[uncertainty]\n") :]
+    # A tenth of the tension, 3 % of the speed, 2 % of the offset.
+    for key, deviation in ((TENSION, 300), ("load.speed_rpm", 3), ("sprocket.evolute_offset_mm", 0.112)):
+        assert f'"{key}" = {{distribution = "normal", standard_deviation = {deviation}}}' in offered
+    path.write_text(path.read_text() + offered)
+    done, content, found = answer(cli, path, "--samples", 8, "--trajectories", 4)
+    assert {K, TENSION, "load.speed_rpm", "sprocket.evolute_offset_mm"} < set(found)
+    assert not any("only wear coefficients" in text for text in content["warnings"])
+
+
 def test_lives_that_are_not_known_are_refused(cli, case):
     done = cli("sensitivity", case(), "--set", "run.horizon_hours=100", "--samples", 8)
     assert (done.code, done.out) == (3, "")

@@ -8,10 +8,12 @@ import pandas as pd
 import pytest
 
 import wearsim
+from wearsim.command.study_files import save_figures
 from wearsim.report.figures import flanks_figure
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.figure import maintenance_figure
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
+from wearsim.study.maintain.sheet import maintenance_text
 from wearsim.study.sweep.figure import sweep_figures
 
 STRAND = {
@@ -55,6 +57,76 @@ def test_flanks_lie_inside_panels_of_one_size(results, count):
         assert all(frame.contains(*corner) for corner in legend.corners())
 
 
+def sweep_of(table, *keys):
+    """Pictures of the cases of a grid."""
+    table = table.assign(hours_run=table["life_hours"], error="")
+    return sweep_figures(
+        SimpleNamespace(axes=[(key,) for key in keys], design=SimpleNamespace(keys=list(keys))), table
+    )
+
+
+def drawn_texts(panel):
+    panel.figure.draw_without_rendering()
+    return [text.get_text() for text in panel.texts]
+
+
+GRID = pd.DataFrame(
+    {
+        "sprocket.teeth": [20, 20, 40, 40],
+        "load.tension_N": [2000.0, 8000.0, 2000.0, 8000.0],
+        "life_hours": [6000.0, 1500.0, 9000.0, 2000.0],
+    }
+)
+
+
+def test_curves_and_axes_of_a_sweep_are_named_as_people_write():
+    (panel, *_) = sweep_of(GRID, "sprocket.teeth", "load.tension_N")["curves"].axes
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == [
+        "tension 2 000 N",
+        "tension 8 000 N",
+    ]
+    assert panel.get_xlabel() == "teeth"
+    assert [tick.get_text() for tick in panel.get_xticklabels()] == ["20", "40"]
+    assert panel.get_ylim()[1] > 9000.0
+    heat = sweep_of(GRID, "sprocket.teeth", "load.tension_N")["heat_map"].axes[0]
+    assert (heat.get_xlabel(), heat.get_ylabel()) == ("teeth", "tension, N")
+
+
+@pytest.mark.parametrize("count", [3, 60])
+def test_numbers_of_parallel_coordinates_stand_in_front_of_the_lines(count):
+    """On white, above all lines, none over another; of whole numbers whole ones."""
+    teeth = np.arange(20, 20 + count)
+    table = pd.DataFrame(
+        {
+            "sprocket.teeth": teeth,
+            "wear.condition": ["oiled", "dry", "wet"] * (count // 3),
+            "life_hours": 100.0 * teeth,
+        }
+    )
+    (panel, *_) = sweep_of(table, "sprocket.teeth", "wear.condition")["parallel"].axes
+    shown = drawn_texts(panel)
+    assert shown[: len(shown) // 3] == [str(int(text)) for text in shown[: len(shown) // 3]]
+    assert {"oiled", "dry", "wet"} < set(shown)
+    boxes = [text.get_window_extent() for text in panel.texts]
+    assert not any(one.overlaps(two) for at, one in enumerate(boxes) for two in boxes[:at])
+    lines = max(line.get_zorder() for line in panel.get_lines())
+    for text in panel.texts:
+        assert text.get_zorder() > lines
+        assert text.get_bbox_patch().get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+    names = [tick.get_text() for tick in panel.get_xticklabels()]
+    assert names == ["teeth", "condition", "life, h"]
+
+
+def test_a_long_title_stays_inside_its_picture(tmp_path):
+    figure = sweep_of(GRID, "sprocket.teeth", "load.tension_N")["curves"]
+    save_figures(
+        tmp_path, "A drive with a title that is far longer than a picture is wide, " * 3, {"a": figure}
+    )
+    figure.draw_without_rendering()
+    box = figure.get_suptitle() and figure._suptitle.get_window_extent()
+    assert box.x0 > 0.0 and box.x1 < figure.bbox.width
+
+
 def plan(*policies):
     return MaintenancePlan("case", "Title", policies, (), 0.03, (), (), ())
 
@@ -77,6 +149,16 @@ def test_a_single_elongation_of_maintenance(last):
     assert mark.get_ydata() == [last.hours_run]
     shape = ("o", "tab:orange") if isinstance(last, Life) else ("^", "white")
     assert (mark.get_marker(), mark.get_markerfacecolor()) == shape
+
+
+def test_maintenance_names_no_cheapest_among_costs_that_are_not_known():
+    """The cost of a sprocket whose limit was not reached may be less than any."""
+    straight = ReplacementPolicy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
+    open_ = ReplacementPolicy(0.005, False, 3500.0, LowerBound(1e9, 50_000.0), 0.01, None)
+    assert "cheapest: a new chain at 1 %" in maintenance_text(plan(straight))
+    assert "cheapest of those whose cost is known: a new chain at 1 %" in maintenance_text(
+        plan(open_, straight)
+    )
 
 
 def test_bounds_of_a_sweep_are_open_arrows_with_their_sign():

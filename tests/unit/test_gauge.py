@@ -98,7 +98,7 @@ def fits(gauge_, steel_, turn=0.0):
 
 @pytest.mark.parametrize("form", [*STRANDS, *WRAPS])
 def test_it_goes_in_where_the_gap_is_worn_out_and_nowhere_else(tmp_path, form):
-    """Put in along the axis it has to fit at its place only, whatever lies below the seats."""
+    """Both shoulders on the tips: too wide for a new gap and for one that is worn by 95 % of the limit."""
     case = wheel(tmp_path, form)
     limit = 0.02 * case.drive.chain.pitch
     shape = worn(case, (WHERE, limit * WORN))
@@ -127,22 +127,28 @@ def test_what_is_worn_less_elsewhere_does_not_keep_it_out(tmp_path, form):
     assert fits(body, steel(worn(case, (WHERE, limit * other)), "worn"))
 
 
+@pytest.mark.parametrize("form", [*STRANDS, *WRAPS])
+def test_it_comes_in_from_above(tmp_path, form):
+    """Into a gap that is worn out, also where only its deepest part is worn and the tip is new."""
+    case = wheel(tmp_path, form)
+    limit = 0.02 * case.drive.chain.pitch
+    one = gauge(worn(case, (WHERE, limit * WORN)))
+    body, way = drawn(one.outline), np.array([math.sin(one.slant), math.cos(one.slant)])
+    for depths in (WORN, np.where(WORN < 0.4, 0.0, WORN)):
+        there = steel(worn(case, (WHERE, limit * depths)), "worn")
+        for lift in np.linspace(0.0, one.box[3], 120):
+            assert fits(affinity.translate(body, *(lift * way)), there), lift
+
+
 @pytest.mark.parametrize("form", STRANDS)
-def test_from_above_it_would_catch_between_the_tips(form, tmp_path):
-    """Why it is put in along the axis: also a gap that is worn out is narrower at the tips."""
+def test_below_the_tips_it_is_no_wider_than_the_gap_between_them(form, tmp_path):
+    """Across the way in; the gap itself is wider below, so that a gauge of its form would catch."""
     case = wheel(tmp_path, form)
     shape = worn(case, ([0.0, 0.5, 1.0], 0.02 * case.drive.chain.pitch * np.array([0.0, 1.0, 0.2])))
-    body, there = drawn(gauge(shape).outline), steel(shape, "worn")
-    up = [affinity.translate(body, 0.0, lift) for lift in np.linspace(0.0, 12.0, 25)]
-    assert fits(up[0], there)
-    assert max((one & there).area for one in up) > 1.0
-    neck = 2.0 * shape.tip_radius * math.sin(0.5 * opening(shape))
-    inside = [point for point in body.exterior.coords if math.hypot(*point) < shape.tip_radius]
-    assert np.ptp([x for x, _ in inside]) > neck
-
-
-def opening(shape):
-    """Angle of the worn gap between its tips."""
-    space = shape.worn[0]
-    (x, y), (u, v) = space.right[0].vertices[0], space.left[-1].vertices[-1]
-    return abs(math.atan2(x, y) - math.atan2(u, v))
+    one = gauge(shape)
+    tips = np.array([shape.worn[0].right[0].vertices[0], shape.worn[0].left[-1].vertices[-1]])
+    across = np.array([math.cos(one.slant), -math.sin(one.slant)])
+    below = one.outline.vertices[np.hypot(*one.outline.vertices.T) < shape.tip_radius - FINE]
+    assert np.ptp(below @ across) < np.ptp(tips @ across) + FINE
+    gap = np.concatenate([part.vertices for part in (*shape.worn[0].right, *shape.worn[0].left)])
+    assert np.ptp(gap[:, 0]) > np.ptp(tips[:, 0]) + 0.5

@@ -1,6 +1,7 @@
 """What every study leaves in its folder and prints: tables, pictures, plain values."""
 
 import math
+import textwrap
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,9 @@ from wearsim.report.figures import picture_bytes
 from wearsim.report.text_lines import literal
 
 _KINDS = ("png", "svg")
+
+_LETTER = 0.085
+"""Width of a letter of the title [inch]."""
 
 
 def save_files(folder: Path, files: Mapping[str, str | bytes]) -> None:
@@ -31,7 +35,8 @@ def save_files(folder: Path, files: Mapping[str, str | bytes]) -> None:
 def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
     """Write the pictures of a study as PNG and SVG."""
     for figure in figures.values():
-        figure.suptitle(literal(title), fontsize=10)
+        letters = int(figure.get_figwidth() / _LETTER)
+        figure.suptitle(literal(textwrap.fill(title, letters)), fontsize=10)
     pictures = {
         f"{name}.{kind}": picture_bytes(figure, kind) for name, figure in figures.items() for kind in _KINDS
     }

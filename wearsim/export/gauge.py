@@ -1,9 +1,10 @@
 """A go/no-go gauge: it goes in between two teeth that are worn to their limit, and no sooner.
 
-It is put in along the axis of the wheel, its shoulders on both tips. At the radii of the deepest
-wear it is as wide as the gap at the limit, elsewhere it keeps off the new teeth: the wear there
-alone decides. Along a radius it would often not come in, since gaps can be narrower between the
-tips than below.
+Its shoulders rest on both tips. On the loaded side, at the radii of the deepest wear, it reaches as
+far as the gap at the limit; elsewhere it keeps off the new teeth: the wear there alone decides. On
+the other side it lies against the new tooth. It comes in from above even where the gap is narrower
+between the tips than below, along a line that slants towards the loaded side: what would not come
+past the tips along that line is cut off.
 """
 
 import math
@@ -29,6 +30,12 @@ _LEAST_SHOULDER = 0.1
 _DEEP = 0.5
 """Part of the greatest depth from which on the gauge is as wide as the worn gap."""
 
+_NOSE = 0.9
+"""Part of the greatest depth from which on the gauge must come in past the tip."""
+
+_EDGE = 0.05
+"""Part of the pitch that must touch the tooth that is not loaded, else it is the edge of its tip alone."""
+
 _TOLERANCE = 1e-4
 """Distance of chords from their arcs [mm]."""
 
@@ -44,6 +51,8 @@ class GaugeOutline:
     clearance: float  # to the new teeth, where the gauge is not as wide as the worn gap [mm]
     pitch_radius: float  # of the wheel [mm]
     tip_radius: float  # of the wheel [mm]
+    slant: float  # of the way in, from the centre line downwards to the loaded side [rad]
+    on_edge: bool  # whether it touches the tooth that is not loaded at the edge of its tip alone
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -57,31 +66,62 @@ def gauge(shape: WheelShape) -> GaugeOutline:
     """Return the gauge of a wheel that is worn to its limit."""
     worn, new = shape.worn[shape.worn_most], shape.new[shape.worn_most]
     pitch = math.tau * shape.pitch_radius / len(shape.new)
-    clearance = _CLEARANCE * pitch
-    top = shape.tip_radius + max(_LEAST_HEAD, _HEAD * pitch)
+    clearance, top = _CLEARANCE * pitch, shape.tip_radius + max(_LEAST_HEAD, _HEAD * pitch)
     points, fresh = _points(worn.right + worn.left), _points(new.right + new.left)
-    steel = shapely.LineString(fresh)
+    steel, unloaded = shapely.LineString(fresh), shapely.box(0.0, 0.0, top, top)
     depth = shapely.distance(shapely.points(points), steel)
     deep = np.hypot(*points[depth >= _DEEP * depth.max()].T)
-    ring = _disc(deep.max() + 0.1 * clearance) - _disc(deep.min() - 0.1 * clearance)
-    whole = shapely.union_all(
+    low, high = _disc(deep.min() - 0.1 * clearance), _disc(deep.max() + 0.1 * clearance)
+    room = shapely.union_all(
         [
             _gap(fresh, clearance) - steel.buffer(clearance),
-            _gap(points, clearance) & ring,
-            _head(points, len(shape.new), top),
+            _gap(points, clearance) & (high - low),
+            (_gap(fresh, clearance) & unloaded) - low,
         ]
     )
-    body = max(shapely.get_parts(whole), key=shapely.area)
-    vertices = shapely.get_coordinates(orient(body).exterior)
+    walls = _walls(room, shape.tip_radius)
+    slant = _slant(points[depth >= _NOSE * depth.max()], walls)
+    whole = (room - _shadow(walls, slant, shape.tip_radius)) | _head(points, len(shape.new), top)
+    body = orient(max(shapely.get_parts(whole), key=shapely.area))
     rows = (new.right + new.left,) if new.rooted else (new.right, new.left)
     return GaugeOutline(
         shape.name,
-        OutlineChain((OutlineStretch("gauge", vertices, np.zeros(len(vertices) - 1)),), (1,), True),
+        _closed(shapely.get_coordinates(body.exterior)),
         tuple(OutlineChain(row, (1,) * len(row), False) for row in rows),
         clearance,
         shape.pitch_radius,
         shape.tip_radius,
+        slant,
+        (body.exterior & steel.buffer(10.0 * _TOLERANCE) & unloaded).length < _EDGE * pitch,
     )
+
+
+def _closed(vertices: Vector) -> OutlineChain:
+    return OutlineChain((OutlineStretch("gauge", vertices, np.zeros(len(vertices) - 1)),), (1,), True)
+
+
+def _walls(room: shapely.Polygon, tip_radius: float) -> Vector:
+    """Sides of a room below the tips, as pairs of points, shape (n, 2, 2)."""
+    lines = shapely.get_parts(room.exterior & _disc(tip_radius - _TOLERANCE))
+    rows = [shapely.get_coordinates(line) for line in lines]
+    return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])
+
+
+def _slant(nose: Vector, walls: Vector) -> float:
+    """Return the least slant, in whole degrees, at which no wall of the loaded side lies above the nose."""
+    wall = walls.reshape(-1, 2)
+    wall = wall[wall[:, 0] < 0.0]
+    (right, up), above = (wall - nose[:, None]).T, np.hypot(*wall.T)[:, None] > np.hypot(*nose.T)
+    steepest = np.arctan2(right, up)[above & (up > _TOLERANCE)].max(initial=0.0)
+    return math.radians(math.ceil(math.degrees(steepest)))
+
+
+def _shadow(walls: Vector, slant: float, length: float) -> shapely.Geometry:
+    """What lies below walls along the way in."""
+    ahead = -length * np.array([math.sin(slant), math.cos(slant)])
+    start, end = walls[:, 0], walls[:, 1]
+    swept = shapely.polygons(np.stack([start, end, end + ahead, start + ahead], axis=1))
+    return shapely.union_all(swept[shapely.area(swept) > 0.0])
 
 
 def _points(stretches: tuple[OutlineStretch, ...]) -> Vector:

@@ -11,7 +11,7 @@ from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.export.gauge import GaugeOutline, gauge
 from wearsim.export.printed_page import drawing_bytes
 from wearsim.geometry.outline_stretch import arc_about_axis
-from wearsim.geometry.scene import Label, Scene, Shape, line
+from wearsim.geometry.scene import Label, Scene, Shape, line, straight_arrow
 from wearsim.geometry.wheel_outline import OutlineChain
 from wearsim.quantities import grouped
 from wearsim.report.flank_view import flanks
@@ -28,11 +28,15 @@ _TEXT, _LINE = 3.0, 5.2
 _LETTER = 0.68
 """Height of letters, distance of lines [mm], and width of a letter over its height."""
 
+_ARROW = 12.0
+"""Length of the arrow along which the gauge is pushed in [mm]."""
+
 _COARSE = 0.5
 """Depth of a limit [mm] below which paper is too coarse for it."""
 
 _LAYERS = {
     "gauge": (7, 13, "Continuous"),
+    "arrow": (7, 13, "Continuous"),
     "new": (8, 9, "DASHED"),
     "pitch_circle": (8, 9, "DASHDOT"),
     "check": (7, 25, "Continuous"),
@@ -59,7 +63,7 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
 def _sheet_scene(case: Case, result: WearResult) -> Scene:
     """The sheet, its lower left corner at (0, 0)."""
     gauges = [gauge(shape) for shape in wheel_shapes(case, result)]
-    width, height, rows = _sheet(gauges, _text(case, result, gauges[0].clearance))
+    width, height, rows = _sheet(gauges, _text(case, result, gauges))
     drawn: list[Shape] = []
     top = height - _MARGIN
     for one in gauges:
@@ -99,10 +103,17 @@ def _placed(one: GaugeOutline, shift: tuple[float, float]) -> list[Shape]:
         one.outline.moved(shift).stroke("gauge"),
         *(chain.moved(shift).stroke("new") for chain in one.new),
         _pitch_arc(one).moved(shift).stroke("pitch_circle"),
+        *_way_in((shift[0], y - 1.0), one.slant),
         _label("W", x + 4.0, y),
         _label("U", x + wide - 7.0, y),
         *name,
     ]
+
+
+def _way_in(centre: tuple[float, float], slant: float) -> tuple[Shape, Shape]:
+    """Arrow through a point, along the way in."""
+    x, y = 0.5 * _ARROW * math.sin(slant), 0.5 * _ARROW * math.cos(slant)
+    return straight_arrow((centre[0] + x, centre[1] + y), (centre[0] - x, centre[1] - y), 3.0)
 
 
 def _pitch_arc(one: GaugeOutline) -> OutlineChain:
@@ -126,7 +137,7 @@ def _check(x: float, y: float) -> list[Shape]:
     ]
 
 
-def _text(case: Case, result: WearResult, clearance: float) -> list[str]:
+def _text(case: Case, result: WearResult, gauges: list[GaugeOutline]) -> list[str]:
     depth = float(flanks(result, -1)["depth_mm"].max())
     coarse = (
         f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
@@ -135,18 +146,32 @@ def _text(case: Case, result: WearResult, clearance: float) -> list[str]:
     )
     return [
         f"Go/no-go gauge of wear: {case.title} (case {case.name}; {case.drive.teeth_in_words(case)})",
-        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge is "
-        f"as wide as such a gap; elsewhere it keeps {clearance:.2g} mm off the new teeth.",
+        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge "
+        f"reaches as far as such a gap; elsewhere on side W it keeps {gauges[0].clearance:.2g} mm off "
+        "the new tooth.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
         "by 10 mm, else do not use this sheet.",
         f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
-        "3. Put it in from the side of the wheel, along the axis, never from above, where it can catch "
-        "between the tips: edge W to the side of the gap that carries the load, edge U to the other, both "
-        "shoulders on the tips. Try the gap worn most.",
+        f"3. Push it in from above along the arrow{_slants(gauges)}: edge W to the side of the gap that "
+        "carries the load, edge U to the other, both shoulders on the tips. Try the gap worn most."
+        f"{_edge(gauges)}",
         "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
         "with both shoulders on the tips; light along W then shows wear beyond the limit.",
         f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {__version__}",
     ]
+
+
+def _slants(gauges: list[GaugeOutline]) -> str:
+    """How far the way in slants, in words."""
+    steepest = max(one.slant for one in gauges)
+    return f", slanting by {math.degrees(steepest):.0f} degrees towards W" if steepest else ""
+
+
+def _edge(gauges: list[GaugeOutline]) -> str:
+    """What a rounded tip does to a gauge that touches no more of the tooth that is not loaded."""
+    if not any(one.on_edge for one in gauges):
+        return ""
+    return " It touches the edge of tip U: where that is rounded off, it shows more wear than there is."
 
 
 def _limit(case: Case, result: WearResult) -> str:

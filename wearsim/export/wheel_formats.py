@@ -13,6 +13,9 @@ from wearsim.quantities import grouped
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
 
+_TOLERANCE = 1e-3
+"""Distance [mm] of the arcs in a drawing from the curves that they stand for."""
+
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
     """Return the wheels of a case as the content of a file."""
@@ -29,7 +32,8 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
 
         (state,) = states
         return stl_bytes(shapes, state)
-    scene, layers = wheel_scene(shapes, states, wheel_note(case, result, shapes, states))
+    drawn = [shape.with_few_arcs(_TOLERANCE) for shape in shapes]
+    scene, layers = wheel_scene(drawn, states, wheel_note(case, result, shapes, states))
     return drawing_bytes(scene, layers, form)
 
 
@@ -58,8 +62,7 @@ def wheel_note(
     return [
         f"{case.title} (case {case.name})",
         _condition(result if "worn" in states else None, states),
-        "All in mm, 1:1. Vertices lie on the computed outline within 1e-6 mm; between points of a curve "
-        f"run arcs, {_greatest_sagitta(shapes):.1g} mm off their chords at most.",
+        f"All in mm, 1:1. Lines and arcs, within {_TOLERANCE:g} mm of the computed outline.",
         *(f"{text[0].upper()}{text[1:]}." for text in taken),
         f"wearsim {__version__}",
     ]
@@ -71,17 +74,3 @@ def _condition(result: WearResult | None, states: Sequence[State]) -> str:
     both = "New, and worn" if len(states) > 1 else "Worn"
     deepest = f"{result.max_depth:.3g} mm off at the deepest point"
     return f"{both} after {grouped(result.hours_run)} h: {deepest}."
-
-
-def _greatest_sagitta(shapes: Sequence[WheelShape]) -> float:
-    """Greatest distance of an arc between computed points from its chord [mm], 0 without any."""
-    return max(
-        (
-            stretch.sagitta
-            for shape in shapes
-            for space in (*shape.new[:1], *shape.worn[:2])
-            for stretch in (*space.right, *space.left)
-            if stretch.is_curve
-        ),
-        default=0.0,
-    )

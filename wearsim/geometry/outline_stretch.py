@@ -28,12 +28,6 @@ class OutlineStretch:
     # whether the vertices are points of a smooth curve; else the arcs and lines are the form
     is_curve: bool = False
 
-    @property
-    def sagitta(self) -> float:
-        """Greatest distance of an arc from its chord [mm]."""
-        chord = np.hypot(*np.diff(self.vertices, axis=0).T)
-        return float((0.5 * chord * np.abs(self.bulges)).max())
-
     def rotated(self, angle: float) -> "OutlineStretch":
         """Return the stretch turned counterclockwise about the origin."""
         return replace(self, vertices=rotated(self.vertices, angle))

@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 import shapely
 
+from wearsim.geometry.arc_fit import with_few_arcs
 from wearsim.geometry.hub import NO_HUB, Hub, circle
 from wearsim.geometry.outline import Outline, along_ways, rotated
 from wearsim.geometry.outline_stretch import APART, OutlineStretch, along_points, arc_about_axis, line
@@ -41,6 +42,13 @@ class ToothSpace:
             points, _ = along_ways(part.vertices[:-1], part.vertices[1:], part.bulges, _ROOT_TOLERANCE)
             found.append(shapely.LineString([*points, part.vertices[-1]]).distance(axis))
         return float(min(found))
+
+    def with_few_arcs(self, tolerance: float) -> "ToothSpace":
+        """Return the space with its curves by few arcs, within a tolerance [mm]."""
+        right, left = (
+            tuple(with_few_arcs(part, tolerance) for part in side) for side in (self.right, self.left)
+        )
+        return replace(self, right=right, left=left)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,6 +200,12 @@ class WheelShape:
     def hub_outline(self) -> Outline | None:
         """The circle of the hub, where it lies in the drawing; None without one."""
         return self._placed(circle(self.hub.hub_diameter) if self.hub.hub_diameter else None)
+
+    def with_few_arcs(self, tolerance: float) -> "WheelShape":
+        """Return the wheel with the curves of its spaces by few arcs, within a tolerance [mm]."""
+        few = {space: space.with_few_arcs(tolerance) for space in {*self.new, *self.worn}}
+        new, worn = (tuple(few[space] for space in spaces) for spaces in (self.new, self.worn))
+        return replace(self, new=new, worn=worn)
 
     def _placed(self, outline: Outline | None) -> Outline | None:
         if outline is None:

@@ -12,11 +12,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib import patches
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from wearsim.geometry.scene import Circle, Stroke
+from wearsim.quantities import grouped
 from wearsim.report.flank_view import at_life, life_time, snapshot
 from wearsim.report.text_lines import literal
 from wearsim.report.worn_flank import around_flank, flanks_of_life
@@ -87,6 +90,13 @@ def _lay_out(figure: Figure) -> None:
 def _two_decimals(path: re.Match[str]) -> str:
     """Points to a hundredth of a point, which is finer than any print."""
     return re.sub(r"(\.\d\d)\d+", r"\1", path[0])
+
+
+def number_ticks(axis: Axis) -> None:
+    """Write numbers as one reads them at the ticks of a logarithmic axis, at 1, 2, 3 and 5."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 3.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: grouped(value)))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:

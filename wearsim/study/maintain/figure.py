@@ -1,14 +1,19 @@
 """The picture of maintenance: cost and hours against the elongation at which chains are replaced."""
 
 import math
+import textwrap
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from wearsim.report.text_lines import literal
 from wearsim.result import Life
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
+
+_LETTERS = 85
+"""In a line of the title."""
 
 
 def maintenance_figure(plan: MaintenancePlan) -> Figure:
@@ -22,6 +27,7 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
             _draw(panels, policies, reversed_, priced)
     panels[0].set_ylabel("sprocket's life, h")
     panels[1].set_ylabel("chains per sprocket")
+    panels[1].yaxis.set_major_locator(MaxNLocator(5, integer=True))
     if priced:
         panels[2].set_ylabel("cost per 1000 h")
     for panel in panels:
@@ -29,7 +35,7 @@ def maintenance_figure(plan: MaintenancePlan) -> Figure:
         panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
         panel.grid(alpha=0.3)
     panels[0].legend(loc="lower left", frameon=False, fontsize=8)
-    panels[0].set_title(literal(plan.title), fontsize=9, loc="left")
+    panels[0].set_title(literal(textwrap.fill(plan.title, _LETTERS)), fontsize=9, loc="left")
     panels[-1].set_xlabel("elongation at which the chain is replaced, %")
     return figure
 
@@ -50,5 +56,7 @@ def _draw(panels: list[Axes], policies: list[ReplacementPolicy], reversed_: bool
             lives = np.where(reached, values, math.nan)
             panel.plot(at, lives, f"o{style}", color=colour, label=label)
         if not reached.all():
-            bounds, report_progress = np.where(reached, math.nan, values), f"{label}, > : limit not reached"
-            panel.plot(at, bounds, "^", color=colour, mfc="white", label=report_progress)
+            bounds = np.where(reached, math.nan, values)
+            panel.plot(
+                at, bounds, "^", color=colour, mfc="white", label=f"{label}, > : run ends, limit not reached"
+            )

@@ -155,7 +155,8 @@ def _answers(plan: MaintenancePlan) -> list[str]:
     cheapest = plan.cheapest
     if cheapest is not None:
         reversed_ = ", sprocket turned" if cheapest.reversed_ else ""
-        return [f"cheapest: a new chain at {_percent(cheapest):g} %{reversed_}"]
+        known = " of those whose cost is known" if None in [one.cost for one in plan.policies] else ""
+        return [f"cheapest{known}: a new chain at {_percent(cheapest):g} %{reversed_}"]
     if any(isinstance(policy.sprocket, LowerBound) for policy in plan.policies):
         return [
             "> : the sprocket's limit was not reached, so its cost is not known (raise run.horizon_hours, "

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from wearsim.report.key_words import axis_label
 from wearsim.study.optimise.trials import MAXIMISED, Candidate, OptimiseOutcome
-from wearsim.study.sweep.figure import axis_label, scaled_heights
+from wearsim.study.sweep.figure import name_scales, scaled_heights
 
 _MAX_LINES = 500
 
@@ -129,12 +130,7 @@ def _parallel(outcome: OptimiseOutcome) -> Figure:
             if _is_bound(one, name):
                 colour = "tab:red" if top else "0.7"
                 panel.plot(place, line[place], "^", color=colour, mfc="white", markersize=8)
-    labels = [axis_label(key).replace(".", ".\n", 1) for key in columns]
-    panel.set_xticks(places, labels, fontsize=8)
-    panel.set_yticks([])
-    panel.set_ylim(-0.05, 1.05)
-    panel.set_xlim(-0.4, len(columns) - 0.6)
-    panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
+    name_scales(panel, [axis_label(key, columns) for key in columns])
     panel.plot([], [], color="tab:red", label="best")
     panel.plot([], [], color="0.7", label="feasible")
     if any(_is_bound(one, name) for one in rows for name in columns):

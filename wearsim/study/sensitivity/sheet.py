@@ -13,7 +13,17 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
+from wearsim.report.figures import number_ticks
+from wearsim.report.key_words import key_words
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
+from wearsim.study.sensitivity.usual_scatters import only_coefficients, usual_scatters
+
+_ALONE = (
+    "only wear coefficients scatter, so load, speed and geometry are not compared with them: say in "
+    "[uncertainty] how they scatter"
+)
+
+_OFFER = "usual scatters to put into the case as a start (10 % of load, 3 % of speed, 2 % of sizes):"
 
 _NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
 
@@ -32,8 +42,11 @@ class SensitivityAnswer:
 def sensitivity_warnings(effects: Sequence[KeyEffect], case: Case) -> tuple[str, ...]:
     """Return what is doubtful about indices."""
     found = (_NOT_DOUBLED,) if case.fatigue is not None else ()
+    if only_coefficients(case, [effect.scatter.key for effect in effects]):
+        found = (*found, _ALONE)
     loose = [e.scatter.key for e in effects if e.total_error > max(0.1, 0.3 * e.total)]
-    if not loose:
+    # The index of a key that scatters alone is 1 whatever its estimate.
+    if not loose or len(effects) == 1:
         return found
     return (*found, f"the indices of {', '.join(loose)} are not known well: take more --samples")
 
@@ -89,6 +102,8 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
     texts = [*scattered.assumptions, *scattered.case.assumptions]
     lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
     lines += [f"warning: {text}" for text in (*answer.warnings, *scattered.case.warnings)]
+    if only_coefficients(scattered.case, scattered.keys):
+        lines += ["", _OFFER, "", "[uncertainty]", *usual_scatters(scattered.case)]
     return "\n".join(lines)
 
 
@@ -130,8 +145,11 @@ def tornado(answer: SensitivityAnswer) -> Figure:
         panel.barh(0, 0, color=colour, label=f"key at its {100 * share:.0f} % point")
     panel.axvline(answer.hours, color="black", linewidth=1.0)
     panel.set_xscale("log")
-    panel.set_yticks(range(len(effects)), [effect.scatter.key for effect in effects], fontsize=8)
-    panel.set_xlabel("life, h")
+    number_ticks(panel.xaxis)
+    keys = [effect.scatter.key for effect in effects]
+    panel.set_yticks(range(len(effects)), [key_words(key, keys) for key in keys], fontsize=8)
+    alone = "\nnothing else of this case scatters" if len(effects) == 1 else ""
+    panel.set_xlabel(f"life, h{alone}")
     panel.grid(alpha=0.3, axis="x", which="both")
     panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     return figure

@@ -1,5 +1,7 @@
 """Pictures of a sweep: curves, a heat map, and parallel coordinates."""
 
+import math
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,13 +14,21 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from wearsim.quantities import grouped, quantities
+from wearsim.quantities import grouped
+from wearsim.report.figures import number_ticks
+from wearsim.report.key_words import axis_label, with_value
 from wearsim.report.text_lines import literal
 from wearsim.study.sweep.model import Sweep
 
 _MAX_CURVES = 10
 _MAX_LINES = 2000
 _MAX_NUMBERS = 100
+
+_APART = 0.07
+"""Least distance of two ticks, as a part of their axis."""
+
+_LETTERS = 18
+"""In a line below a scale of parallel coordinates."""
 
 
 def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
@@ -45,19 +55,6 @@ def _is_whole(column: "pd.Series[Any]") -> bool:
     return all(isinstance(value, int) for value in column)
 
 
-def axis_label(key: str) -> str:
-    """Return the name of a key above its scale.
-
-    Examples
-    --------
-    >>> axis_label("load.tension_N")
-    'load.tension, N'
-    """
-    quantity = quantities().get(key.rpartition(".")[2])
-    unit = quantity.unit if quantity else ""
-    return f"{key.rpartition('_')[0]}, {unit}" if unit else key
-
-
 def _hours(table: pd.DataFrame) -> "pd.Series[float]":
     """Lives, or how long the run was where no limit was met."""
     return table["life_hours"].fillna(table["hours_run"])
@@ -70,8 +67,7 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     for number, (values, group) in enumerate(groups):
         group = group[group["error"] == ""].sort_values(key)
         shown = ", ".join(
-            f"{axis_label(key)} {value:.4g}" if isinstance(value, float) else f"{axis_label(key)} {value}"
-            for key, value in zip(others, values, strict=True)
+            with_value(other, value, others) for other, value in zip(others, values, strict=True)
         )
         colour = f"C{number}"
         panel.plot(
@@ -83,9 +79,12 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
         panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
     panel.set_xlabel(axis_label(key))
     panel.set_ylabel("life, h")
-    panel.margins(y=0.1)
-    panel.set_ylim(bottom=0.0)
-    panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
+    panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
+    ticks = np.unique(table[key].to_numpy(float))
+    if np.diff(ticks).min(initial=math.inf) > _APART * np.ptp(ticks):
+        panel.set_xticks(ticks, [grouped(float(value)) for value in ticks])
+    else:
+        panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
     panel.grid(alpha=0.3)
     if panel.get_legend_handles_labels()[0]:
         panel.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -101,7 +100,7 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     cells = hours.to_numpy(float)
     image = panel.pcolormesh(np.ma.masked_invalid(cells), norm=norm, cmap="viridis")
     for place, axis in ((hours.columns, panel.xaxis), (hours.index, panel.yaxis)):
-        axis.set_ticks(np.arange(len(place)) + 0.5, [f"{value:.4g}" for value in place])
+        axis.set_ticks(np.arange(len(place)) + 0.5, [grouped(float(value)) for value in place])
     if cells.size <= _MAX_NUMBERS:
         for (row, column), value in np.ndenumerate(cells):
             dark = value < np.sqrt(_least(table) * _hours(table).max())
@@ -116,10 +115,14 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
                 fontsize=8,
                 color="white" if dark else "black",
             )
-    figure.colorbar(image, label="life, h")
-    panel.set_xlabel(axis_label(across))
-    panel.set_ylabel(axis_label(up))
+    _hours_bar(figure, panel, image)
+    panel.set_xlabel(axis_label(across, (across, up)))
+    panel.set_ylabel(axis_label(up, (across, up)))
     return figure
+
+
+def _hours_bar(figure: Figure, panel: Axes, colours: ScalarMappable) -> None:
+    number_ticks(figure.colorbar(colours, ax=panel, label="life, h").ax.yaxis)
 
 
 def _least(table: pd.DataFrame) -> float:
@@ -152,29 +155,53 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     if bounds.any():
         panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
         panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    labels = [axis_label(key).replace(".", ".\n", 1) for key in keys] + ["life, h"]
-    panel.set_xticks(np.arange(len(columns)), labels, fontsize=8)
-    panel.set_yticks([])
-    panel.set_ylim(-0.05, 1.05)
-    panel.set_xlim(-0.4, len(columns) - 0.6)
-    panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
-    figure.colorbar(ScalarMappable(norm, "viridis"), ax=panel, label="life, h")
+    name_scales(panel, [*(axis_label(key, keys) for key in keys), "life, h"])
+    _hours_bar(figure, panel, ScalarMappable(norm, "viridis"))
     return figure
 
 
+def name_scales(panel: Axes, names: Sequence[str]) -> None:
+    """Write below each scale of parallel coordinates what it shows."""
+    panel.set_xticks(np.arange(len(names)), [textwrap.fill(name, _LETTERS) for name in names], fontsize=8)
+    panel.tick_params(length=0.0)
+    panel.set_yticks([])
+    panel.set_ylim(-0.05, 1.05)
+    panel.set_xlim(-0.5, len(names) - 0.5)
+    panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
+
+
 def scaled_heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
-    """Draw one scale of parallel coordinates."""
+    """Draw one scale of parallel coordinates; its numbers stand on white, in front of all lines."""
     panel.axvline(at, color="0.3", linewidth=1.0)
     if _is_numeric(values):
-        low, high = float(values.min()), float(values.max())
-        marks = [(0.0, f"{low:.4g}"), (1.0, f"{high:.4g}")] if high > low else [(0.5, f"{low:.4g}")]
-        span = (high - low) or 1.0
-        heights = (values.to_numpy(float) - low) / span if high > low else np.full(len(values), 0.5)
+        places = values.to_numpy(float)
+        marks = {value: grouped(value) for value in _scale_ticks(values).tolist()}
     else:
         names = list(dict.fromkeys(map(str, values)))
-        steps = np.linspace(0.0, 1.0, len(names)) if len(names) > 1 else np.array([0.5])
-        marks = list(zip(steps, names, strict=True))
-        heights = np.array([steps[names.index(str(value))] for value in values])
-    for height, text in marks:
-        panel.text(at + 0.03, height, literal(text), fontsize=8, va="center")
-    return heights
+        places = np.array([names.index(str(value)) for value in values], float)
+        marks = dict(enumerate(names))
+    low, span = places.min(), np.ptp(places)
+    for place, text in marks.items():
+        panel.annotate(
+            literal(text),
+            (at, (place - low) / span if span else 0.5),
+            xytext=(-5.0, 0.0),
+            textcoords="offset points",
+            ha="right",
+            va="center",
+            fontsize=8,
+            zorder=5,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+        )
+    return (places - low) / span if span else np.full(len(places), 0.5)
+
+
+def _scale_ticks(values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
+    """The values themselves where they are few, else both ends and round numbers between them."""
+    own = np.unique(values.to_numpy(float))
+    apart = _APART * np.ptp(own)
+    if len(own) <= 2 or np.diff(own).min() > apart:
+        return own
+    low, high = own[0], own[-1]
+    inner = MaxNLocator(5, integer=_is_whole(values)).tick_values(low, high)
+    return np.array([low, *inner[(inner > low + apart) & (inner < high - apart)], high])

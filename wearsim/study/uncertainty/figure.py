@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 from scipy import stats
 
+from wearsim.report.figures import number_ticks
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 
 _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
@@ -28,7 +29,7 @@ def _lives(answer: UncertaintyAnswer) -> Figure:
     for fit, colour in zip(answer.fits, ("tab:blue", "tab:orange"), strict=False):
         law = stats.lognorm if fit.name == "lognormal" else stats.weibull_min
         at = stats.norm.ppf(law(fit.shape, scale=fit.scale).cdf(grid))
-        panel.plot(grid, at, color=colour, label=f"{fit.name} fit")
+        panel.plot(grid, at, color=colour, label=f"{fit.name.capitalize()} fit")
     for found in answer.percentiles:
         if found.known:
             place = float(stats.norm.ppf(found.share))
@@ -46,6 +47,7 @@ def _lives(answer: UncertaintyAnswer) -> Figure:
             )
     if lives[0] > 0.0:
         panel.set_xscale("log")
+        number_ticks(panel.xaxis)
     panel.yaxis.set_major_locator(FixedLocator([float(stats.norm.ppf(q)) for q in _TICKS]))
     panel.yaxis.set_major_formatter(FixedFormatter([f"{100 * q:g}" for q in _TICKS]))
     panel.yaxis.set_minor_locator(NullLocator())

@@ -1,0 +1,65 @@
+"""Keys and columns as people write them: `load.tension_N` is a tension in N, `sprocket.teeth` are teeth."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from wearsim.quantities import grouped, quantities
+
+_SPELLED = {"h": "hours", "%": "percent"}
+_WRITTEN = str.maketrans({"^": "", "(": "", ")": "", "*": "_", "/": "|"})
+
+
+def key_words(key: str, among: Sequence[str] = ()) -> str:
+    """Return a key without its unit; with its table where another key among some has the same words.
+
+    Examples
+    --------
+    >>> key_words("load.slack_tension_N")
+    'slack tension'
+    >>> key_words("sprocket.2.teeth", ["sprocket.1.teeth", "sprocket.2.teeth"])
+    'sprocket 2: teeth'
+    """
+    words = _without_unit(key)
+    if any(other != key and _without_unit(other) == words for other in among):
+        return f"{key.rpartition('.')[0].replace('.', ' ').replace('_', ' ')}: {words}"
+    return words
+
+
+def axis_label(key: str, among: Sequence[str] = ()) -> str:
+    """Return what stands at the axis of a key.
+
+    Examples
+    --------
+    >>> axis_label("load.tension_N"), axis_label("sprocket.teeth")
+    ('tension, N', 'teeth')
+    """
+    unit = _unit(key)
+    return f"{key_words(key, among)}, {unit}" if unit else key_words(key, among)
+
+
+def with_value(key: str, value: Any, among: Sequence[str] = ()) -> str:
+    """Return a key with its value.
+
+    Examples
+    --------
+    >>> with_value("load.tension_N", 2000.0), with_value("sprocket.teeth", 20)
+    ('tension 2 000 N', '20 teeth')
+    >>> with_value("wear.condition", "hardened, oiled")
+    'condition hardened, oiled'
+    """
+    words, unit = key_words(key, among), _unit(key)
+    if isinstance(value, int) and not isinstance(value, bool) and not unit and ":" not in words:
+        return f"{value} {words}"
+    number = grouped(value) if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+    return f"{words} {number} {unit}".rstrip()
+
+
+def _unit(key: str) -> str:
+    found = quantities().get(key.rpartition(".")[2])
+    return (found.unit if found else "") or ("%" if key.endswith("_percent") else "")
+
+
+def _without_unit(key: str) -> str:
+    name, unit = key.rpartition(".")[2], _unit(key)
+    spelled = _SPELLED.get(unit, unit.translate(_WRITTEN).replace("|", "_per_").removeprefix("1_"))
+    return name.removesuffix(f"_{spelled}").replace("_", " ")
