@@ -44,13 +44,15 @@ def _flat(changes: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
         if isinstance(value, Mapping):
             yield from _flat(value, f"{prefix}{key}.")
         else:
-            yield f"{prefix}{key}", _plain(value)
+            yield f"{prefix}{key}", plain_value(value)
 
 
-def _plain(value: Any) -> Any:
-    """Return a value as TOML would hold it: no numbers of numpy, no tuples, no paths."""
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
+def plain_value(value: Any) -> Any:
+    """Return a value as TOML would hold it: no numbers or arrays of numpy, no tuples, ranges or paths."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, list | tuple | range):
+        return [plain_value(entry) for entry in value]
     if isinstance(value, PurePath):
         return str(value)
     if isinstance(value, bool) or not isinstance(value, Real):

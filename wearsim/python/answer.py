@@ -5,10 +5,12 @@ from collections.abc import Mapping
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from wearsim.errors import StudyError
 from wearsim.notebook import html_rows, one_line
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.figure import Figure
 
 _MAX_ROWS = 20
 """Rows of a table that a notebook shows."""
@@ -70,6 +72,47 @@ class Answer(ABC):
         ]
         texts = [(name, "; ".join(content.get(name, ()))) for name in ("assumptions", "warnings")]
         return "".join([html_rows(self.title, [("answer", self.headline)]), *tables, html_rows("", texts)])
+
+
+class DrawnAnswer(Answer):
+    """An answer with pictures."""
+
+    @abstractmethod
+    def pictures(self) -> "Mapping[str, Figure]":
+        """Return the pictures that suit the answer.
+
+        Returns
+        -------
+        mapping of matplotlib.figure.Figure
+            By their names, the first one says most.
+        """
+
+    def plot(self, name: str | None = None) -> "Figure":
+        """Draw the answer.
+
+        Parameters
+        ----------
+        name : str, optional
+            One of ``pictures``; the first one without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+
+        Raises
+        ------
+        StudyError
+            There is no such picture.
+        """
+        from wearsim.report.result_pictures import shown
+
+        drawn = self.pictures()
+        chosen = next(iter(drawn), "") if name is None else name
+        if chosen not in drawn:
+            names = ", ".join(drawn) or "none, as no case has run"
+            raise StudyError(f"plot: must name one of the pictures: {names} (got {name!r})")
+        return shown(drawn[chosen])
 
 
 def table_of(rows: Any) -> "pd.DataFrame":

@@ -17,11 +17,11 @@ CaseInput = Case | DriveCase | str | PathLike[str] | Mapping[str, Any]
 """A loaded case or drive, the path of its file, or its tables."""
 
 
-def loaded(source: CaseInput) -> Case | DriveCase:
+def loaded(source: CaseInput | GivenInput) -> Case | DriveCase:
     """Return a case, or a whole drive where the input names all of its sprockets."""
     if isinstance(source, Case | DriveCase):
         return source
-    document = read_document(source if isinstance(source, Mapping) else Path(source), ())
+    document = read_document(source if isinstance(source, Mapping | GivenInput) else Path(source), ())
     assert document.given is not None
     if is_whole_drive(document.data):
         return load_drive(document.given)

@@ -80,7 +80,7 @@ def export_wheels(
     path: Path, settings: Sequence[str], out: Path, form: str, states: "Sequence[State]", force: bool
 ) -> None:
     """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
-    from wearsim.export.wheel_formats import export
+    from wearsim.cad.wheel_formats import export
     from wearsim.files import new_folder
     from wearsim.report.html.page_writer import page_names
 
