@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from wearsim.input.changes import changed, plain_value
+from wearsim.input.document import GivenInput
 from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, given_input, loaded
 from wearsim.python.study_run import Progress, run, silent
@@ -181,8 +182,16 @@ def _study_of(
         "zip": [_plain(group) for group in together],
         "design": [_plain(design) for design in designs],
     }
-    # The first value of each key is set, so that what it takes the place of is gone from all cases.
-    return load_sweep(tables, (), changed(given, dict(_first_values(tables))))
+    return load_sweep(tables, (), _without_replaced(given, tables, case.title))
+
+
+def _without_replaced(given: GivenInput, tables: Mapping[str, Any], title: str) -> GivenInput:
+    """Return the case with the first value of each key, without what that takes the place of."""
+    first = dict(changed(given, dict(_first_values(tables))).tables)
+    if "title" in first:
+        first["title"] = title
+    # As if it had been written so: the title is not to tell of first values.
+    return replace(given, text="", written=first, tables=first)
 
 
 def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
