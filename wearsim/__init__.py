@@ -42,6 +42,9 @@ _PUBLIC = {
     "uncertainty": "wearsim.python.uncertainty",
 }
 
+_FORMER: dict[str, tuple[str, str]] = {}
+"""Names of before: what they are called now, and the version that will be without them."""
+
 if TYPE_CHECKING:
     from wearsim.case.load_case import load_case
     from wearsim.case.model import Case
@@ -100,4 +103,4 @@ __all__ = [
     "uncertainty",
 ]
 
-__getattr__, __dir__ = lazy_names(__name__, _PUBLIC)
+__getattr__, __dir__ = lazy_names(__name__, _PUBLIC, _FORMER)
