@@ -262,6 +262,7 @@ def test_optimise(answer, drive):
     assert list(found.designs["sprocket.face_width_mm"]) == [
         one["inputs"]["sprocket.face_width_mm"] for one in expected["designs"]
     ]
+    assert found.cases[0].title == "Test drive"
     assert found.cases[0].inputs["sprocket"]["face_width_mm"] == found.designs["sprocket.face_width_mm"][0]
     assert len(found.candidates) == expected["evaluations"] + 1
     assert is_shown(found, "designs", "candidates")

@@ -110,7 +110,7 @@ class DrawnAnswer(Answer):
         drawn = self.pictures()
         chosen = next(iter(drawn), "") if name is None else name
         if chosen not in drawn:
-            names = ", ".join(drawn) or "none, as no case has run"
+            names = ", ".join(drawn) or "there are none"
             raise StudyError(f"plot: must name one of the pictures: {names} (got {name!r})")
         return shown(drawn[chosen])
 

@@ -53,4 +53,9 @@ def with_table(source: CaseInput, name: str, table: Mapping[str, Any] | None) ->
     if table is None:
         return given
     without = changed(given, {name: None})
-    return replace(without, tables={**without.tables, name: dict(table)})
+    # In what was written too: the title is not to tell of what only the study takes.
+    return replace(
+        without,
+        written={**without.written, name: dict(table)},
+        tables={**without.tables, name: dict(table)},
+    )

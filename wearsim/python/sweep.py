@@ -11,6 +11,7 @@ import pandas as pd
 
 from wearsim.input.changes import changed, plain_value
 from wearsim.input.document import GivenInput
+from wearsim.input.units import in_unit_of
 from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, given_input, loaded
 from wearsim.python.study_run import Progress, run, silent
@@ -195,10 +196,15 @@ def _without_replaced(given: GivenInput, tables: Mapping[str, Any], title: str) 
 
 
 def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        key: dict(value) if isinstance(value, Mapping) else plain_value(value)
-        for key, value in values.items()
-    }
+    return {key: _plain_values(key, value) for key, value in values.items()}
+
+
+def _plain_values(key: str, value: Any) -> Any:
+    """Return a range, a list of values or one value of a key, texts with a unit as numbers."""
+    if isinstance(value, Mapping):
+        return {name: in_unit_of(key, plain_value(one)) for name, one in value.items()}
+    plain = plain_value(value)
+    return [in_unit_of(key, one) for one in plain] if isinstance(plain, list) else in_unit_of(key, plain)
 
 
 def _first_values(tables: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
