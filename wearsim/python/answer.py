@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 _MAX_ROWS = 20
 """Rows of a table that a notebook shows."""
 
+_LONGEST = 60
+"""Letters of a cell that a notebook shows."""
+
 
 class Answer(ABC):
     """An answer of a public function.
@@ -66,11 +69,13 @@ class Answer(ABC):
     def _repr_html_(self) -> str:
         content = self.summary()
         tables = [
-            f"<p>{escape(name.replace('_', ' '))}</p>{table.to_html(max_rows=_MAX_ROWS, index=False)}"
+            f"<p>{escape(name.replace('_', ' '))}</p>{_html_table(table)}"
             for name, table in self.tables().items()
             if not table.empty
         ]
-        texts = [(name, "; ".join(content.get(name, ()))) for name in ("assumptions", "warnings")]
+        texts = [
+            (name, content.get(name) or "none") for name in ("assumptions", "warnings") if name in content
+        ]
         return "".join([html_rows(self.title, [("answer", self.headline)]), *tables, html_rows("", texts)])
 
 
@@ -115,8 +120,21 @@ class DrawnAnswer(Answer):
         return shown(drawn[chosen])
 
 
+def _html_table(table: "pd.DataFrame") -> str:
+    """Return a table as HTML without columns that hold nothing or long texts."""
+    shown = [
+        name
+        for name, column in table.items()
+        if column.notna().any() and 0 < max(len(str(value)) for value in column.head(_MAX_ROWS)) <= _LONGEST
+    ]
+    return table[shown].to_html(max_rows=_MAX_ROWS, index=False, float_format="{:.6g}".format, na_rep="-")
+
+
 def table_of(rows: Any) -> "pd.DataFrame":
-    """Return rows of plain values as a table."""
+    """Return rows of plain values as a table, None as nan in columns of numbers."""
     import pandas as pd
 
-    return pd.DataFrame(list(rows))
+    table = pd.DataFrame(list(rows))
+    # pandas takes a column of None alone for one of objects.
+    empty = [name for name in table.columns if table[name].isna().all()]
+    return table.astype(dict.fromkeys(empty, float))

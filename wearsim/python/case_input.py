@@ -55,7 +55,5 @@ def with_table(source: CaseInput, name: str, table: Mapping[str, Any] | None) ->
     without = changed(given, {name: None})
     # In what was written too: the title is not to tell of what only the study takes.
     return replace(
-        without,
-        written={**without.written, name: dict(table)},
-        tables={**without.tables, name: dict(table)},
+        without, written={**without.written, name: dict(table)}, tables={**without.tables, name: dict(table)}
     )

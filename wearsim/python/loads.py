@@ -104,7 +104,9 @@ class LoadsResult(Answer):
         """
         from wearsim.report.result_pictures import tooth_loads_picture
 
-        return tooth_loads_picture({name: (found,) for name, found in self.by_sprocket.items()})
+        named = {self.title: found for found in self.by_sprocket.values()}
+        drawn = named if isinstance(self.case, Case) else self.by_sprocket
+        return tooth_loads_picture({name: (found,) for name, found in drawn.items()})
 
 
 def loads(

@@ -43,8 +43,11 @@ class MaintenanceResult(DrawnAnswer):
     def headline(self) -> str:
         """How many policies there are, and the number of the cheapest one."""
         found = self.summary()
-        cheapest = "no cost known" if found["cheapest"] is None else f"cheapest is row {found['cheapest']}"
-        return f"{len(found['policies'])} policies, {cheapest}"
+        cheapest = (
+            "no cost known" if found["cheapest"] is None else f"the cheapest in row {found['cheapest']}"
+        )
+        count = len(found["policies"])
+        return f"{count} {'policy' if count == 1 else 'policies'}, {cheapest}"
 
     @property
     def text(self) -> str:

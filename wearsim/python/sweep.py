@@ -16,6 +16,7 @@ from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, given_input, loaded
 from wearsim.python.study_run import Progress, run, silent
 from wearsim.quantities import grouped
+from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.run_study import failures
 from wearsim.study.sweep.model import Sweep, load_sweep
 from wearsim.study.sweep.sheet import sweep_json, sweep_text
@@ -78,9 +79,16 @@ class SweepResult(DrawnAnswer):
         dict
             Plain numbers, strings, lists and None; never nan.
         """
-        failed = failures(self.cases)
         lines = [json.loads(line) for line in sweep_json(self.study, self.cases)]
-        return {"case": self.study.design.name, "cases": lines, "warnings": [failed] if failed else []}
+        return {"case": self.study.design.name, "cases": lines, "warnings": self._warnings()}
+
+    def _warnings(self) -> list[str]:
+        """Return how many cases failed, and warnings that differ in more than their numbers."""
+        texts = (text for joined in self.cases["warnings"] for text in filter(None, joined.split("\n")))
+        found = [
+            f"{count} of {len(self.cases)} cases, such as: {text}" for text, count in defaults_by_kind(texts)
+        ]
+        return [*filter(None, [failures(self.cases)]), *found]
 
     def pictures(self) -> "dict[str, Figure]":
         """Return curves, a heat map and parallel coordinates, as far as they suit the study.

@@ -123,7 +123,7 @@ class WearResult:
         return one_line("WearResult", self.title, *(f"{label} {text}" for label, text in self._found()[:2]))
 
     def _repr_html_(self) -> str:
-        texts = ("Assumes", "; ".join(self.assumptions)), ("Warnings", "; ".join(self.warnings) or "none")
+        texts = ("Assumes", self.assumptions), ("Warnings", self.warnings or "none")
         return html_rows(self.title, [*self._found(), *texts])
 
     def _found(self) -> list[tuple[str, str]]:

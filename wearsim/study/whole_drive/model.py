@@ -48,7 +48,7 @@ class DriveLife:
 
     def _repr_html_(self) -> str:
         lives = [(name, hours(life)) for name, life in self.parts.items()]
-        texts = ("assumes", "; ".join(self.drive.assumptions)), ("warnings", "; ".join(self.warnings))
+        texts = ("assumes", self.drive.assumptions), ("warnings", self.warnings or "none")
         return html_rows(self.drive.title, [*lives, ("first", self.first), *texts])
 
     def plot(self) -> "Figure":
