@@ -104,9 +104,9 @@ class LoadsResult(Answer):
         """
         from wearsim.report.result_pictures import tooth_loads_picture
 
-        named = {self.title: found for found in self.by_sprocket.values()}
-        drawn = named if isinstance(self.case, Case) else self.by_sprocket
-        return tooth_loads_picture({name: (found,) for name, found in drawn.items()})
+        titles = [self.title] if isinstance(self.case, Case) else list(self.by_sprocket)
+        drawn = zip(titles, self.by_sprocket.values(), strict=True)
+        return tooth_loads_picture({title: (found,) for title, found in drawn})
 
 
 def loads(
