@@ -122,6 +122,7 @@ def test_simulate(answer, two, drive):
     life = wearsim.simulate(wearsim.load_case(path))
     assert life.summary() == answer("life", path)
     assert len(repr(life)) < 300 and "Life" in life._repr_html_()
+    assert wearsim.simulate(path).summary() == life.summary()
     found = wearsim.simulate(wearsim.load_drive(two))
     expected = answer("life", two)
     assert found.life.hours == expected["life_hours"]

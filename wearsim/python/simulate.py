@@ -1,9 +1,11 @@
 """The life of a case or of a whole drive."""
 
-from collections.abc import Callable
-from typing import overload
+from collections.abc import Callable, Mapping
+from os import PathLike
+from typing import Any, overload
 
 from wearsim.case.model import Case
+from wearsim.python.case_input import CaseInput, loaded
 from wearsim.result import WearResult
 from wearsim.simulation import simulate as simulate_case
 from wearsim.study.whole_drive.keys import DriveCase
@@ -18,15 +20,21 @@ def simulate(case: Case, progress: Callable[[float], None] = ...) -> WearResult:
 def simulate(case: DriveCase, progress: Callable[[float], None] = ...) -> DriveLife: ...
 
 
+@overload
 def simulate(
-    case: Case | DriveCase, progress: Callable[[float], None] = lambda part: None
+    case: str | PathLike[str] | Mapping[str, Any], progress: Callable[[float], None] = ...
+) -> WearResult | DriveLife: ...
+
+
+def simulate(
+    case: CaseInput, progress: Callable[[float], None] = lambda part: None
 ) -> WearResult | DriveLife:
     """Wear the sprocket of a case, or all of a drive, until the first limit and return the life.
 
     Parameters
     ----------
-    case : Case or DriveCase
-        A complete case, or a whole drive.
+    case : Case, DriveCase, path or mapping
+        One sprocket, a gear pair or a whole drive; which of them a file is, only its answer tells.
     progress : callable, optional
         Told by a wrap how much of its run is done, from 0 to 1; from 0 again where a run
         with smaller steps follows.
@@ -60,6 +68,7 @@ def simulate(
     >>> result.life.hours == result.life.cycles / (60 * 100)
     True
     """
-    if isinstance(case, DriveCase):
-        return drive_life(case, None, progress)
-    return simulate_case(case, progress)
+    found = loaded(case)
+    if isinstance(found, DriveCase):
+        return drive_life(found, None, progress)
+    return simulate_case(found, progress)
