@@ -182,6 +182,33 @@ def test_a_swept_key_takes_the_place_of_what_says_the_same(answer, tmp_path, dri
         wearsim.sweep(case, {"load.tensoin_N": [1.0]})
 
 
+def test_a_whole_drive_is_swept(answer, tmp_path, two):
+    (tmp_path / "study.toml").write_text(
+        'format_version = 1\ncase = "two.toml"\n[grid]\n"sprocket.2.teeth" = [20, 25]\n'
+    )
+    expected = answer("sweep", tmp_path / "study.toml")
+    found = wearsim.sweep(wearsim.load_drive(two), {"sprocket.2.teeth": [20, 25]})
+    assert list(found.cases["roll_life_hours"]) == [row["roll_life_hours"] for row in expected]
+    alone = wearsim.simulate(wearsim.load_drive(two).with_({"sprocket.2.teeth": 25}))
+    assert found.cases["life_hours"][1] == alone.life.hours
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda case: wearsim.uncertainty(case, samples=1), "samples must be at least 2"),
+        (lambda case: wearsim.uncertainty(case, method="sobl"), "method must be one of sobol, lhs, random"),
+        (lambda case: wearsim.sweep(case, {"load.speed_rpm": [9]}, threads=0), "threads must be at least 1"),
+        (lambda case: wearsim.optimise(case, {}, evaluations=2), "evaluations must be at least 10"),
+        (lambda case: wearsim.export(case, state="wrn"), "state must be one of new, worn, both"),
+        (lambda case: wearsim.loads(case, phase=2.0), "phase must be at least 0 and at most 1"),
+    ],
+)
+def test_arguments_are_as_bounded_as_options(drive, call, words):
+    with pytest.raises(wearsim.GeometryError, match=words):
+        call(wearsim.load_case(drive()))
+
+
 def test_uncertainty(answer, drive):
     path = drive()
     path.write_text(

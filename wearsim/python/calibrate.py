@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
-from wearsim.errors import CaseError
+from wearsim.errors import Allowed, CaseError, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.python.answer import DrawnAnswer, table_of
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 
 _NAME = "readings"
 """What faults call readings that are in no file."""
+
+_ALLOWED: dict[str, Allowed] = {
+    "register": ("turn", "free", "none"),
+    "cutoff": Range(0.01, 100.0),
+    "confidence": Range(0.5, 0.999),
+}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -143,8 +149,12 @@ def calibrate(
     ------
     CaseError
         What is wrong with the case or the readings, or pandera is not installed (extra ``study``).
+    GeometryError
+        Register, cutoff or confidence are outside their ranges.
     """
     check_installed(("pandera",), "study", "calibrate")
+    given_options = {"register": register, "cutoff": cutoff, "confidence": confidence}
+    check_ranges("calibrate", given_options, _ALLOWED)
     options = CalibrationOptions(tuple(fit), register, cutoff, confidence)
     given = given_input(case)
     if isinstance(readings, str | PathLike):

@@ -11,7 +11,7 @@ from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.cad.wheel_formats import check_solid
 from wearsim.cad.wheel_formats import export as content
 from wearsim.case.model import Case
-from wearsim.errors import CaseError, Fault, OutputError
+from wearsim.errors import CaseError, Fault, OutputError, check_ranges
 from wearsim.files import check_free, write_file
 from wearsim.geometry.wheel_outline import State
 from wearsim.python.answer import Answer
@@ -151,6 +151,8 @@ def export(
     ------
     CaseError
         The case has no such wheel.
+    GeometryError
+        There is no such state.
     OutputError
         A file is there, or has no such format.
 
@@ -168,6 +170,7 @@ def export(
     >>> round(float((wheel.outline.x_mm**2 + wheel.outline.y_mm**2).max()) ** 0.5, 6)
     41.0
     """
+    check_ranges("export", {"state": state}, {"state": (*_STATES, None)})
     case, result = _case(source, sprocket)
     states = _STATES[state or ("new" if result is None else "both")]
     forms = [_format(out, FORMATS), _format(template, GAUGES)]

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from wearsim.case.model import Case
+from wearsim.errors import Range, check_ranges
 from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, with_table
-from wearsim.python.study_run import Progress, silent, threads_of
+from wearsim.python.study_run import SEED, THREADS, Progress, silent, threads_of
 from wearsim.runner.design import Design
 from wearsim.runner.run_study import run_study
 from wearsim.runner.workers import SharedWorkers
@@ -21,6 +22,8 @@ from wearsim.study.optimise.trials import OptimiseOutcome, check_feasible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_EVALUATIONS = Range(10, 1_000_000, whole=True)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -144,9 +147,13 @@ def optimise(
     ------
     CaseError
         What is wrong with the case or with what is asked.
+    GeometryError
+        Evaluations, seed or threads are outside their ranges.
     StudyError
         No design is feasible.
     """
+    given = {"evaluations": evaluations, "seed": seed, "threads": threads}
+    check_ranges("optimise", given, {"evaluations": _EVALUATIONS, "seed": SEED, "threads": THREADS})
     table = None
     if parameters is not None:
         table = {"parameters": dict(parameters), "objectives": list(objectives), "limits": dict(limits or {})}

@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wearsim.errors import CaseError
+from wearsim.errors import CaseError, Range, check_ranges
 from wearsim.python.answer import Answer, table_of
 from wearsim.quantities import grouped
 from wearsim.study.select.case_file import case_tables
@@ -178,6 +178,8 @@ def select(
     ------
     CaseError
         Everything that is wrong with what is asked.
+    GeometryError
+        Count must be at least 1.
 
     Examples
     --------
@@ -187,6 +189,7 @@ def select(
     >>> best.designation, int(best.driver_teeth), int(best.driven_teeth)
     ('10A-3', 18, 48)
     """
+    check_ranges("select", {"count": count}, {"count": Range(1, whole=True)})
     given = {
         "power": power,
         "rpm": rpm,

@@ -4,6 +4,8 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from wearsim.errors import Range
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -12,6 +14,10 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], None]
 """Told how much is done, from 0 to 1."""
+
+
+THREADS, SEED = Range(1, whole=True, optional=True), Range(0, whole=True)
+"""What the arguments of these names may be."""
 
 
 def silent(part: float) -> None:

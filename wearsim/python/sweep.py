@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from wearsim.errors import check_ranges
 from wearsim.input.changes import changed, plain_value
 from wearsim.input.document import GivenInput
 from wearsim.input.units import in_unit_of
 from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, given_input, loaded
-from wearsim.python.study_run import Progress, run, silent
+from wearsim.python.study_run import THREADS, Progress, run, silent
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.run_study import failures
@@ -140,6 +141,8 @@ def sweep(
     ------
     CaseError
         What is wrong with the case or the values.
+    GeometryError
+        There must be at least one thread.
     StudyError
         Every case failed.
 
@@ -159,6 +162,7 @@ def sweep(
     >>> round(float(hours[0] / hours[1]), 9)
     2.0
     """
+    check_ranges("sweep", {"threads": threads}, {"threads": THREADS})
     if grid is None and not together and not designs:
         study = load_sweep(_study(case))
     else:

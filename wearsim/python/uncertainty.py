@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.python.answer import DrawnAnswer, table_of
 from wearsim.python.case_input import CaseInput, with_table
-from wearsim.python.study_run import Progress, run, silent
+from wearsim.python.study_run import SEED, THREADS, Progress, run, silent
 from wearsim.quantities import grouped
 from wearsim.runner.run_study import failures
-from wearsim.study.uncertainty.model import Method, load_uncertainty
+from wearsim.study.uncertainty.model import METHODS, Method, load_uncertainty
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text
 
@@ -153,6 +154,8 @@ def uncertainty(
     ------
     CaseError
         What is wrong with the case or with what scatters.
+    GeometryError
+        Samples, seed, method or threads are outside their ranges.
     StudyError
         Every case failed.
 
@@ -174,7 +177,17 @@ def uncertainty(
     >>> round(float(fits["shape"]["lognormal"]), 1)
     0.4
     """
+    given = {"samples": samples, "seed": seed, "method": method, "threads": threads}
+    check_ranges("uncertainty", given, _ALLOWED)
     study = load_uncertainty(with_table(case, "uncertainty", scatter), (), samples, seed, method)
     table = run(study.design, threads, progress)
     failures(table)
     return UncertaintyResult(UncertaintyAnswer(study, table))
+
+
+_ALLOWED: dict[str, Allowed] = {
+    "samples": Range(2, 10_000_000, whole=True),
+    "seed": SEED,
+    "method": METHODS,
+    "threads": THREADS,
+}

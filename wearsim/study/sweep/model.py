@@ -14,7 +14,7 @@ from wearsim.input.document import CaseSource, Document, GivenInput, read_docume
 from wearsim.input.faults import validation_faults
 from wearsim.input.keys import schema_of
 from wearsim.input.other_files import check_command
-from wearsim.input.schema import PlacedSprocketTable
+from wearsim.input.schema import CaseTables, PlacedSprocketTable
 from wearsim.input.schema.table import Table
 from wearsim.runner.design import Design, design, replaced
 from wearsim.study.sweep.keys import Range, SweepTables
@@ -93,7 +93,9 @@ def _wrong(tables: Mapping[str, Any], model: type[Table]) -> Iterator[tuple[str,
         for number, table in enumerate(sprockets, start=1):
             for key, message in _wrong(table, PlacedSprocketTable):
                 yield f"sprocket.{number}.{key}", message
+        # The others are those of one sprocket, which may be left out.
         tables = {key: table for key, table in tables.items() if key != "sprocket"}
+        model = CaseTables
     try:
         model.model_validate(tables)
     except ValidationError as error:
