@@ -50,12 +50,13 @@ class SweepResult(DrawnAnswer):
     def headline(self) -> str:
         """The longest life and its values."""
         lives = self.cases["life_hours"]
+        count = f"{len(self.cases)} case{'' if len(self.cases) == 1 else 's'}"
         if not lives.notna().any():
-            return f"{len(self.cases)} cases, no limit reached"
+            return f"{count}, no limit reached"
         best = int(lives.fillna(0.0).to_numpy().argmax())
         keys = zip(self.study.design.keys, self.study.design.rows[best], strict=True)
         values = ", ".join(f"{key} = {value}" for key, value in keys)
-        return f"{len(self.cases)} cases, longest life {grouped(lives.iloc[best])} h at {values}"
+        return f"{count}, longest life {grouped(lives.iloc[best])} h at {values}"
 
     @property
     def text(self) -> str:
