@@ -132,6 +132,21 @@ def test_simulate(answer, two, drive):
         assert all(is_drawn(draw()) for draw in (drawn.plot, drawn.plot_history, drawn.plot_loads))
 
 
+def test_one_line_is_short_however_long_the_title(drive, two):
+    title = "A drive of " + "many words " * 60
+    case = wearsim.load_case(drive()).with_({"title": title})
+    whole = wearsim.load_drive(two).with_({"title": title})
+    found = (
+        case,
+        whole,
+        wearsim.check(case),
+        wearsim.simulate(case),
+        wearsim.sweep(case, {"load.speed_rpm": [9]}),
+    )
+    assert all(len(repr(one)) < 300 and "\n" not in repr(one) for one in found)
+    assert "Life" in repr(found[3]) and "longest life" in repr(found[4])
+
+
 def test_a_flank_is_drawn_where_one_wants_it(drive):
     from matplotlib.figure import Figure
 
