@@ -6,42 +6,101 @@ from wearsim._version import __version__
 from wearsim.lazy import lazy_names
 
 _PUBLIC = {
+    "CalibrationResult": "wearsim.python.calibrate",
     "Case": "wearsim.case.model",
     "CaseError": "wearsim.errors",
+    "CheckResult": "wearsim.python.check",
     "ContactError": "wearsim.errors",
     "ConvergenceError": "wearsim.errors",
+    "DriveCase": "wearsim.study.whole_drive.keys",
+    "DriveLife": "wearsim.study.whole_drive.model",
+    "ExportResult": "wearsim.python.export",
     "GeometryError": "wearsim.errors",
     "Life": "wearsim.result",
+    "LoadsResult": "wearsim.python.loads",
     "LowerBound": "wearsim.result",
+    "MaintenanceResult": "wearsim.python.maintain",
+    "OptimiseResult": "wearsim.python.optimise",
+    "SelectionResult": "wearsim.python.select",
+    "SweepResult": "wearsim.python.sweep",
+    "UncertaintyResult": "wearsim.python.uncertainty",
     "WearResult": "wearsim.result",
     "WearsimError": "wearsim.errors",
+    "calibrate": "wearsim.python.calibrate",
+    "check": "wearsim.python.check",
+    "export": "wearsim.python.export",
     "load_case": "wearsim.case.load_case",
-    "simulate": "wearsim.simulation",
+    "load_drive": "wearsim.study.whole_drive.keys",
+    "loads": "wearsim.python.loads",
+    "maintain": "wearsim.python.maintain",
+    "optimise": "wearsim.python.optimise",
+    "progress_bar": "wearsim.python.progress",
+    "select": "wearsim.python.select",
+    "simulate": "wearsim.python.simulate",
     "simulate_many": "wearsim.simulation.batch_lives",
+    "sweep": "wearsim.python.sweep",
+    "uncertainty": "wearsim.python.uncertainty",
 }
+
+_FORMER: dict[str, tuple[str, str]] = {}
+"""Names of before: what they are called now, and the version that will be without them."""
 
 if TYPE_CHECKING:
     from wearsim.case.load_case import load_case
     from wearsim.case.model import Case
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
+    from wearsim.python.calibrate import CalibrationResult, calibrate
+    from wearsim.python.check import CheckResult, check
+    from wearsim.python.export import ExportResult, export
+    from wearsim.python.loads import LoadsResult, loads
+    from wearsim.python.maintain import MaintenanceResult, maintain
+    from wearsim.python.optimise import OptimiseResult, optimise
+    from wearsim.python.progress import progress_bar
+    from wearsim.python.select import SelectionResult, select
+    from wearsim.python.simulate import simulate
+    from wearsim.python.sweep import SweepResult, sweep
+    from wearsim.python.uncertainty import UncertaintyResult, uncertainty
     from wearsim.result import Life, LowerBound, WearResult
-    from wearsim.simulation import simulate
     from wearsim.simulation.batch_lives import simulate_many
+    from wearsim.study.whole_drive.keys import DriveCase, load_drive
+    from wearsim.study.whole_drive.model import DriveLife
 
 __all__ = [
+    "CalibrationResult",
     "Case",
     "CaseError",
+    "CheckResult",
     "ContactError",
     "ConvergenceError",
+    "DriveCase",
+    "DriveLife",
+    "ExportResult",
     "GeometryError",
     "Life",
+    "LoadsResult",
     "LowerBound",
+    "MaintenanceResult",
+    "OptimiseResult",
+    "SelectionResult",
+    "SweepResult",
+    "UncertaintyResult",
     "WearResult",
     "WearsimError",
     "__version__",
+    "calibrate",
+    "check",
+    "export",
     "load_case",
+    "load_drive",
+    "loads",
+    "maintain",
+    "optimise",
+    "progress_bar",
+    "select",
     "simulate",
     "simulate_many",
+    "sweep",
+    "uncertainty",
 ]
 
-__getattr__, __dir__ = lazy_names(__name__, _PUBLIC)
+__getattr__, __dir__ = lazy_names(__name__, _PUBLIC, _FORMER)

@@ -19,7 +19,7 @@ import wearsim.cli
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = (
     *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),
-    "howto_measured_sprocket",
+    *("howto_measured_sprocket", "python"),
 )
 LINKS = [
     (page, link)
@@ -48,10 +48,10 @@ def run_line(line: str, monkeypatch: pytest.MonkeyPatch) -> str:
     return printed.getvalue()
 
 
-def run_python(text: str, page: str) -> str:
+def run_python(text: str, page: str, names: dict[str, object]) -> str:
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        exec(compile(text, page, "exec"), {})  # noqa: S102
+        exec(compile(text, page, "exec"), names)  # noqa: S102
     return printed.getvalue()
 
 
@@ -59,11 +59,12 @@ def run_python(text: str, page: str) -> str:
 def test_every_command_answers_as_printed(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     answer, checked = "", 0
+    names: dict[str, object] = {}
     for language, text in blocks((DOCS / f"{name}.md").read_text("utf-8")):
         if language == "sh":
             answer = "".join(run_line(line, monkeypatch) for line in text.splitlines())
         elif language == "python":
-            answer = run_python(text, name)
+            answer = run_python(text, name, names)
         elif language == "text":
             given = " ".join(answer.split())
             for line in text.splitlines():

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import wearsim
+from wearsim.cad.step import step_bytes
 from wearsim.case.load_case import load_case
-from wearsim.export.step import step_bytes
 from wearsim.report.worn_flank import wheel_shapes
 
 pytestmark = pytest.mark.slow

@@ -9,8 +9,8 @@ import pytest
 import shapely
 from shapely import affinity
 
+from wearsim.cad.gauge import gauge
 from wearsim.case.load_case import load_case
-from wearsim.export.gauge import gauge
 from wearsim.geometry.wheel_outline import worn_gap, worn_space
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.report.worn_flank import wheel_shapes
@@ -58,7 +58,7 @@ def wheel(folder, form):
         points = np.column_stack([outline.x, outline.y])
         np.savetxt(folder / "gap.csv", points, "%.12f", ",", header="x_mm,y_mm", comments="")
     if form == "dxf":
-        from wearsim.export.wheel_formats import export
+        from wearsim.cad.wheel_formats import export
 
         drawing = export(load_case(written(folder, "iso606")), None, ("new",), "dxf")
         (folder / "wheel.dxf").write_bytes(drawing)

@@ -160,7 +160,7 @@ def test_case_keeps_the_text_of_its_files(tmp_path):
 
 def test_drawing_in_another_encoding_is_kept(tmp_path):
     """Bytes that are no UTF-8 come back from a saved run as they were."""
-    from wearsim.export.wheel_formats import export
+    from wearsim.cad.wheel_formats import export
 
     drawing = export(load_case(WRAP), None, ("new",), "dxf").replace(b"ANSI", "Зуб ".encode("cp1251"))
     (tmp_path / "wheel.dxf").write_bytes(drawing)

@@ -9,9 +9,9 @@ import pytest
 import shapely
 from scipy.spatial import cKDTree
 
+from wearsim.cad.dxf_writer import write_dxf
+from wearsim.cad.stl import prism, write_stl
 from wearsim.errors import GeometryError
-from wearsim.export.dxf_writer import write_dxf
-from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import ConvexConcave
 from wearsim.geometry.gear.convex_concave_gear import ConvexConcaveGear
 from wearsim.geometry.gear.convex_concave_outline import gear_outline, root_radius, tip_overlap

@@ -88,6 +88,7 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
         fatigue=fatigue,
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
+        given=document.given,
     )
 
 

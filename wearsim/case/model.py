@@ -6,14 +6,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
+from wearsim.case.input_lines import input_lines
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
+from wearsim.errors import CaseError, Fault
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
 from wearsim.fatigue.endurance import EnduredHours
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
+from wearsim.input.document import GivenInput, read_document
+from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.notebook import html_rows, one_line
 
 
 @dataclass(frozen=True)
@@ -237,6 +242,8 @@ class Case:
         None where contact fatigue is not asked for.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
+    given : GivenInput or None
+        What it was read from; None for one sprocket of a whole drive.
     """
 
     name: str
@@ -257,6 +264,13 @@ class Case:
     fatigue: FatigueInput | None
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
+    given: GivenInput | None = None
+
+    def __repr__(self) -> str:
+        return one_line("Case", self.title, f"{len(self.assumptions)} assumptions", *self.warnings[:1])
+
+    def _repr_html_(self) -> str:
+        return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
 
     @property
     def cycles_per_hour(self) -> float:
@@ -265,6 +279,49 @@ class Case:
         Equation physics.md (T1).
         """
         return 60.0 * self.speed_rpm / self.turns_per_cycle
+
+    def with_(self, changes: Mapping[str, Any]) -> "Case":
+        """Return the case with other values of some keys, read anew.
+
+        Parameters
+        ----------
+        changes : mapping
+            Values by dotted keys of the input file, or nested tables: numbers in the unit of the key,
+            text with a unit such as ``"6 kN"``, words. None removes a key. A value takes the place of
+            what says the same in another way: a tension that of a power.
+
+        Returns
+        -------
+        Case
+            Complete as if it had been written so; its title tells the changes.
+
+        Raises
+        ------
+        CaseError
+            What is wrong with it then, or that it is one sprocket of a whole drive.
+
+        Examples
+        --------
+        >>> import wearsim
+        >>> case = wearsim.load_case({
+        ...     "format_version": 1,
+        ...     "chain": {"designation": "16B-1"},
+        ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+        ...     "load": {"power_kW": 3, "speed_rpm": 100},
+        ...     "wear": {"condition": "hardened, oiled"},
+        ... })
+        >>> changed = case.with_({"load.tension_N": "6 kN"})
+        >>> changed.inputs["load"]
+        {'tension_N': 6000.0, 'speed_rpm': 100.0}
+        """
+        from wearsim.input.changes import changed
+
+        if self.given is None:
+            text = "must be changed as a whole: this is one sprocket of a drive, take with_ of the drive"
+            raise CaseError([Fault(text, "", self.name)])
+        document = read_document(changed(self.given, changes), ())
+        found: Case = mechanism_of(document.data).load("read")(document)
+        return found
 
     def with_horizon(self, hours: float) -> "Case":
         """Return the case with a horizon of at least so many hours, for a life that is required.
@@ -283,8 +340,13 @@ class Case:
             return self
         key = "run.horizon_hours"
         assumptions = [text for text in self.assumptions if not text.startswith(key)]
+        given = self.given
+        if given is not None:
+            run = {**given.tables.get("run", {}), "horizon_hours": hours}
+            given = replace(given, tables={**given.tables, "run": run})
         return replace(
             self,
+            given=given,
             run=replace(self.run, horizon_hours=hours),
             inputs={**self.inputs, "run": {**self.inputs["run"], "horizon_hours": hours}},
             assumptions=(*assumptions, f"{key} = {hours:g} (raised by --require-hours)"),

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import click
 
-from wearsim._version import ANSWER_HEAD
 from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, load_cases, overrides
@@ -24,20 +23,11 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
         checked(cases, settings, as_json)
         return
     loaded = load_cases(cases, settings, as_json)
-    from wearsim.chain.selection import rating_warnings
-    from wearsim.report.rating import notes_text, rating_json, rating_table
+    from wearsim.report.rating import check_json, check_warnings, notes_text, rating_table
 
     for path, case in zip(cases, loaded, strict=True):
-        warnings = [*case.warnings, *rating_warnings(case.drive.ratings(case))]
         if as_json:
-            content = {
-                **ANSWER_HEAD,
-                "case": case.name,
-                "assumptions": list(case.assumptions),
-                "warnings": warnings,
-                **rating_json(case),
-            }
-            click.echo(json.dumps(content, ensure_ascii=False))
+            click.echo(json.dumps(check_json(case), ensure_ascii=False))
             continue
         click.echo(f"{path}: ok")
         for text in case.assumptions:
@@ -45,5 +35,5 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
         for text in (rating_table(case), notes_text(case)):
             if text:
                 show(text)
-        for text in warnings:
+        for text in check_warnings(case):
             show(f"  warning  {text}")

@@ -9,7 +9,7 @@ from wearsim.command.cases_and_runs import check_settings
 from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, overrides, sprocket_option, worn
 from wearsim.command.single_file import check_place, format_of, write_content
-from wearsim.errors import CaseError, Fault, OutputError
+from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -20,9 +20,6 @@ _FORMATS = ("dxf", "svg", "csv", "step", "stl")
 _GAUGES = ("pdf", "svg", "dxf")
 
 _STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
-
-_LONGER = 1000.0
-"""Times the horizon of a case that the limit of a gauge is looked for in."""
 
 
 @click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
@@ -80,16 +77,17 @@ def export(
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
     _check_states(kind, states)
-    _check_shapes(case, kind)
+    from wearsim.cad.wheel_formats import check_solid
+    from wearsim.cad.wheel_formats import export as content
+
+    check_solid(case, kind)
     if result is None and ("worn" in states or template is not None):
         result = worn(case)
     written: list[tuple[Path, bytes]] = []
     if out is not None and kind is not None:
-        from wearsim.export.wheel_formats import export as content
-
         written.append((out, content(case, result, states, kind)))
     if template is not None and gauge is not None and result is not None:
-        from wearsim.export.gauge_sheet import gauge_sheet
+        from wearsim.cad.gauge_sheet import gauge_sheet
 
         written.append((template, gauge_sheet(case, _worn_out(case, result), gauge)))
     for path, data in written:
@@ -126,26 +124,11 @@ def _check_states(kind: str | None, states: "tuple[State, ...]") -> None:
         raise click.UsageError("an STL file holds one state of the wheel: give --state new or --state worn")
 
 
-def _check_shapes(case: "Case", kind: str | None) -> None:
-    """Raise, before the case is worn, where it has no wheel or none that can be a solid."""
-    from wearsim.report.worn_flank import wheel_shapes
-
-    shapes = wheel_shapes(case, None)
-    if kind in ("step", "stl") and not all(shape.new[0].rooted for shape in shapes):
-        message = (
-            "the outline of both gears must be closed to be solids, but the case tells no root of their "
-            "teeth: take --format dxf, svg or csv, which hold the flanks"
-        )
-        raise CaseError([Fault(message, "gear", case.name)])
-
-
 def _worn_out(case: "Case", result: "WearResult") -> "WearResult":
     """Return a run to the limit of the teeth, a longer one where that was not reached."""
-    from wearsim.export.gauge_sheet import is_worn_out
+    from wearsim.cad.gauge_sheet import is_worn_out, long_enough
 
-    if is_worn_out(result):
-        return result
-    return worn(case.with_horizon(_LONGER * case.run.horizon_hours))
+    return result if is_worn_out(result) else worn(long_enough(case))
 
 
 def _check_places(places: list[Path], source: Path, force: bool) -> None:

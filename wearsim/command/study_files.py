@@ -4,14 +4,14 @@ import math
 import textwrap
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import OutputError
 from wearsim.files import mark, write_file, written
-from wearsim.report.figures import picture_bytes
 from wearsim.report.text_lines import literal
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _KINDS = ("png", "svg")
 
@@ -32,8 +32,10 @@ def save_files(folder: Path, files: Mapping[str, str | bytes]) -> None:
         write_file(folder / name, content, force=True)
 
 
-def save_figures(folder: Path, title: str, figures: Mapping[str, Figure]) -> None:
+def save_figures(folder: Path, title: str, figures: "Mapping[str, Figure]") -> None:
     """Write the pictures of a study as PNG and SVG."""
+    from wearsim.report.figures import picture_bytes
+
     for figure in figures.values():
         letters = int(figure.get_figwidth() / _LETTER)
         figure.suptitle(literal(textwrap.fill(title, letters)), fontsize=10)

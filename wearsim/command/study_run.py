@@ -10,7 +10,6 @@ import click
 
 from wearsim.command.options import SOME_FAILED, warn
 from wearsim.command.study import StudyOptions
-from wearsim.errors import StudyError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -86,13 +85,11 @@ def _interrupted(place: StudyOptions) -> "Iterator[None]":
 
 def exit_code(table: "pd.DataFrame") -> int:
     """Return 5 where cases have failed, and tell how many."""
-    failed = table[table["error"] != ""]
-    if failed.empty:
+    from wearsim.runner.run_study import failures
+
+    what = failures(table)
+    if not what:
         return 0
-    first = failed.iloc[0]
-    what = f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
-    if len(failed) == len(table):
-        raise StudyError(what)
     warn(f"warning: {what}")
     return SOME_FAILED
 

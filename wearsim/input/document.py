@@ -5,7 +5,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,20 @@ class CaseText:
 _DEEPEST = 20
 """Tables and lists within one another that any input needs, and some more."""
 
-CaseSource = str | Path | CaseText | Mapping[str, Any]
+
+@dataclass(frozen=True)
+class GivenInput:
+    """An input as it was given, from which it can be read again."""
+
+    file: str  # what faults call it
+    name: str  # stem of the file
+    folder: Path  # folder that paths in it are relative to
+    text: str  # of the file, empty where there is none
+    written: Mapping[str, Any]  # its tables as they were written
+    tables: Mapping[str, Any]  # the same with what was changed since
+
+
+CaseSource = str | Path | CaseText | GivenInput | Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -39,29 +52,35 @@ class Document:
     folder: Path  # folder that paths in it are relative to
     data: dict[str, Any]  # its tables with the overrides
     faults: Faults  # takes what is wrong with it
+    given: GivenInput | None = None  # what it was read from; None for a part of another document
 
 
 def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
-    """Read a TOML file or a shipped case by its name, or take a text or a mapping with the same tables."""
-    if isinstance(source, Mapping):
-        file, name, text, folder = "case", "case", "", Path()
-        _check_depth(dict(source), file)
-        data = copy.deepcopy(dict(source))
-    else:
-        path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
-        file, name, folder = str(path), "case" if path == STDIN else path.stem, path.parent
-        text = source.text if isinstance(source, CaseText) else text_of(path)
-        data = _parsed(path, text)
+    """Read a file or a shipped case by its name, or take a text, an input given before or a mapping."""
+    given = source if isinstance(source, GivenInput) else _given(source)
     keys = [item.partition("=")[0].strip() for item in overrides]
-    faults = Faults(file, text, keys)
-    written = present_tables(data, faults.note, faults.add)
-    data = copy.deepcopy(written)
+    faults = Faults(given.file, given.text, keys)
+    tables = present_tables(given.tables, faults.note, faults.add)
+    written = tables if given.written is given.tables else given.written
+    data = copy.deepcopy(tables)
     for key, item in zip(keys, overrides, strict=True):
         if present_key(key) != key:
             faults.note(f"--set {key}", f"is read as {present_key(key)}: write that")
         _override(data, item)
     data = present_tables(data, faults.note, faults.add)
-    return Document(name, folder, retitled(data, written), faults)
+    given = replace(given, written=written, tables=data)
+    return Document(given.name, given.folder, retitled(data, written), faults, given)
+
+
+def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
+    if isinstance(source, Mapping):
+        _check_depth(dict(source), "case")
+        data = copy.deepcopy(dict(source))
+        return GivenInput("case", "case", Path(), "", data, data)
+    path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
+    text = source.text if isinstance(source, CaseText) else text_of(path)
+    data = _parsed(path, text)
+    return GivenInput(str(path), "case" if path == STDIN else path.stem, path.parent, text, data, data)
 
 
 def is_whole_drive(tables: Mapping[str, Any]) -> bool:

@@ -75,6 +75,23 @@ def _converted(number: float, given: str, unit: str) -> float:
     return float(f"{converted:.15g}")
 
 
+def in_unit_of(key: str, value: Any) -> Any:
+    """Return a text with a unit as the number that a key holds; any other value, and text of none, as it is.
+
+    Examples
+    --------
+    >>> in_unit_of("load.tension_N", "6 kN"), in_unit_of("load.tension_N", 5), in_unit_of("wear.law", "power")
+    (6000.0, 5, 'power')
+    """
+    quantity = quantities().get(key.rpartition(".")[2])
+    if not isinstance(value, str) or quantity is None or not quantity.unit:
+        return value
+    try:
+        return convert(value, quantity.unit)
+    except ValueError:
+        return value
+
+
 def _number(value: object, info: ValidationInfo) -> float:
     unit = quantities()[info.field_name or ""].unit
     if isinstance(value, str) and unit:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from nicegui import ui
 
+from wearsim.cad.wheel_formats import export
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
-from wearsim.export.wheel_formats import export
 from wearsim.geometry.wheel_outline import State
 from wearsim.page.case_file import NEW, CaseFile, named_beside, new_file, read_file
 from wearsim.page.dialogs import ask_export, ask_name, choose

@@ -107,13 +107,14 @@ def flanks_figure(results: list[WearResult]) -> Figure:
     figure = Figure(figsize=(0.8 + 4.0 * columns, 0.4 + 4.4 * rows), layout=layout)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel, result in zip(panels, results, strict=False):
-        _draw_flank(panel, result)
+        draw_worn_flank(panel, result)
     for panel in panels[len(results) :]:
         panel.set_visible(False)
     return figure
 
 
-def _draw_flank(panel: Axes, result: WearResult) -> None:
+def draw_worn_flank(panel: Axes, result: WearResult) -> None:
+    """Draw a flank new and at the end of its life, the depth enlarged, with the roller."""
     flank = flanks_of_life(result)[0]
     extent, depth, still = flank.extent, flank.depth[-1], around_flank(result, flank)
     shapes = flank.strokes(flank.x[-1], flank.y[-1], depth)

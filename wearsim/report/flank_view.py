@@ -2,9 +2,9 @@
 
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
@@ -13,6 +13,9 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 from wearsim.result import Life, WearResult
 from wearsim.result.folder import with_files
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def case_of(result: WearResult) -> Case:
@@ -57,8 +60,10 @@ def flanks(result: WearResult, index: int) -> dict[str, Vector]:
     return {name: values[at] for name, values in result.flank_columns.items()}
 
 
-def profile_table(case: Case) -> pd.DataFrame:
+def profile_table(case: Case) -> "pd.DataFrame":
     """Return the points of a flank with what follows from them."""
+    import pandas as pd
+
     columns = case.drive.profile_columns()
     if not columns:
         message = "the case must have a sprocket, a table of loads or gears have none: nothing to write"

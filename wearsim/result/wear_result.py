@@ -6,7 +6,7 @@ import platform
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from importlib import metadata
+from importlib import import_module, metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +14,17 @@ from wearsim._version import __version__
 from wearsim.chain.selection import RatingFinding, overloading
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
+from wearsim.notebook import html_rows, one_line
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_ANSWER, _PICTURES = "wearsim.report.answer", "wearsim.report.result_pictures"
+"""What shows a result; it knows results, and not the other way round."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +118,55 @@ class WearResult:
     history_columns: Mapping[str, Vector]
     flank_columns: Mapping[str, Vector]
     environment: Mapping[str, str]
+
+    def __repr__(self) -> str:
+        return one_line("WearResult", self.title, *(f"{label} {text}" for label, text in self._found()[:2]))
+
+    def _repr_html_(self) -> str:
+        texts = ("Assumes", self.assumptions), ("Warnings", self.warnings or "none")
+        return html_rows(self.title, [*self._found(), *texts])
+
+    def _found(self) -> list[tuple[str, str]]:
+        found: list[tuple[str, str]] = import_module(_ANSWER).findings(self)
+        return found
+
+    def plot(self, axes: Axes | None = None) -> Figure:
+        """Draw the flank new and at the end of its life, the depth enlarged, with the roller.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes, optional
+            Where to draw; a figure of its own without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        figure: Figure = import_module(_PICTURES).flank_picture([self], axes)
+        return figure
+
+    def plot_history(self) -> Figure:
+        """Draw the greatest depth over running time, on a wrap the elongation of the chain too.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        figure: Figure = import_module(_PICTURES).history_picture([self])
+        return figure
+
+    def plot_loads(self) -> Figure:
+        """Draw what the flank carries per width along it, new and worn; on a wrap the force on each tooth.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        figure: Figure = import_module(_PICTURES).loads_picture(self)
+        return figure
 
     @property
     def cycles(self) -> float:

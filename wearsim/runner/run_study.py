@@ -57,6 +57,21 @@ def run_study(
     return _table(design, [done[first] for first in sorted(done)])
 
 
+def failures(table: pd.DataFrame) -> str:
+    """Return how many cases of a study have failed and why the first one has; empty where none has.
+
+    Raises `StudyError` where all have.
+    """
+    failed = table[table["error"] != ""]
+    if failed.empty:
+        return ""
+    first = failed.iloc[0]
+    what = f"{len(failed)} of {len(table)} cases failed, first case {first.case_index}: {first.error}"
+    if len(failed) == len(table):
+        raise StudyError(what)
+    return what
+
+
 def _run(waiting: list[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]:
     """Give shards as they are finished, until all are or a worker has died."""
     remaining = iter(waiting)

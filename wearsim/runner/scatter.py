@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.document import Document, read_document
+from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.result.folder import file_paths
 from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
@@ -39,7 +38,7 @@ class ScatteredKey:
 class ScatteredCase:
     """A case and what of it scatters."""
 
-    path: Path  # its file
+    place: str  # its file
     case: Case  # with the values of the file
     document: Document  # the file without [uncertainty], the wear coefficient by its own key
     scatters: tuple[ScatteredKey, ...]  # what scatters, independently of one another
@@ -66,15 +65,18 @@ class ScatteredCase:
     def design(self, shares: Vector) -> Design:
         """Return the cases at some probabilities of the keys."""
         rows = self.values(shares).tolist()
-        return design(self.document, self.keys, rows, str(self.path), self.kind)
+        return design(self.document, self.keys, rows, self.place, self.kind)
 
 
 def load_scattered(
-    path: Path, overrides: Sequence[str], least_horizon: float | None = None, kind: CaseKind = ONE_SPROCKET
+    source: CaseSource,
+    overrides: Sequence[str],
+    least_horizon: float | None = None,
+    kind: CaseKind = ONE_SPROCKET,
 ) -> ScatteredCase:
     """Return a case and what of it scatters by its table [uncertainty]."""
-    document = read_document(path, overrides)
-    case = kind.read(path, overrides).with_horizon(least_horizon or 0.0)
+    document = read_document(source, overrides)
+    case = kind.read(source, overrides).with_horizon(least_horizon or 0.0)
     given = _given(case)
     assumptions = []
     for coefficient in _coefficients(case):
@@ -90,7 +92,7 @@ def load_scattered(
         assumptions.append("keys scatter independently of one another")
     scatters = tuple(_scatter(case, key, law) for key, law in given.items())
     plain = plain_document(document, case)
-    return ScatteredCase(path, case, plain, scatters, tuple(assumptions), kind)
+    return ScatteredCase(document.faults.file, case, plain, scatters, tuple(assumptions), kind)
 
 
 def coefficient_key(case: Case) -> str:

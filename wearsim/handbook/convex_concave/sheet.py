@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from wearsim.cad.dxf_writer import write_dxf
+from wearsim.cad.stl import prism, write_stl
 from wearsim.command.calculation_sheet import CalculationSheet
-from wearsim.export.dxf_writer import write_dxf
-from wearsim.export.stl import prism, write_stl
 from wearsim.geometry.gear.convex_concave import SignCondition
 from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
 from wearsim.geometry.outline import rotated

@@ -1,5 +1,7 @@
 """The whole input file of a drive with a chain."""
 
+from typing import Any
+
 from pydantic import Field
 
 from wearsim.input.schema.drive_tables import (
@@ -69,6 +71,13 @@ class CaseTables(Table):
     service: ServiceTable | None = None
     uncertainty: Uncertainty | None = None
     optimise: OptimiseTable | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes: a load that of a duty, and back."""
+        if key == "duty":
+            return tuple(f"load.{name}" for name in LoadTable.model_fields)
+        return ("duty",) if key.partition(".")[0] == "load" else ()
 
 
 class DriveTables(CaseTables):

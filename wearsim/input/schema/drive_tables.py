@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name
-from wearsim.input.schema.table import Table, all_differ
+from wearsim.input.schema.table import Table, all_differ, others_of
 from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
@@ -43,6 +43,12 @@ class DriveTable(Table):
     joint_application_factor: Annotated[PositiveNumber, Field(ge=0.5, le=10.0)] | None = None
     joint_friction: Annotated[NotNegative, Field(le=1.0)] | None = None
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        one_of = ("links", "centre_distance_mm"), ("slack_tension_N", "sag_percent")
+        return others_of(key, *one_of, ("slack_tension_N", "inclination_deg"))
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         pairs = (("links", "centre_distance_mm"), ("slack_tension_N", "sag_percent"))
@@ -54,6 +60,10 @@ class DriveTable(Table):
         if self.slack_tension_N is not None and self.inclination_deg is not None:
             found.append(("inclination_deg", "slack_tension_N is given: remove one of both"))
         return found
+
+
+OWN_CHAIN = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
+"""Keys that a chain without a designation must have."""
 
 
 class ChainTable(Table):
@@ -83,9 +93,16 @@ class ChainTable(Table):
             known_chain_name(value)
         return value
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        if key == "designation":
+            return tuple(name for name in cls.model_fields if name != key)
+        return ("designation",) if key in OWN_CHAIN else ()
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        own = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
+        own = OWN_CHAIN
         given = [key for key in own if getattr(self, key) is not None]
         if self.designation is not None:
             single = chains()[chain_name(self.designation) or ""]
@@ -179,6 +196,13 @@ class SprocketTable(Table):
     hub_diameter_mm: Positive | None = None
     hub_length_mm: Positive | None = None
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        if key == "profile":
+            return tuple(name for name, profiles in _BELONGS_TO.items() if value not in profiles)
+        return BETWEEN_FORMS if key == "form" else ("form",) if key in BETWEEN_FORMS else ()
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         found = [
@@ -239,6 +263,11 @@ class PlaceTable(Table):
     wear: WearTable | None = None
     material: MaterialTable | None = None
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, ("power_share", "torque_N_m"), ("teeth", "cog"))
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         found = []
@@ -265,6 +294,11 @@ class PlacedSprocketTable(SprocketTable, PlaceTable):
     role: Literal["driver", "driven", "idler"] | None = None  # type: ignore[assignment]
     teeth: Annotated[int, Field(ge=5, le=1000)] | None = None  # type: ignore[assignment]
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return (*SprocketTable.gives_way(key, value), *PlaceTable.gives_way(key, value))
+
 
 class DutyBlock(Table):
     """A part of the duty in which load and speed are constant."""
@@ -278,6 +312,11 @@ class DutyBlock(Table):
     wear_factor: PositiveNumber = 1.0
     applies_to: Literal["all", "teeth", "joints"] = "all"
     power_share: dict[str, PositiveNumber] | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, LOAD_KEYS)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -333,6 +372,14 @@ class LoadTable(Table):
     regime: Regime | None = None
     duty_file: str | None = None
     duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        if key == "duty_file":
+            return (*LOAD_KEYS, "speed_rpm", "regime")
+        of_a_log = ("duty_file", "duty_bins") if key in (*LOAD_KEYS, "speed_rpm", "regime") else ()
+        return (*others_of(key, LOAD_KEYS), *of_a_log)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

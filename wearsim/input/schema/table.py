@@ -71,6 +71,11 @@ class Table(BaseModel):
         """Return what is wrong between the keys of this table."""
         return []
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys of this table, and of those in it, whose place a new value of a key takes."""
+        return ()
+
     def plain(self, target: type[_Plain], **others: Any) -> _Plain:
         """Return the values as an object of plain numbers in mm, N, MPa, rpm and rad.
 
@@ -90,6 +95,17 @@ class Table(BaseModel):
         if found:
             raise PydanticCustomError("conflicts", "keys do not fit together", {"faults": found})
         return self
+
+
+def others_of(key: str, *groups: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what gives way to a key of groups of which one key can be given.
+
+    Examples
+    --------
+    >>> others_of("b", ("a", "b", "c"), ("d", "e"))
+    ('a', 'c')
+    """
+    return tuple(other for group in groups if key in group for other in group if other != key)
 
 
 def whole(value: object) -> object:

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import materials, wear_conditions
-from wearsim.input.schema.table import Table, known
+from wearsim.input.schema.table import Table, known, others_of
 from wearsim.input.units import Number, Positive, PositiveNumber
 
 _KEYS = {
@@ -38,6 +38,18 @@ class WearTable(Table):
     running_in_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
     running_in_distance_mm: Positive | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        every = tuple(dict.fromkeys(key for keys in _KEYS.values() for key in keys))
+        if key == "condition":
+            return ("law", *every)
+        if key == "law":
+            return ("condition", *(other for other in every if other not in _KEYS.get(value, ())))
+        if key == "specific_wear_rate_mm2_per_N":
+            return ("condition", "law", *(other for other in every if other != key))
+        return ("condition", "specific_wear_rate_mm2_per_N") if key in every else ()
 
     @field_validator("condition")
     @classmethod
@@ -81,6 +93,11 @@ class MaterialTable(Table):
     def _known(cls, value: str | None) -> str | None:
         return known(value, dict(materials()), "material", "wearsim list materials")
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, ("name", "youngs_modulus_MPa"), ("name", "poissons_ratio"))
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         if self.name is None:
@@ -123,6 +140,11 @@ class RunTable(Table):
     life_tolerance: Annotated[PositiveNumber, Field(ge=1e-6, le=0.1)] | None = None
     horizon_hours: Annotated[Positive, Field(ge=1e-6)] = 1e6
     """At least some milliseconds, in which no tooth wears."""
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return ("cycles_per_update",) if (key, value) == ("method", "advance") else ()
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -182,6 +204,11 @@ class FlankMaterialTable(Table):
     hardness_HRC: Rockwell | None = None
     contact_limit_MPa: Stress | None = None
     contact_safety: AtLeastOne | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, ("hardness_HB", "hardness_HRC"))
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -90,6 +90,7 @@ def read(document: Document) -> Case:
         fatigue=fatigue,
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
+        given=document.given,
     )
 
 

@@ -1,7 +1,7 @@
 """The input of a life of a gear pair."""
 
 import itertools
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -74,6 +74,12 @@ class GearTable(Table):
     first_pitch_point_distance_mm: Annotated[Signed, Field(lt=0.0)] | None = None
     last_pitch_point_distance_mm: Annotated[Signed, Field(gt=0.0)] | None = None
 
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        others = (keys for owner, keys in _KEYS.items() if key == "profile" and owner != value)
+        return tuple(name for keys in others for name in keys)
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         found = [
@@ -120,6 +126,11 @@ class GearMechanismTable(Table):
     kind: Literal["gear_pair"] = "gear_pair"
     load_sharing: Literal["elastic", "rigid"] = "elastic"
     pair_stiffness_N_per_mm_um: Annotated[Positive, Field(le=1000.0)] | None = None
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return ("pair_stiffness_N_per_mm_um",) if (key, value) == ("load_sharing", "rigid") else ()
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

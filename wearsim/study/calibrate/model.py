@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from wearsim.case.load_case import load_case
-from wearsim.input.document import read_document
+from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.scaled_percentiles import check_steady_coefficient
 from wearsim.runner.scatter import plain_document
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
@@ -14,7 +14,10 @@ from wearsim.study.calibrate.readings import read_readings
 
 
 def calibrate(
-    path: Path, measurements: Path, overrides: Sequence[str] = (), options: CalibrationOptions | None = None
+    source: CaseSource,
+    measurements: Path,
+    overrides: Sequence[str] = (),
+    options: CalibrationOptions | None = None,
 ) -> Calibration:
     """Fit the coefficients of a case to what was measured.
 
@@ -23,8 +26,8 @@ def calibrate(
     of the residuals over their stated errors, intervals by the profile of the likelihood.
     """
     options = options or CalibrationOptions()
-    document = read_document(path, overrides)
-    case = load_case(path, overrides)
+    document = read_document(source, overrides)
+    case = load_case(source, overrides)
     check_steady_coefficient(case, "calibrate")
     readings = read_readings(measurements)
     check_readings(case, readings, options, str(measurements))

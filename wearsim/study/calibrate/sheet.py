@@ -11,7 +11,6 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.figures import save_figure
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife
@@ -107,6 +106,7 @@ def values_table(found: Calibration) -> pd.DataFrame:
 
 def save_calibration(found: Calibration, folder: Path, force: bool) -> None:
     """Write tables, pictures and the case with the fitted values, all of it or nothing."""
+    from wearsim.report.figures import save_figure
     from wearsim.study.calibrate.figure import calibration_figures
 
     with new_folder(folder, force) as place:

@@ -43,26 +43,18 @@ def optimise(
     designs as a case in designs, and what is finished: run again, the same command goes on.
     """
     from wearsim.study.optimise.model import load_optimise
-    from wearsim.study.optimise.trials import OptimiseOutcome, Trials, check_feasible, front
+    from wearsim.study.optimise.search import best_designs, check_library
+    from wearsim.study.optimise.trials import check_feasible
 
     study = load_optimise(case, settings, evaluations, seed)
-    if len(study.objectives) > 1:
-        from wearsim.extras import check_installed
-
-        check_installed(("optuna",), "optimise", "optimise with several objectives")
+    check_library(study)
     report_progress = _note(study)
     if place.dry_run:
         _show_plan(study, place, report_progress)
         return 0
-    from wearsim.study.optimise.search import search
-
     text = f"optimising {study.case.title}"
     with in_batches(study.given, place, report_progress, text, evaluations + 1) as run:
-        trials = Trials(study, run)
-        settled = search(study, trials)
-    tried = tuple(trials.found.values())
-    best = tuple(front(tried, study.objectives))
-    outcome = OptimiseOutcome(study, trials.given, tried, best, settled)
+        outcome = best_designs(study, run)
     from wearsim.study.optimise.sheet import (
         optimise_json,
         optimise_text,
@@ -73,7 +65,7 @@ def optimise(
 
     if place.out is not None:
         save_candidates(outcome, place.out)
-    check_feasible(study, tried)
+    check_feasible(study, outcome.candidates)
     if as_json:
         print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:

@@ -10,7 +10,7 @@ from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
 from wearsim.errors import CaseError, Fault
-from wearsim.input.document import Document, read_document
+from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
 from wearsim.input.schema.table import all_differ
 from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
@@ -65,13 +65,13 @@ class OptimiseStudy:
         return found
 
 
-def load_optimise(path: Path, overrides: Sequence[str], evaluations: int, seed: int) -> OptimiseStudy:
+def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int, seed: int) -> OptimiseStudy:
     """Return what is asked of a case by its table [optimise]."""
-    document = read_document(path, overrides)
-    case = load_case(path, overrides)
+    document = read_document(source, overrides)
+    case = load_case(source, overrides)
     if "optimise" not in case.inputs:
         text = "this table is required: it tells what may change, as parameters by their keys"
-        raise CaseError([Fault(text, "optimise", str(path))])
+        raise CaseError([Fault(text, "optimise", document.faults.file)])
     table = OptimiseTable.model_validate(case.inputs["optimise"])
     space = search_space(document.data, table.parameters)
     limits = {name: limit for name, limit in table.limits if limit is not None}
@@ -81,11 +81,11 @@ def load_optimise(path: Path, overrides: Sequence[str], evaluations: int, seed: 
         life = limits["life_hours"]
         # A life that runs beyond its high limit must be seen to.
         horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
-        raised = load_case(path, [*overrides, f"run.horizon_hours={horizon!r}"])
+        raised = load_case(source, [*overrides, f"run.horizon_hours={horizon!r}"])
         case = replace(raised, title=case.title)
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
-    given, space = _with_files(replace(document, data=data), space, path)
+    given, space = _with_files(replace(document, data=data), space)
     return OptimiseStudy(
         case,
         replace(given, keys=(), rows=((),)),
@@ -98,13 +98,14 @@ def load_optimise(path: Path, overrides: Sequence[str], evaluations: int, seed: 
     )
 
 
-def _with_files(document: Document, space: SearchSpace, path: Path) -> tuple[Design, SearchSpace]:
+def _with_files(document: Document, space: SearchSpace) -> tuple[Design, SearchSpace]:
     """Read the files that the case and the choices name; the choices are then bare names."""
+    place = document.faults.file
     named = {
         parameter.key: parameter.choices for parameter in space.parameters if parameter.key in NAMES_FILE
     }
     faults = [
-        Fault(f"must name files that can be read, but {name!r} cannot", _place(key), str(path))
+        Fault(f"must name files that can be read, but {name!r} cannot", _place(key), place)
         for key, names in named.items()
         for name in names
         if not _is_readable(document.folder / name)
@@ -112,13 +113,13 @@ def _with_files(document: Document, space: SearchSpace, path: Path) -> tuple[Des
     if faults:
         raise CaseError(faults)
     rows = list(zip_longest(*(named.get(key, ()) for key in space.keys)))
-    given = design(document, space.keys, rows, str(path))
+    given = design(document, space.keys, rows, place)
     parameters = []
     for parameter, column in zip(space.parameters, zip(*given.rows, strict=True), strict=False):
         bare = tuple(name for name in column if name is not None)
         if not all_differ(bare):
             text = "every file once, but one is given twice: remove it"
-            raise CaseError([Fault(text, _place(parameter.key), str(path))])
+            raise CaseError([Fault(text, _place(parameter.key), place)])
         parameters.append(replace(parameter, choices=bare) if bare else parameter)
     return given, SearchSpace(tuple(parameters) or space.parameters)
 

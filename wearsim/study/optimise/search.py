@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import differential_evolution
 
+from wearsim.extras import check_installed
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.optimise.local_model import Places, proposals
 from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.optimise.search_front import evolve_front, refine_front
-from wearsim.study.optimise.trials import FAILED, Candidate, Trials
+from wearsim.study.optimise.trials import FAILED, Candidate, OptimiseOutcome, Run, Trials, front
 
 _BROKEN = 1e3
 """Cost above those of all feasible designs."""
@@ -46,6 +47,20 @@ def search(study: OptimiseStudy, trials: Trials) -> bool:
     if trials.left >= _reserve(study):
         _evolve(study, trials, points)
     return _poll(study, trials)
+
+
+def best_designs(study: OptimiseStudy, run: Run) -> OptimiseOutcome:
+    """Return what comes of a search whose cases are run by a function."""
+    trials = Trials(study, run)
+    settled = search(study, trials)
+    tried = tuple(trials.found.values())
+    return OptimiseOutcome(study, trials.given, tried, tuple(front(tried, study.objectives)), settled)
+
+
+def check_library(study: OptimiseStudy) -> None:
+    """Raise where several objectives need a library that is not installed."""
+    if len(study.objectives) > 1:
+        check_installed(("optuna",), "optimise", "optimise with several objectives")
 
 
 def generation_size(study: OptimiseStudy) -> int:

@@ -13,7 +13,6 @@ from wearsim.quantities import grouped
 from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
-from wearsim.study.optimise.figure import optimise_figures
 from wearsim.study.optimise.trials import (
     MAXIMISED,
     Candidate,
@@ -223,6 +222,8 @@ def save_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
 
 def save_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the best designs, as a table, as pictures and as cases, into the folder of a study."""
+    from wearsim.study.optimise.figure import optimise_figures
+
     texts = {
         "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
         "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",

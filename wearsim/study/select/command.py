@@ -148,7 +148,7 @@ def select(
     A drive passes where it keeps to the ratings and its chain lives long enough by wear. The
     lightest one comes first, or the cheapest. Exit code 3 where none passes.
     """
-    from wearsim.study.select.sheet import selection_json, selection_text
+    from wearsim.study.select.sheet import answer_to, selection_json, selection_text
     from wearsim.study.select.wish import read_wish
 
     _check_places(out, csv_file, as_json, force)
@@ -158,7 +158,7 @@ def select(
         if as_json:
             click.echo(error_json("select", error))
         raise
-    answer = _answer(wish, every_pair, count)
+    answer = answer_to(wish, every_pair, count)
     verified = _verified(answer, wish, verify)
     if as_json:
         content = selection_json(answer)
@@ -189,23 +189,6 @@ def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force:
     for place in (out, csv_file):
         if place is not None and str(place) != "-":
             check_free(place, force)
-
-
-def _answer(wish: "Wish", every_pair: bool, count: int) -> "SelectionAnswer":
-    from wearsim.study.select.considered_chains import considered_chains
-    from wearsim.study.select.model import judged_drives
-    from wearsim.study.select.sheet import SelectionAnswer
-
-    considered = considered_chains(wish.need, wish.prices)
-    return SelectionAnswer(
-        need=wish.need,
-        use=wish.use,
-        considered=considered,
-        drives=judged_drives(wish.need, considered.chains, wish.prices),
-        every_pair=every_pair,
-        count=count,
-        priced=wish.prices is not None,
-    )
 
 
 def _verified(answer: "SelectionAnswer", wish: "Wish", count: int) -> list[dict[str, Any]]:

@@ -11,17 +11,19 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
-from wearsim.study.select.considered_chains import ConsideredChains
+from wearsim.study.select.considered_chains import ConsideredChains, considered_chains
 from wearsim.study.select.model import (
     LEAST_WRAP,
     SAG,
     CandidateDrive,
     best_of_each_chain,
+    judged_drives,
     nearest_miss,
     ranked,
     refused_by,
 )
 from wearsim.study.select.requirements import MOST_TEETH, DriveRequirements
+from wearsim.study.select.wish import Wish
 
 _HEAD = (
     *("chain", "strands", "teeth", "ratio", "links", "centre mm", "m/s", "kg", "cost"),
@@ -60,6 +62,20 @@ class SelectionAnswer:
         if self.priced:
             return "cost: metres of chain and kilograms of sprockets at the prices given; then teeth, chain"
         return f"mass: {weighed}; then teeth, chain"
+
+
+def answer_to(wish: Wish, every_pair: bool, count: int) -> SelectionAnswer:
+    """Return the drives that answer what is asked for."""
+    considered = considered_chains(wish.need, wish.prices)
+    return SelectionAnswer(
+        need=wish.need,
+        use=wish.use,
+        considered=considered,
+        drives=judged_drives(wish.need, considered.chains, wish.prices),
+        every_pair=every_pair,
+        count=count,
+        priced=wish.prices is not None,
+    )
 
 
 def drive_columns(drive: CandidateDrive) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,11 +10,11 @@ from pydantic import ValidationError
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.calculation_file import calculation_tables
-from wearsim.input.document import Document, read_document, retitled
+from wearsim.input.document import CaseSource, Document, GivenInput, read_document, retitled
 from wearsim.input.faults import validation_faults
 from wearsim.input.keys import schema_of
 from wearsim.input.other_files import check_command
-from wearsim.input.schema import PlacedSprocketTable
+from wearsim.input.schema import CaseTables, PlacedSprocketTable
 from wearsim.input.schema.table import Table
 from wearsim.runner.design import Design, design, replaced
 from wearsim.study.sweep.keys import Range, SweepTables
@@ -37,25 +36,27 @@ class Sweep:
     design: Design  # the cases, those that differ in the last axis only next to one another
 
 
-def load_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
-    """Return the cases of a sweep."""
-    given = read_document(path, ())
+def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInput | None = None) -> Sweep:
+    """Return the cases of a sweep; of a case that is given here in place of the file that it names."""
+    given = read_document(source, ())
+    place = given.faults.file
     tables = calculation_tables(given, SweepTables)
     axes = list(_axes(tables))
     keys = [key for axis in axes for key in axis.keys]
     count = int(np.prod([len(axis.rows) for axis in axes], dtype=float))
     if count > MAX_CASES:
         text = f"a sweep may have at most {MAX_CASES} cases, this has {count}: give fewer values"
-        raise CaseError([Fault(text, "grid", str(path))])
+        raise CaseError([Fault(text, "grid", place)])
     rows = [
         tuple(itertools.chain.from_iterable(parts))
         for parts in itertools.product(*(axis.rows for axis in axes))
     ]
-    document, written = (read_document(given.folder / tables.case, sets) for sets in (overrides, ()))
+    of_case = given.folder / tables.case if case is None else case
+    document, written = (read_document(of_case, sets) for sets in (overrides, ()))
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
-    cases = design(document, keys, rows, str(path), kind_of(document.data))
+    cases = design(document, keys, rows, place, kind_of(document.data))
     _check_values(given, document, cases, axes)
     return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
 
@@ -92,7 +93,9 @@ def _wrong(tables: Mapping[str, Any], model: type[Table]) -> Iterator[tuple[str,
         for number, table in enumerate(sprockets, start=1):
             for key, message in _wrong(table, PlacedSprocketTable):
                 yield f"sprocket.{number}.{key}", message
+        # The others are those of one sprocket, which may be left out.
         tables = {key: table for key, table in tables.items() if key != "sprocket"}
+        model = CaseTables
     try:
         model.model_validate(tables)
     except ValidationError as error:

@@ -12,7 +12,6 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.runner.shard import life_columns
-from wearsim.study.sweep.figure import sweep_figures
 from wearsim.study.sweep.model import Sweep
 
 
@@ -42,6 +41,8 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
 
 def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
     """Write the table and the pictures of a sweep into its folder."""
+    from wearsim.study.sweep.figure import sweep_figures
+
     texts = {
         "cases.csv": table.to_csv(index=False),
         "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",

@@ -3,14 +3,13 @@
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from scipy.stats import qmc
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.document import read_document
+from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.design import Design
 from wearsim.runner.scatter import ScatteredCase, load_scattered
 from wearsim.study.whole_drive.study_cases import kind_of
@@ -33,7 +32,7 @@ class UncertaintyStudy:
 
 
 def load_uncertainty(
-    path: Path,
+    source: CaseSource,
     overrides: Sequence[str],
     samples: int,
     seed: int,
@@ -41,8 +40,8 @@ def load_uncertainty(
     least_horizon: float | None = None,
 ) -> UncertaintyStudy:
     """Return the samples of a case."""
-    kind = kind_of(read_document(path, overrides).data)
-    scattered = load_scattered(path, overrides, least_horizon, kind)
+    kind = kind_of(read_document(source, overrides).data)
+    scattered = load_scattered(source, overrides, least_horizon, kind)
     shares = unit_samples(len(scattered.scatters), samples, seed, method)
     return UncertaintyStudy(scattered, method, seed, scattered.design(shares))
 

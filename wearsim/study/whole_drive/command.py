@@ -5,11 +5,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from wearsim._version import ANSWER_HEAD
 from wearsim.command.colours import show
 from wearsim.command.options import (
     NOT_MET,
@@ -82,7 +81,7 @@ def export_wheels(
     path: Path, settings: Sequence[str], out: Path, form: str, states: "Sequence[State]", force: bool
 ) -> None:
     """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
-    from wearsim.export.wheel_formats import export
+    from wearsim.cad.wheel_formats import export
     from wearsim.files import new_folder
     from wearsim.report.html.page_writer import page_names
 
@@ -100,15 +99,13 @@ def loaded_teeth(
 ) -> None:
     """Print what spans, shafts and all teeth of a drive carry."""
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
-    from wearsim.report.loads_table import loads_json, loads_table
-    from wearsim.study.whole_drive.layout import layout_json, layout_text
+    from wearsim.report.loads_table import loads_table
+    from wearsim.study.whole_drive.layout import drive_loads_json, layout_text
 
     drive = _loaded(path, settings, as_json)
     teeth = {one.name: tooth_loads(one.case, elongation, phase) for one in drive.sprockets}
     if as_json:
-        sprockets = [{"name": name, **loads_json(found)} for name, found in teeth.items()]
-        layout = layout_json(drive)
-        print_json({**ANSWER_HEAD, "case": drive.name, "layout": layout, "sprockets": sprockets}, path)
+        print_json(drive_loads_json(drive, teeth), path)
         return
     click.echo(f"{drive.title}\n{layout_text(drive)}")
     for name, found in teeth.items():
@@ -235,31 +232,18 @@ def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | No
 
 def checked(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> None:
     """Print that drives are complete, where their chains run, their ratings, and what they assume."""
+    from wearsim.study.whole_drive.layout import drive_check_json
+
     for path, drive in zip(paths, _all_loaded(paths, settings, as_json), strict=True):
         if as_json:
-            click.echo(json.dumps(_check_json(drive), ensure_ascii=False))
+            click.echo(json.dumps(drive_check_json(drive), ensure_ascii=False))
         else:
             show(_check_text(drive, path))
 
 
-def _check_json(drive: "DriveCase") -> dict[str, Any]:
-    from wearsim.report.rating import rating_json
-    from wearsim.study.whole_drive.layout import layout_json
-
-    return {
-        **ANSWER_HEAD,
-        "case": drive.name,
-        "sprockets": [one.name for one in drive.sprockets],
-        "layout": layout_json(drive),
-        "assumptions": list(drive.assumptions),
-        "warnings": list(_check_warnings(drive)),
-        **rating_json(drive.driver.case),
-    }
-
-
 def _check_text(drive: "DriveCase", path: Path) -> str:
     from wearsim.report.rating import notes_text, rating_table
-    from wearsim.study.whole_drive.layout import layout_text
+    from wearsim.study.whole_drive.layout import drive_check_warnings, layout_text
 
     case = drive.driver.case
     lines = [
@@ -268,16 +252,9 @@ def _check_text(drive: "DriveCase", path: Path) -> str:
         *(f"  assumes  {text}" for text in drive.assumptions),
         rating_table(case),
         notes_text(case),
-        *(f"  warning  {text}" for text in _check_warnings(drive)),
+        *(f"  warning  {text}" for text in drive_check_warnings(drive)),
     ]
     return "\n".join(line for line in lines if line)
-
-
-def _check_warnings(drive: "DriveCase") -> tuple[str, ...]:
-    from wearsim.chain.selection import rating_warnings
-
-    case = drive.driver.case
-    return (*drive.warnings, *rating_warnings(case.drive.ratings(case)))
 
 
 def report_sheet(

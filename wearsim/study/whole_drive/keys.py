@@ -6,16 +6,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from wearsim.case.input_lines import input_lines
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
-from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.input.changes import changed
+from wearsim.input.document import CaseSource, Document, GivenInput, read_document
 from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.kernels.compiled import expect
 from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
+from wearsim.notebook import html_rows, one_line
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
@@ -59,13 +62,56 @@ class DriveSprocket:
 
 @dataclass(frozen=True)
 class DriveCase:
-    """A drive whose sprockets share one chain."""
+    """A drive whose sprockets share one chain.
+
+    Attributes
+    ----------
+    name : str
+        Stem of the file, or ``case``.
+    title : str
+        What it is about.
+    inputs : mapping
+        Tables of the file.
+    sprockets : tuple of DriveSprocket
+        In the order of the file, each with the ``case`` of it alone.
+    wheels : tuple of DriveWheel
+        In the order of the file, which is that of the chain; a cassette is one.
+    given : GivenInput
+        What it was read from.
+    """
 
     name: str  # stem of its file
     title: str  # of the file, or what is driven by what
     inputs: Mapping[str, Any]  # tables of the file
     sprockets: tuple[DriveSprocket, ...]  # in the order of the file, each cog of a cassette for itself
     wheels: tuple[DriveWheel, ...]  # in the order of the file, which is that of the chain
+    given: GivenInput  # what it was read from
+
+    def __repr__(self) -> str:
+        return one_line("DriveCase", self.title, ", ".join(one.name for one in self.sprockets))
+
+    def _repr_html_(self) -> str:
+        return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
+
+    def with_(self, changes: Mapping[str, Any]) -> "DriveCase":
+        """Return the drive with other values of some keys, read anew.
+
+        Parameters
+        ----------
+        changes : mapping
+            As for `Case.with_`; ``"sprocket.2.teeth"`` is a key of the second sprocket.
+
+        Returns
+        -------
+        DriveCase
+            Complete as if it had been written so; its title tells the changes.
+
+        Raises
+        ------
+        CaseError
+            What is wrong with it then.
+        """
+        return load_drive(changed(self.given, changes))
 
     @property
     def driver(self) -> DriveSprocket:
@@ -121,7 +167,8 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     document.faults.check()
     expect(MECHANISMS["wrap"].kernels)
     title = document.data.get("title") or _title(wheels, sprockets[0].case)
-    return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels))
+    assert document.given is not None
+    return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels), document.given)
 
 
 def _title(wheels: Sequence[DriveWheel], first: Case) -> str:

@@ -1,10 +1,16 @@
 """Where the chain runs, how hard it pulls, what the shafts bear and what its joints lose."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from wearsim._version import ANSWER_HEAD
 from wearsim.chain.loop_forces import LoopForces
+from wearsim.chain.selection import rating_warnings
+from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
+from wearsim.report.loads_table import loads_json
+from wearsim.report.rating import rating_json
 from wearsim.report.text_lines import row
 from wearsim.study.whole_drive.keys import DriveCase
 from wearsim.study.whole_drive.wheels import DRIVER
@@ -62,6 +68,31 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
         "efficiency": forces.efficiency,
         "friction_heat_W": watts * float(forces.losses.sum()),
     }
+
+
+def drive_check_json(drive: DriveCase) -> dict[str, Any]:
+    """Return what is known of a drive without a run as ``wearsim check --json`` prints it."""
+    return {
+        **ANSWER_HEAD,
+        "case": drive.name,
+        "sprockets": [one.name for one in drive.sprockets],
+        "layout": layout_json(drive),
+        "assumptions": list(drive.assumptions),
+        "warnings": drive_check_warnings(drive),
+        **rating_json(drive.driver.case),
+    }
+
+
+def drive_check_warnings(drive: DriveCase) -> list[str]:
+    """Return what is doubtful about a drive before a run, its ratings among it."""
+    case = drive.driver.case
+    return [*drive.warnings, *rating_warnings(case.drive.ratings(case))]
+
+
+def drive_loads_json(drive: DriveCase, teeth: Mapping[str, ToothLoads]) -> dict[str, Any]:
+    """Return what spans, shafts and teeth carry as ``wearsim loads --json`` prints it."""
+    sprockets = [{"name": name, **loads_json(found)} for name, found in teeth.items()]
+    return {**ANSWER_HEAD, "case": drive.name, "layout": layout_json(drive), "sprockets": sprockets}
 
 
 def loop_names(drive: DriveCase) -> list[str]:

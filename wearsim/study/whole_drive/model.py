@@ -6,13 +6,19 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.errors import ContactError, ConvergenceError
+from wearsim.notebook import html_rows, one_line
+from wearsim.report.answer import hours
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 CHAIN = "chain"
 
@@ -23,10 +29,66 @@ class _GivenUpError(Exception):
 
 @dataclass(frozen=True)
 class DriveLife:
-    """How long the chain and every sprocket of a drive live."""
+    """How long the chain and every sprocket of a drive live.
+
+    Attributes
+    ----------
+    drive : DriveCase
+        What was worn.
+    results : dict of WearResult
+        Of every sprocket by its name, the driver's first.
+    """
 
     drive: DriveCase
-    results: dict[str, WearResult]  # of every sprocket by its name, the driver's first
+    results: dict[str, WearResult]
+
+    def __repr__(self) -> str:
+        lives = (f"{name} {hours(life)}" for name, life in self.parts.items())
+        return one_line("DriveLife", self.drive.title, *lives)
+
+    def _repr_html_(self) -> str:
+        lives = [(name, hours(life)) for name, life in self.parts.items()]
+        texts = ("assumes", self.drive.assumptions), ("warnings", self.warnings or "none")
+        return html_rows(self.drive.title, [*lives, ("first", self.first), *texts])
+
+    def plot(self) -> "Figure":
+        """Draw the flanks of all sprockets, new and at the end of their lives.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        from wearsim.report.result_pictures import flank_picture
+
+        return flank_picture(self._titled())
+
+    def plot_history(self) -> "Figure":
+        """Draw the greatest depth of all sprockets, and the elongation of the chain, over running time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        from wearsim.report.result_pictures import history_picture
+
+        return history_picture(self._titled())
+
+    def plot_loads(self) -> "Figure":
+        """Draw the force on each tooth of all sprockets, under a new chain and one at its limit.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+        """
+        from wearsim.report.result_pictures import new_and_grown, tooth_loads_picture
+
+        return tooth_loads_picture({one.name: new_and_grown(one.case) for one in self.drive.sprockets})
+
+    def _titled(self) -> list[WearResult]:
+        return [replace(result, title=name) for name, result in self.results.items()]
 
     @property
     def chain(self) -> Life | LowerBound:
@@ -59,13 +121,34 @@ class DriveLife:
         """Return the life of a part at the high and at the low end of its wear coefficient.
 
         The chain's is that of its joints where they take that of a wear condition, else that of the teeth.
+
+        Parameters
+        ----------
+        name : str
+            ``chain``, or that of a sprocket.
+
+        Returns
+        -------
+        tuple of Life or LowerBound
+            The shorter life first.
         """
         if name != CHAIN:
             return self.results[name].life_low, self.results[name].life_high
         return self._chain_band(self.chain)
 
     def shown(self, name: str) -> WearResult:
-        """Return the result of a sprocket; where the chain ends its life, with the band of the chain."""
+        """Return the result of a sprocket; where the chain ends its life, with the band of the chain.
+
+        Parameters
+        ----------
+        name : str
+            That of a sprocket.
+
+        Returns
+        -------
+        WearResult
+            Its result, with the ends of the band that hold for it.
+        """
         result, joint = self.results[name], self.drive.driver.drive.joint
         if result.stop != "elongation_percent" or joint.low is None or joint.high is None:
             return result
@@ -84,7 +167,18 @@ class DriveLife:
         return low, high
 
     def chains_with(self, name: str) -> int:
-        """Return how many chains run on a sprocket in its life."""
+        """Return how many chains run on a sprocket in its life.
+
+        Parameters
+        ----------
+        name : str
+            Name of the sprocket.
+
+        Returns
+        -------
+        int
+            The one at its end included.
+        """
         return int(self.results[name].history_columns["chain"][-1])
 
     @property

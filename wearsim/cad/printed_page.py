@@ -3,7 +3,7 @@
 import io
 from typing import TYPE_CHECKING
 
-from wearsim.export.dxf_writer import Layers, dxf_drawing
+from wearsim.cad.dxf_writer import Layers, dxf_drawing
 from wearsim.geometry.scene import Box, Scene
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.export.dxf_writer import Layers
+from wearsim.cad.dxf_writer import Layers
 from wearsim.geometry.outline import along_ways
 from wearsim.geometry.scene import Circle, Label, Scene, Shape, Stroke, around, line
 from wearsim.geometry.wheel_outline import OutlineChain, State, WheelShape

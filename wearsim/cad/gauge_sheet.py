@@ -6,10 +6,10 @@ import textwrap
 import numpy as np
 
 from wearsim._version import __version__
+from wearsim.cad.gauge import GaugeOutline, gauge
+from wearsim.cad.printed_page import drawing_bytes
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
-from wearsim.export.gauge import GaugeOutline, gauge
-from wearsim.export.printed_page import drawing_bytes
 from wearsim.geometry.outline_stretch import arc_about_axis
 from wearsim.geometry.scene import Label, Scene, Shape, line, straight_arrow
 from wearsim.geometry.wheel_outline import OutlineChain
@@ -34,6 +34,9 @@ _ARROW = 12.0
 _COARSE = 0.5
 """Depth of a limit [mm] below which paper is too coarse for it."""
 
+_LONGER = 1000.0
+"""Times the horizon of a case that the limit of a gauge is looked for in."""
+
 _LAYERS = {
     "gauge": (7, 13, "Continuous"),
     "arrow": (7, 13, "Continuous"),
@@ -47,6 +50,11 @@ _LAYERS = {
 def is_worn_out(result: WearResult) -> bool:
     """Return whether a run ends at a limit of its teeth."""
     return isinstance(result.parts.get("sprocket", result.life), Life)
+
+
+def long_enough(case: Case) -> Case:
+    """Return a case with a horizon within which a limit of its teeth is met, if ever one is."""
+    return case.with_horizon(_LONGER * case.run.horizon_hours)
 
 
 def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:

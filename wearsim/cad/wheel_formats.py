@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 
 from wearsim._version import __version__
+from wearsim.cad.printed_page import drawing_bytes
+from wearsim.cad.wheel_drawing import wheel_points, wheel_scene
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.export.printed_page import drawing_bytes
-from wearsim.export.wheel_drawing import wheel_points, wheel_scene
 from wearsim.geometry.hub import NO_HUB
 from wearsim.geometry.wheel_outline import State, WheelShape
 from wearsim.quantities import grouped
@@ -24,17 +24,28 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
         return wheel_points(shapes, states).to_csv(index=False).encode()
     _check_hubs(case, shapes, states)
     if form == "step":
-        from wearsim.export.step import step_bytes
+        from wearsim.cad.step import step_bytes
 
         return step_bytes(shapes, states)
     if form == "stl":
-        from wearsim.export.stl import stl_bytes
+        from wearsim.cad.stl import stl_bytes
 
         (state,) = states
         return stl_bytes(shapes, state)
     drawn = [shape.with_few_arcs(_TOLERANCE) for shape in shapes]
     scene, layers = wheel_scene(drawn, states, wheel_note(case, result, shapes, states))
     return drawing_bytes(scene, layers, form)
+
+
+def check_solid(case: Case, form: str | None) -> None:
+    """Raise, before a case is worn, where it has no wheel or none that can be a solid."""
+    shapes = wheel_shapes(case, None)
+    if form in ("step", "stl") and not all(shape.new[0].rooted for shape in shapes):
+        message = (
+            "the outline of both gears must be closed to be solids, but the case tells no root of their "
+            "teeth: take --format dxf, svg or csv, which hold the flanks"
+        )
+        raise CaseError([Fault(message, "gear", case.name)])
 
 
 def _check_hubs(case: Case, shapes: Sequence[WheelShape], states: Sequence[State]) -> None:

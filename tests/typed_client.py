@@ -1,0 +1,64 @@
+"""A program as a user writes it, for mypy in its strict mode and for a test that runs it."""
+
+from collections.abc import Mapping
+from typing import Any, assert_type
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+import wearsim
+
+TABLES: Mapping[str, Any] = {
+    "format_version": 1,
+    "title": "Hoist",
+    "chain": {"designation": "10B-1"},
+    "sprocket": {"teeth": 21, "profile": "iso606", "nodes": 61},
+    "drive": {"mate_teeth": 42, "links": 110},
+    "mechanism": {"phases": 1},
+    "load": {"power_kW": 1.5, "speed_rpm": 150},
+    "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
+    "wear": {"specific_wear_rate_mm2_per_N": 5e-9},
+    "run": {"life_tolerance": 0.1},
+}
+
+
+def main() -> None:
+    """Use every public function once."""
+    case = assert_type(wearsim.load_case(TABLES), wearsim.Case)
+    case = assert_type(case.with_({"load.tension_N": "900 N"}), wearsim.Case)
+    drive = assert_type(wearsim.select(power=2, rpm=150, ratio=2, hours=5000).case(), wearsim.DriveCase)
+    drive = assert_type(drive.with_({"mechanism.phases": 1, "run.life_tolerance": 0.1}), wearsim.DriveCase)
+
+    with wearsim.progress_bar("wearing") as progress:
+        result = assert_type(wearsim.simulate(case, progress), wearsim.WearResult)
+    assert_type(result.history, pd.DataFrame)
+    assert_type(result.plot(), Figure)
+    life = result.life
+    if isinstance(life, wearsim.Life):
+        assert_type(life.hours, float)
+    else:
+        assert_type(life, wearsim.LowerBound)
+
+    check = assert_type(wearsim.check(drive), wearsim.CheckResult)
+    assert_type(check.ratings, pd.DataFrame)
+    loads = assert_type(wearsim.loads(drive, worst=True), wearsim.LoadsResult)
+    assert_type(loads.teeth, pd.DataFrame)
+    assert_type(loads.plot(), Figure)
+    sweep = assert_type(wearsim.sweep(case, {"load.speed_rpm": (100, 200)}), wearsim.SweepResult)
+    assert_type(sweep.cases, pd.DataFrame)
+    assert_type(sweep.pictures(), dict[str, Figure])
+    law = {"load.tension_N": {"distribution": "normal", "standard_deviation": 50.0}}
+    sure = assert_type(wearsim.uncertainty(case, law, samples=4), wearsim.UncertaintyResult)
+    assert_type(sure.percentiles, pd.DataFrame)
+    plan = assert_type(wearsim.maintain(case, {"replace_at_percent": [3]}), wearsim.MaintenanceResult)
+    assert_type(plan.policies, pd.DataFrame)
+    wheel = assert_type(wearsim.export(result, state="new"), wearsim.ExportResult)
+    assert_type(wheel.content("svg"), bytes)
+    width = {"sprocket.face_width_mm": {"low": 6.0, "high": 8.0}}
+    best = assert_type(wearsim.optimise(case, width, evaluations=10, threads=1), wearsim.OptimiseResult)
+    assert_type(best.cases, list[wearsim.Case])
+
+
+def left(case: wearsim.Case, readings: pd.DataFrame) -> pd.DataFrame:
+    """Return the hours that are left, which needs an extra to be installed."""
+    return assert_type(wearsim.calibrate(case, readings), wearsim.CalibrationResult).parts

@@ -1,0 +1,1 @@
+"""What the commands answer, as functions of Python with plain values, tables and pictures."""

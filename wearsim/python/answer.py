@@ -1,0 +1,140 @@
+"""What every public function answers: text, plain values, tables, and what a notebook shows of them."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from wearsim.errors import StudyError
+from wearsim.notebook import html_rows, one_line
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+_MAX_ROWS = 20
+"""Rows of a table that a notebook shows."""
+
+_LONGEST = 60
+"""Letters of a cell that a notebook shows."""
+
+
+class Answer(ABC):
+    """An answer of a public function.
+
+    ``print`` shows what the command prints; a notebook shows the tables.
+    """
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """What it is about."""
+
+    @property
+    @abstractmethod
+    def text(self) -> str:
+        """What the command prints."""
+
+    @property
+    def headline(self) -> str:
+        """The answer in a few words."""
+        return ""
+
+    @abstractmethod
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as the command prints it with ``--json``.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+
+    @abstractmethod
+    def tables(self) -> "Mapping[str, pd.DataFrame]":
+        """Return all tables of the answer.
+
+        Returns
+        -------
+        mapping of pandas.DataFrame
+            By their names, which are those of its attributes.
+        """
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return one_line(type(self).__name__, self.title, self.headline)
+
+    def _repr_html_(self) -> str:
+        content = self.summary()
+        tables = [
+            f"<p>{escape(name.replace('_', ' '))}</p>{_html_table(table)}"
+            for name, table in self.tables().items()
+            if not table.empty
+        ]
+        texts = [
+            (name, content.get(name) or "none") for name in ("assumptions", "warnings") if name in content
+        ]
+        return "".join([html_rows(self.title, [("answer", self.headline)]), *tables, html_rows("", texts)])
+
+
+class DrawnAnswer(Answer):
+    """An answer with pictures."""
+
+    @abstractmethod
+    def pictures(self) -> "Mapping[str, Figure]":
+        """Return the pictures that suit the answer.
+
+        Returns
+        -------
+        mapping of matplotlib.figure.Figure
+            By their names, the first one says most.
+        """
+
+    def plot(self, name: str | None = None) -> "Figure":
+        """Draw the answer.
+
+        Parameters
+        ----------
+        name : str, optional
+            One of ``pictures``; the first one without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``savefig`` writes it.
+
+        Raises
+        ------
+        StudyError
+            There is no such picture.
+        """
+        from wearsim.report.result_pictures import shown
+
+        drawn = self.pictures()
+        chosen = next(iter(drawn), "") if name is None else name
+        if chosen not in drawn:
+            names = ", ".join(drawn) or "there are none"
+            raise StudyError(f"plot: must name one of the pictures: {names} (got {name!r})")
+        return shown(drawn[chosen])
+
+
+def _html_table(table: "pd.DataFrame") -> str:
+    """Return a table as HTML without columns that hold nothing or long texts."""
+    shown = [
+        name
+        for name, column in table.items()
+        if column.notna().any() and 0 < max(len(str(value)) for value in column.head(_MAX_ROWS)) <= _LONGEST
+    ]
+    return table[shown].to_html(max_rows=_MAX_ROWS, index=False, float_format="{:.6g}".format, na_rep="-")
+
+
+def table_of(rows: Any) -> "pd.DataFrame":
+    """Return rows of plain values as a table, None as nan in columns of numbers."""
+    import pandas as pd
+
+    table = pd.DataFrame(list(rows))
+    # pandas takes a column of None alone for one of objects.
+    empty = [name for name in table.columns if table[name].isna().all()]
+    return table.astype(dict.fromkeys(empty, float))

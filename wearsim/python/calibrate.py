@@ -1,0 +1,181 @@
+"""Coefficients and hours left from what was measured in service."""
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case
+from wearsim.errors import Allowed, CaseError, Range, check_ranges
+from wearsim.extras import check_installed
+from wearsim.geometry.measured.registration import Freedom
+from wearsim.python.answer import DrawnAnswer, table_of
+from wearsim.python.case_input import CaseInput, given_input
+from wearsim.quantities import grouped
+from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
+from wearsim.study.calibrate.model import calibrate as fitted
+from wearsim.study.calibrate.sheet import calibration_json, calibration_text, readings_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+_NAME = "readings"
+"""What faults call readings that are in no file."""
+
+_ALLOWED: dict[str, Allowed] = {
+    "register": ("turn", "free", "none"),
+    "cutoff": Range(0.01, 100.0),
+    "confidence": Range(0.5, 0.999),
+}
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class CalibrationResult(DrawnAnswer):
+    """A case fitted to readings.
+
+    Attributes
+    ----------
+    found : Calibration
+        Values, intervals and residuals as objects.
+    """
+
+    found: Calibration
+
+    @property
+    def title(self) -> str:
+        """What the case is about."""
+        return self.found.case.title
+
+    @property
+    def headline(self) -> str:
+        """The hours that are left to each part."""
+        return ", ".join(f"{grouped(one.remaining)} h left to the {one.name}" for one in self.found.parts)
+
+    @property
+    def text(self) -> str:
+        """What ``wearsim calibrate`` prints."""
+        return calibration_text(self.found)
+
+    @property
+    def case(self) -> Case:
+        """The case with the fitted values."""
+        return load_case(self.found.tables)
+
+    @property
+    def values(self) -> "pd.DataFrame":
+        """What was fitted, with the ends of its intervals."""
+        return table_of(self.summary()["values"])
+
+    @property
+    def parts(self) -> "pd.DataFrame":
+        """Life and hours left of sprocket and chain, with the ends of their intervals."""
+        return table_of(self.summary()["parts"])
+
+    @property
+    def readings(self) -> "pd.DataFrame":
+        """Every reading beside its prediction."""
+        return readings_table(self.found)
+
+    def tables(self) -> "dict[str, pd.DataFrame]":
+        """Return parts, fitted values and readings.
+
+        Returns
+        -------
+        dict of pandas.DataFrame
+            ``parts``, ``values``, ``readings``.
+        """
+        return {"parts": self.parts, "values": self.values, "readings": self.readings}
+
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as ``wearsim calibrate --json`` prints it.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+        return calibration_json(self.found)
+
+    def pictures(self) -> "dict[str, Figure]":
+        """Return readings with the fitted wear, and the residuals.
+
+        Returns
+        -------
+        dict of matplotlib.figure.Figure
+            By their names.
+        """
+        from wearsim.study.calibrate.figure import calibration_figures
+
+        return calibration_figures(self.found)
+
+
+def calibrate(
+    case: CaseInput,
+    readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]]",
+    *,
+    fit: Sequence[str] = (),
+    register: Freedom = "turn",
+    cutoff: float = 0.8,
+    confidence: float = 0.9,
+) -> CalibrationResult:
+    """Fit the wear coefficients of a case to readings, and tell the hours left.
+
+    Parameters
+    ----------
+    case : Case, path or mapping
+        One sprocket or a gear pair.
+    readings : path, pandas.DataFrame or sequence of mapping
+        Columns ``time_hours``, ``quantity``, ``value``, ``error`` and those that a quantity needs; paths
+        in them are relative to the file, else to the working directory.
+    fit : sequence of str
+        Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``.
+    register : str
+        How a measured profile may be moved: ``turn``, ``free`` or ``none``.
+    cutoff : float
+        Cut-off wavelength of the filter of profiles [mm].
+    confidence : float
+        Of the intervals.
+
+    Returns
+    -------
+    CalibrationResult
+        ``parts``, ``values``, ``readings``, and the fitted ``case``.
+
+    Raises
+    ------
+    CaseError
+        What is wrong with the case or the readings, or pandera is not installed (extra ``study``).
+    GeometryError
+        Register, cutoff or confidence are outside their ranges.
+    """
+    check_installed(("pandera",), "study", "calibrate")
+    given_options = {"register": register, "cutoff": cutoff, "confidence": confidence}
+    check_ranges("calibrate", given_options, _ALLOWED)
+    options = CalibrationOptions(tuple(fit), register, cutoff, confidence)
+    given = given_input(case)
+    if isinstance(readings, str | PathLike):
+        return CalibrationResult(fitted(given, Path(readings), (), options))
+    import pandas as pd
+
+    table = readings if isinstance(readings, pd.DataFrame) else pd.DataFrame(list(readings))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{_NAME}.csv"
+        _with_whole_paths(table).to_csv(file, index=False)
+        try:
+            return CalibrationResult(fitted(given, file, (), options))
+        except CaseError as error:
+            faults = [replace(one, file=one.file.replace(str(file), _NAME)) for one in error.faults]
+            raise CaseError(faults) from None
+
+
+def _with_whole_paths(table: "pd.DataFrame") -> "pd.DataFrame":
+    if "points_file" not in table:
+        return table
+    files = table["points_file"]
+    return table.assign(
+        points_file=[str(Path(name).resolve()) if isinstance(name, str) and name else "" for name in files]
+    )

@@ -1,0 +1,153 @@
+"""When to replace chain and sprockets, and what that costs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from wearsim.case.model import Case
+from wearsim.python.answer import DrawnAnswer, table_of
+from wearsim.python.case_input import CaseInput, loaded, with_table
+from wearsim.python.study_run import Progress, silent
+from wearsim.study.maintain.model import MaintenancePlan
+from wearsim.study.maintain.model import maintain as compare_policies
+from wearsim.study.maintain.sheet import maintenance_json, maintenance_text
+from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
+from wearsim.study.whole_drive.model import drive_life
+from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+_NESTED = ("parts", "schedule")
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class MaintenanceResult(DrawnAnswer):
+    """Policies of replacement side by side.
+
+    Attributes
+    ----------
+    plan : MaintenancePlan or DrivePlan
+        Of one sprocket, or of a whole drive.
+    """
+
+    plan: MaintenancePlan | DrivePlan
+
+    @property
+    def title(self) -> str:
+        """What the case is about."""
+        return self.plan.title if isinstance(self.plan, MaintenancePlan) else self.plan.drive.title
+
+    @property
+    def headline(self) -> str:
+        """How many policies there are, and the number of the cheapest one."""
+        found = self.summary()
+        cheapest = (
+            "no cost known" if found["cheapest"] is None else f"the cheapest in row {found['cheapest']}"
+        )
+        count = len(found["policies"])
+        return f"{count} {'policy' if count == 1 else 'policies'}, {cheapest}"
+
+    @property
+    def text(self) -> str:
+        """What ``wearsim maintain`` prints."""
+        if isinstance(self.plan, MaintenancePlan):
+            return maintenance_text(self.plan)
+        return plan_text(self.plan, self.plan.drive.name)
+
+    @property
+    def policies(self) -> "pd.DataFrame":
+        """A row for each policy: lives, chains, stops, cost."""
+        return table_of(
+            {key: value for key, value in row.items() if key not in _NESTED}
+            for row in self.summary()["policies"]
+        )
+
+    @property
+    def tooth_counts(self) -> "pd.DataFrame":
+        """Numbers of teeth and links near those of one sprocket; empty of a whole drive."""
+        return table_of(self.summary().get("tooth_counts", ()))
+
+    @property
+    def parts(self) -> "pd.DataFrame":
+        """The parts that each policy of a whole drive takes; empty of one sprocket."""
+        return self._nested("parts")
+
+    @property
+    def schedule(self) -> "pd.DataFrame":
+        """The stops of each policy of a whole drive; empty of one sprocket."""
+        return self._nested("schedule")
+
+    def _nested(self, name: str) -> "pd.DataFrame":
+        policies = self.summary()["policies"]
+        return table_of({"policy": row["policy"], **one} for row in policies for one in row.get(name, ()))
+
+    def tables(self) -> "dict[str, pd.DataFrame]":
+        """Return policies and what they rest on.
+
+        Returns
+        -------
+        dict of pandas.DataFrame
+            ``policies``, ``tooth_counts``, ``parts``, ``schedule``.
+        """
+        names = ("policies", "tooth_counts", "parts", "schedule")
+        return {name: getattr(self, name) for name in names}
+
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as ``wearsim maintain --json`` prints it.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+        return maintenance_json(self.plan) if isinstance(self.plan, MaintenancePlan) else plan_json(self.plan)
+
+    def pictures(self) -> "dict[str, Figure]":
+        """Return lives, chains and cost over the elongation at which the chain of one sprocket goes.
+
+        Returns
+        -------
+        dict of matplotlib.figure.Figure
+            ``maintenance``; of a whole drive the wear of its sprockets, ``history``.
+        """
+        if isinstance(self.plan, DrivePlan):
+            return {"history": self.plan.found.plot_history()}
+        from wearsim.study.maintain.figure import maintenance_figure
+
+        return {"maintenance": maintenance_figure(self.plan)}
+
+
+def maintain(
+    case: CaseInput, maintenance: Mapping[str, Any] | None = None, *, progress: Progress = silent
+) -> MaintenanceResult:
+    """Compare when to replace the chain and the sprockets of a chain drive.
+
+    Parameters
+    ----------
+    case : Case, DriveCase, path or mapping
+        A chain that wraps a sprocket, or a whole drive.
+    maintenance : mapping, optional
+        Prices, elongations and whether the sprocket is turned, in place of the table
+        ``[maintenance]`` of the case.
+    progress : callable, optional
+        Told how much is done, from 0 to 1.
+
+    Returns
+    -------
+    MaintenanceResult
+        ``policies``, and ``tooth_counts`` of one sprocket or ``parts`` and ``schedule`` of a drive.
+
+    Raises
+    ------
+    CaseError
+        The case has no chain that wraps a sprocket, or is wrong.
+    ContactError, ConvergenceError
+        No policy can be run.
+    """
+    found = loaded(case if maintenance is None else with_table(case, "maintenance", maintenance))
+    if isinstance(found, Case):
+        found.drive.check(found)
+        return MaintenanceResult(compare_policies(found, lambda done, of, what: progress(done / of)))
+    return MaintenanceResult(drive_plan(drive_life(found, None, progress)))
