@@ -88,7 +88,7 @@ def counts(cases: Sequence[Measured]) -> list[str]:
         ("steps and grid above t", sum(total(case) > 1.0 for case in cases)),
         ("the same without a warning", sum(total(case) > 1.0 and not case.warned for case in cases)),
         ("steps and grid above t and the error stated", sum(over_stated(case) > 1.0 for case in cases)),
-        ("ended at the horizon", sum(case.result.stop == "horizon_hours" for case in cases)),
+        ("ended at the horizon", sum(case.stop == "horizon_hours" for case in cases)),
         ("t below 1e-4", sum(tolerance < 1e-4 for tolerance in t)),
     ]
     return ["## Numbers of cases", "", *table((f"of {len(cases)}", "cases"), rows)]
@@ -101,7 +101,7 @@ def worst(title: str, cases: Sequence[Measured], figure: Figure) -> list[str]:
             case.name,
             case.draw.what,
             case.draw.points,
-            case.result.stop,
+            case.stop,
             f"{case.draw.tolerance:.2g}",
             f"{case.steps:.2g}",
             f"{case.total:.2g}",

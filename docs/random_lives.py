@@ -68,19 +68,13 @@ class Measured:
 
     name: str
     draw: Draw
-    result: WearResult
+    stop: str
+    stated: float
+    warned: bool
     steps: float
     total: float
     complaints: tuple[str, ...]
     """Warnings of Python, not of the result, on the way."""
-
-    @property
-    def stated(self) -> float:
-        return self.result.numerical_error
-
-    @property
-    def warned(self) -> bool:
-        return any(text.startswith(WARNINGS) for text in self.result.warnings)
 
     @property
     def allowed(self) -> float:
@@ -279,7 +273,8 @@ def attempt(name: str, rng: Random, folder: Path, refused: Counter[str]) -> Meas
         return None
     complaints = tuple(str(warning.message) for warning in caught)
     errors = trajectory.difference(loose, tight), difference(result, fine)
-    return Measured(name, drawn, result, *errors, complaints)
+    warned = any(text.startswith(WARNINGS) for text in result.warnings)
+    return Measured(name, drawn, result.stop, result.numerical_error, warned, *errors, complaints)
 
 
 def measured(numbers: Iterable[int]) -> tuple[list[Measured], Counter[str]]:
