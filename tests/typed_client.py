@@ -52,6 +52,8 @@ def main() -> None:
     assert_type(sure.percentiles, pd.DataFrame)
     plan = assert_type(wearsim.maintain(case, {"replace_at_percent": [3]}), wearsim.MaintenanceResult)
     assert_type(plan.policies, pd.DataFrame)
+    left = assert_type(wearsim.remaining(case, 1000, elongation_percent=1), wearsim.RemainingResult)
+    assert_type(left.remaining, wearsim.Life | wearsim.LowerBound)
     wheel = assert_type(wearsim.export(result, state="new"), wearsim.ExportResult)
     assert_type(wheel.content("svg"), bytes)
     width = {"sprocket.face_width_mm": {"low": 6.0, "high": 8.0}}
@@ -59,6 +61,6 @@ def main() -> None:
     assert_type(best.cases, list[wearsim.Case])
 
 
-def left(case: wearsim.Case, readings: pd.DataFrame) -> pd.DataFrame:
+def calibrated(case: wearsim.Case, readings: pd.DataFrame) -> pd.DataFrame:
     """Return the hours that are left, which needs an extra to be installed."""
     return assert_type(wearsim.calibrate(case, readings), wearsim.CalibrationResult).parts

@@ -21,6 +21,7 @@ _PUBLIC = {
     "LowerBound": "wearsim.result",
     "MaintenanceResult": "wearsim.python.maintain",
     "OptimiseResult": "wearsim.python.optimise",
+    "RemainingResult": "wearsim.python.remaining",
     "SelectionResult": "wearsim.python.select",
     "SweepResult": "wearsim.python.sweep",
     "UncertaintyResult": "wearsim.python.uncertainty",
@@ -35,6 +36,7 @@ _PUBLIC = {
     "maintain": "wearsim.python.maintain",
     "optimise": "wearsim.python.optimise",
     "progress_bar": "wearsim.python.progress",
+    "remaining": "wearsim.python.remaining",
     "select": "wearsim.python.select",
     "simulate": "wearsim.python.simulate",
     "simulate_many": "wearsim.simulation.batch_lives",
@@ -56,6 +58,7 @@ if TYPE_CHECKING:
     from wearsim.python.maintain import MaintenanceResult, maintain
     from wearsim.python.optimise import OptimiseResult, optimise
     from wearsim.python.progress import progress_bar
+    from wearsim.python.remaining import RemainingResult, remaining
     from wearsim.python.select import SelectionResult, select
     from wearsim.python.simulate import simulate
     from wearsim.python.sweep import SweepResult, sweep
@@ -81,6 +84,7 @@ __all__ = [
     "LowerBound",
     "MaintenanceResult",
     "OptimiseResult",
+    "RemainingResult",
     "SelectionResult",
     "SweepResult",
     "UncertaintyResult",
@@ -96,6 +100,7 @@ __all__ = [
     "maintain",
     "optimise",
     "progress_bar",
+    "remaining",
     "select",
     "simulate",
     "simulate_many",

@@ -264,6 +264,48 @@ def test_maintain(answer, wrap, two):
     assert is_drawn(whole.plot())
 
 
+@pytest.mark.parametrize(
+    ("arguments", "options"),
+    [
+        ({"depth": 0.01, "error": 0.001}, ("--depth-mm", 0.01, "--reading-error-mm", 0.001)),
+        # One phase of so short a life hardly wears where pins would lie.
+        ({"over_pins": 5e-7, "error": 1e-7}, ("--over-pins-mm", 5e-7, "--reading-error-mm", 1e-7)),
+        ({"elongation_percent": 1.0, "error": 0.1}, ("--elongation", 1.0, "--reading-error-percent", 0.1)),
+    ],
+)
+def test_remaining(answer, wrap, arguments, options):
+    expected = answer("remaining", wrap, "--hours", 100, *options)
+    found = wearsim.remaining(wearsim.load_case(wrap), 100, **arguments)
+    assert found.summary() == expected
+    assert found.remaining.hours == expected["remaining_hours"]
+    assert found.remaining_low.hours == expected["remaining_hours_low"]
+    assert found.remaining_high.hours == found.parts["remaining_hours_high"][0]
+    assert found.life.hours == expected["life_hours"]
+    assert found.coefficient == expected["coefficient"]
+    assert is_shown(found, "parts")
+
+
+def test_error_of_a_reading_is_usually_that_of_the_command(answer, wrap, drive):
+    depth = wearsim.remaining(drive(critical_depth_mm=0.2), 100, depth=0.1)
+    assert depth.summary() == answer(
+        "remaining", drive(critical_depth_mm=0.2), "--hours", 100, "--depth-mm", 0.1
+    )
+    grown = wearsim.remaining(wrap, 100, elongation_percent=1)
+    assert grown.summary() == answer("remaining", wrap, "--hours", 100, "--elongation", 1)
+
+
+def test_not_one_reading_is_refused(wrap, two):
+    for given in ({}, {"depth": 0.01, "over_pins": 0.01}):
+        with pytest.raises(TypeError, match="one of depth, over_pins and elongation_percent"):
+            wearsim.remaining(wrap, 100, **given)
+    with pytest.raises(wearsim.GeometryError, match="hours must be above 0"):
+        wearsim.remaining(wrap, 0, depth=0.01)
+    with pytest.raises(wearsim.CaseError, match=r"larger than its error of 0\.02"):
+        wearsim.remaining(wrap, 100, depth=0.01)
+    with pytest.raises(wearsim.CaseError, match="one sprocket for remaining"):
+        wearsim.remaining(two, 100, depth=0.1)
+
+
 def test_calibrate(answer, tmp_path, drive):
     pytest.importorskip("pandera", reason="pandera is not installed")
     import pandas as pd

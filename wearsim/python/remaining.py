@@ -1,0 +1,199 @@
+"""What a reading in service leaves of a life."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from wearsim.case.model import Case
+from wearsim.errors import Allowed, Range, check_ranges
+from wearsim.python.answer import Answer, table_of
+from wearsim.python.case_input import CaseInput, loaded_case
+from wearsim.python.study_run import Progress, silent
+from wearsim.report.answer import hours as in_hours
+from wearsim.result import Life, LowerBound
+from wearsim.study.remaining.model import (
+    DEPTH,
+    ELONGATION,
+    OVER_PINS,
+    RemainingLife,
+    SingleReading,
+    remaining_life,
+)
+from wearsim.study.remaining.sheet import remaining_json, remaining_text
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class RemainingResult(Answer):
+    """What is left of the life of the part that was measured.
+
+    Attributes
+    ----------
+    case : Case
+        What was measured.
+    found : RemainingLife
+        Reading, lives and coefficient as objects.
+    """
+
+    case: Case
+    found: RemainingLife
+
+    @property
+    def title(self) -> str:
+        """What the case is about."""
+        return self.found.title
+
+    @property
+    def headline(self) -> str:
+        """The hours that are left, and of which part."""
+        return f"{in_hours(self.remaining)} left to the {self.found.part}"
+
+    @property
+    def text(self) -> str:
+        """What ``wearsim remaining`` prints."""
+        return remaining_text(self.found, self.case.inputs)
+
+    @property
+    def life(self) -> Life | LowerBound:
+        """The life from new."""
+        return self.found.life
+
+    @property
+    def remaining(self) -> Life | LowerBound:
+        """The life from the reading on."""
+        return self.found.remaining
+
+    @property
+    def remaining_low(self) -> Life | LowerBound:
+        """The same, had the part worn as much more as the error of the reading."""
+        return self.found.remaining_low
+
+    @property
+    def remaining_high(self) -> Life | LowerBound:
+        """The same, had the part worn as much less as the error of the reading."""
+        return self.found.remaining_high
+
+    @property
+    def coefficient(self) -> float:
+        """The wear coefficient that the reading stands for, in the unit of the case's law."""
+        return self.found.coefficient
+
+    @property
+    def parts(self) -> "pd.DataFrame":
+        """One row: the part, its life and the hours that are left, with their ends; nan where unknown."""
+        names = ("life_hours", "remaining_hours", "remaining_hours_low", "remaining_hours_high")
+        found = self.summary()
+        return table_of([{"part": found["part"], **{name: found[name] for name in names}}])
+
+    def tables(self) -> "dict[str, pd.DataFrame]":
+        """Return the hours.
+
+        Returns
+        -------
+        dict of pandas.DataFrame
+            ``parts``.
+        """
+        return {"parts": self.parts}
+
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as ``wearsim remaining --json`` prints it.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+        return remaining_json(self.found, self.case.inputs)
+
+
+def remaining(
+    case: CaseInput,
+    hours: float,
+    *,
+    depth: float | None = None,
+    over_pins: float | None = None,
+    elongation_percent: float | None = None,
+    error: float | None = None,
+    progress: Progress = silent,
+) -> RemainingResult:
+    """Return the hours that are left after one reading in service.
+
+    The reading takes the place of the wear coefficient of the case: life times coefficient is constant.
+    Give one of depth, over_pins and elongation_percent. `calibrate` takes several readings.
+
+    Parameters
+    ----------
+    case : Case, path or mapping
+        One sprocket or a gear pair.
+    hours : float
+        Running hours of the part that was measured, since it was new [h].
+    depth : float, optional
+        Worn off a tooth at its deepest point [mm].
+    over_pins : float, optional
+        How much less the measurement over pins is than when new [mm].
+    elongation_percent : float, optional
+        Of the chain [%].
+    error : float, optional
+        Of the reading, to either side [mm, of an elongation %]; 0.02 mm or 0.05 % without it.
+    progress : callable, optional
+        Told how much is done, from 0 to 1.
+
+    Returns
+    -------
+    RemainingResult
+        ``remaining``, ``remaining_low``, ``remaining_high``, ``life`` and ``coefficient``.
+
+    Raises
+    ------
+    TypeError
+        None or several of the readings are given.
+    GeometryError
+        Hours, reading or error are not above 0.
+    CaseError
+        What is wrong with the case, or the reading cannot be one of its life.
+    ContactError, ConvergenceError
+        The case cannot be run.
+
+    Examples
+    --------
+    A tooth at its limit after half of its life wears at twice the coefficient, and has no hours left.
+
+    >>> import wearsim
+    >>> case = wearsim.load_case({
+    ...     "format_version": 1,
+    ...     "chain": {"designation": "16B-1"},
+    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+    ...     "load": {"power_kW": 3, "speed_rpm": 100},
+    ...     "wear": {"specific_wear_rate_mm2_per_N": 5e-11},
+    ...     "stop": {"critical_depth_mm": 0.2},
+    ... })
+    >>> life = wearsim.simulate(case).life.hours
+    >>> left = wearsim.remaining(case, 0.5 * life, depth=0.2)
+    >>> round(left.coefficient / 5e-11, 6), left.remaining.hours
+    (2.0, 0.0)
+    """
+    given = {"depth": depth, "over_pins": over_pins, "elongation_percent": elongation_percent}
+    readings = [(name, value) for name, value in given.items() if value is not None]
+    if len(readings) != 1:
+        raise TypeError("remaining: must be given one of depth, over_pins and elongation_percent")
+    check_ranges("remaining", {"hours": hours, **given, "error": error}, _ALLOWED)
+    ((name, value),) = readings
+    quantity, usual_error = _READINGS[name]
+    reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
+    found = loaded_case(case, "remaining")
+    return RemainingResult(found, remaining_life(found, reading, progress))
+
+
+_ABOVE_0 = Range(above=0.0, optional=True)
+
+_ALLOWED: dict[str, Allowed] = {
+    "hours": Range(above=0.0),
+    "depth": _ABOVE_0,
+    "over_pins": _ABOVE_0,
+    "elongation_percent": _ABOVE_0,
+    "error": _ABOVE_0,
+}
+
+_READINGS = {"depth": (DEPTH, 0.02), "over_pins": (OVER_PINS, 0.02), "elongation_percent": (ELONGATION, 0.05)}
+"""What each argument reads, and its usual error."""
