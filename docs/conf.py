@@ -15,7 +15,7 @@ project = "wearsim"
 author = "The wearsim developers"
 release = wearsim.__version__
 extensions = [
-    "myst_parser",
+    "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_click",
@@ -51,5 +51,9 @@ html_show_copyright = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+nb_merge_streams = True
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"

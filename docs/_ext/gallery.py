@@ -73,6 +73,7 @@ def _python(text: str) -> str:
     """What Python prints; its pictures are the same in every build."""
     import matplotlib as mpl  # takes a moment, and only the gallery draws
 
+    mpl.use("Agg")
     printed = io.StringIO()
     same = (mpl.rc_context({"svg.hashsalt": "wearsim"}), patch.dict(os.environ, SOURCE_DATE_EPOCH="0"))
     try:
@@ -199,7 +200,6 @@ class LivePage(Directive):
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register the directives."""
-    os.environ.setdefault("MPLBACKEND", "Agg")
     logging.getLogger("ezdxf").setLevel(logging.WARNING)  # sphinx shows what it tells
     app.add_directive("run", Run)
     app.add_directive("picture", Picture)
