@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.errors import CaseError, Fault, OutputError
 from wearsim.files import write_file
 
@@ -17,6 +18,7 @@ class CaseFile:
     path: Path  # its place, there or not
     content: bytes | None  # none where it was not there
     ends: str = "\n"  # what ends its lines when it is written
+    origin: str = ""  # text that it was made from where it was not there
 
     @property
     def text(self) -> str:
@@ -26,13 +28,23 @@ class CaseFile:
         return self.content.decode("utf-8-sig").replace("\r\n", "\n")
 
     @property
+    def is_blank(self) -> bool:
+        """Whether it begins with nothing."""
+        return self.content is None and not self.origin
+
+    @property
+    def begun(self) -> str:
+        """Text that its title was written for."""
+        return self.origin if self.content is None else self.text
+
+    @property
     def changed(self) -> bool:
         """Whether the disk holds something else by now."""
         return _content(self.path) != self.content
 
     def renamed(self, path: Path) -> "CaseFile":
         """Return a file of another name that is to be written with the same line ends."""
-        return replace(self, path=path, content=None)
+        return replace(self, path=path, content=None, origin=self.begun)
 
     def saved(self, text: str) -> "CaseFile":
         """Write the file, whatever the disk holds."""
@@ -56,9 +68,14 @@ def read_file(path: Path) -> CaseFile:
     return file
 
 
-def new_file(path: Path) -> CaseFile:
-    """Return a file that is to be written."""
-    return CaseFile(path, None)
+def new_file(path: Path, origin: str = "") -> CaseFile:
+    """Return a file that is to be written, of a text that it begins with."""
+    return CaseFile(path, None, origin=origin)
+
+
+def example(name: str) -> CaseFile:
+    """Return a shipped case as a new file: it is changed in a file of one's own."""
+    return new_file(Path(f"{name}.toml"), read_file(shipped_cases()[name]).text)
 
 
 def named_beside(path: Path, name: str) -> Path:

@@ -53,7 +53,7 @@ class CasePage:
         self._client.on_disconnect(self._left)
         self._show_input("")
         self._named()
-        if file.content is None:
+        if file.is_blank:
             ui.timer(0.0, self._keeper.begin, once=True)
 
     def _build(self) -> None:
