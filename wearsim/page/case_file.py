@@ -1,11 +1,16 @@
 """The file of a case: read, compared with what is on disk, written."""
 
+import tomllib
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.errors import CaseError, Fault, OutputError
 from wearsim.files import write_file
+from wearsim.input.document import leaves
+
+_EDITED = ("cases", "drives")
+"""Folders of shipped cases whose keys the form has."""
 
 NEW = Path("drive.toml")
 """Where a new case stands before it is saved."""
@@ -76,6 +81,19 @@ def new_file(path: Path, origin: str = "") -> CaseFile:
 def example(name: str) -> CaseFile:
     """Return a shipped case as a new file: it is changed in a file of one's own."""
     return new_file(Path(f"{name}.toml"), read_file(shipped_cases()[name]).text)
+
+
+def example_titles() -> dict[str, str]:
+    """Return the titles of the shipped cases that a page can begin with, by their names.
+
+    A case that names other files beside it is none of them: they stay where wearsim is.
+    """
+    found = {}
+    for name, path in shipped_cases().items():
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        if path.parent.name in _EDITED and not any(key.endswith("_file") for key, _ in leaves(tables)):
+            found[name] = tables["title"]
+    return found
 
 
 def named_beside(path: Path, name: str) -> Path:

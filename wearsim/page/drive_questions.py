@@ -8,6 +8,7 @@ from nicegui import ui
 
 from wearsim.catalogue.catalogues import chains
 from wearsim.errors import CaseError, Fault
+from wearsim.page.dialogs import named_dialog
 from wearsim.page.field_words import choice_words
 from wearsim.page.threads import in_thread
 from wearsim.study.whole_drive.drive_start import start_text
@@ -18,7 +19,7 @@ _LOOK = "outlined dense stack-label hide-bottom-space"
 
 async def ask_drive() -> str | None:
     """Ask what is known of a drive; return the text of its case, or nothing."""
-    with ui.dialog() as dialog, ui.card().classes("ws-dialog ws-questions"):
+    with named_dialog("New drive") as dialog, ui.card().classes("ws-dialog ws-questions"):
         ui.label("New drive: one chain on two sprockets").classes("ws-caption")
 
         async def _create() -> None:
