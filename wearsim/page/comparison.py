@@ -58,13 +58,13 @@ def compared_rows(before_text: str, before: Lives, after_text: str, after: Lives
     Examples
     --------
     >>> compared_rows("a = 1", {"life": Life(1, 8000)}, "a = 2", {"life": Life(1, 9000)})
-    [('Life', 'before 8 000 h, after 9 000 h (+12 %)'), ('Changed', 'a: 1, now 2')]
+    [('life', 'before 8 000 h, after 9 000 h (+12 %)'), ('Changed', 'a: 1, now 2')]
     """
     rows = []
     for name in dict.fromkeys([*before, *after]):
         texts = [f"{word} {hours(lives[name])}" for word, lives in _sides(before, after) if name in lives]
         told = ", ".join(texts) + _change(before.get(name), after.get(name))
-        rows.append((name[0].upper() + name[1:], told))
+        rows.append((name, told))
     return [*rows, ("Changed", "; ".join(_changes(before_text, after_text)) or "nothing yet")]
 
 

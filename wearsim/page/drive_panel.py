@@ -127,10 +127,4 @@ class DrivePanel:
     def _fill_ratings(self, found: DriveLife) -> None:
         self._ratings.clear()
         with self._ratings:
-            heading("Ratings")
-            with ui.element("dl").classes("ws-margins"):
-                for one in found.results[found.drive.driver.name].ratings:
-                    sign = "≥" if one.at_least else "≤"
-                    text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
-                    text_element("dt", one.name if one.ok else f"{one.name} (outside)")
-                    used_part(one.name, one.used, text)
+            rating_list(found.results[found.drive.driver.name].ratings)

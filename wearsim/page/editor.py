@@ -25,9 +25,14 @@ from wearsim.page.form_panel import FormPanel
 from wearsim.page.header import Action, Header
 from wearsim.page.text_elements import FaultList
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
+from wearsim.page.what_if import WhatIf
 from wearsim.result import WearResult
 
-_SCHEME = """
+_ARRIVED = """
+const bar = document.querySelector(".ws-header");
+new ResizeObserver(() => {
+    document.documentElement.style.setProperty("--ws-head", `${bar.offsetHeight}px`);
+}).observe(bar);
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const tell = () => emitEvent("scheme", dark.matches);
 dark.addEventListener("change", tell);
@@ -74,6 +79,7 @@ class CasePage:
         self._header = Header(actions)
         with ui.element("div").classes("ws-main"):
             with ui.element("section").classes("ws-input").props('aria-label="Input"'):
+                self._what_if = WhatIf(self._turned)
                 with ui.tabs().classes("ws-tabs") as tabs:
                     form, source = ui.tab("Form"), ui.tab("TOML")
                 with ui.tab_panels(tabs, value=form, animated=False).classes("ws-panels"):
@@ -99,6 +105,9 @@ class CasePage:
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
+
+    def _turned(self, key: str, value: str) -> None:
+        self._edit(with_value(self._text, key, value), "")
 
     def _add_table(self, name: str) -> None:
         self._edit(with_table(self._text, name), "")
@@ -134,6 +143,7 @@ class CasePage:
 
     def _show_input(self, typing: str) -> None:
         data = parsed_tables(self._text)
+        self._what_if.show(data)
         self._form.show(data, {} if data is None else shown_values(self._text), typing)
         if typing != "TOML" and self._source.value != self._text:
             self._source.value = self._text
@@ -151,7 +161,7 @@ class CasePage:
 
     def _arrived(self) -> None:
         self._gone = False
-        ui.run_javascript(_SCHEME)
+        ui.run_javascript(_ARRIVED)
         self._follow()
 
     def _left(self) -> None:
