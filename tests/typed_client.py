@@ -14,7 +14,7 @@ TABLES: Mapping[str, Any] = {
     "chain": {"designation": "10B-1"},
     "sprocket": {"teeth": 21, "profile": "iso606", "nodes": 61},
     "drive": {"mate_teeth": 42, "links": 110},
-    "mechanism": {"phases": 1},
+    "mechanism": {"phases": 2},
     "load": {"power_kW": 1.5, "speed_rpm": 150},
     "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
     "wear": {"specific_wear_rate_mm2_per_N": 5e-9},
@@ -27,7 +27,7 @@ def main() -> None:
     case = assert_type(wearsim.load_case(TABLES), wearsim.Case)
     case = assert_type(case.with_({"load.tension_N": "900 N"}), wearsim.Case)
     drive = assert_type(wearsim.select(power=2, rpm=150, ratio=2, hours=5000).case(), wearsim.DriveCase)
-    drive = assert_type(drive.with_({"mechanism.phases": 1, "run.life_tolerance": 0.1}), wearsim.DriveCase)
+    drive = assert_type(drive.with_({"mechanism.phases": 2, "run.life_tolerance": 0.1}), wearsim.DriveCase)
 
     with wearsim.progress_bar("wearing") as progress:
         result = assert_type(wearsim.simulate(case, progress), wearsim.WearResult)

@@ -47,7 +47,7 @@ def many_wraps(*settings: str) -> str:
     base = wearsim.load_case(ROOT / "cases" / f"{WRAPS[1]}.toml", settings)
     cases = (replace(base, modulus=base.modulus * (1.0 + 2e-4 * n)) for n in range(WRAP_LIVES))
     start = time.perf_counter()
-    lives = wearsim.simulate_many(cases)
+    lives = list(wearsim.simulate_many(cases))
     seconds = time.perf_counter() - start
     errors = [life.numerical_error for life in lives if not isinstance(life, Exception)]
     return (

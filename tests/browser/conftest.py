@@ -34,7 +34,7 @@ WRAP = {
     **STRAND,
     "title": "A wrap",
     "sprocket": {"teeth": 20, "profile": "iso606", "nodes": 101},
-    "mechanism": {"kind": "wrap", "phases": 1},
+    "mechanism": {"kind": "wrap", "phases": 2},
 }
 GEARS = {
     "format_version": 1,

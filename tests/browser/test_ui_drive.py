@@ -36,7 +36,7 @@ nodes = 51
 [drive]
 links = 110
 [mechanism]
-phases = 1
+phases = 2
 [load]
 power_kW = 1.3
 speed_rpm = 300
@@ -113,7 +113,7 @@ def test_faults_and_new_tables_of_a_sprocket(watched, serve):
 
 
 def test_only_the_last_of_several_edits_is_answered(watched, serve):
-    server = serve(DRIVE.replace("phases = 1", "phases = 8"))
+    server = serve(DRIVE.replace("phases = 2", "phases = 8"))
     page = opened(watched, server)
     page.evaluate(
         "() => { window.seen = []; new MutationObserver(() => window.seen.push("

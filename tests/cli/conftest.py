@@ -49,7 +49,7 @@ specific_wear_rate_mm2_per_N = 1e-8
 [wear]
 specific_wear_rate_mm2_per_N = 5e-9
 [mechanism]
-phases = 1
+phases = 2
 [run]
 life_tolerance = 0.1
 [service]
@@ -100,7 +100,7 @@ specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
 [mechanism]
-phases = 1
+phases = 2
 [run]
 life_tolerance = 0.1
 """
@@ -129,7 +129,7 @@ specific_wear_rate_mm2_per_N = 1e-9
 [joint]
 specific_wear_rate_mm2_per_N = 1e-9
 [mechanism]
-phases = 1
+phases = 2
 [run]
 life_tolerance = 0.1
 """

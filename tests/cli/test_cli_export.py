@@ -140,7 +140,9 @@ def test_strand_is_drawn_by_few_arcs_close_to_its_points(cli, drive, tmp_path):
     assert shapely.distance(shapely.points(flank.x, flank.y), drawn).max() < TOLERANCE
     for layer, state in (("NEW", "new"), ("WORN", "worn")):
         fine = shapely.LinearRing(computed(case, run, state).polygon(1e-6))
-        assert shapely.hausdorff_distance(drawn_line(out, layer), fine) < TOLERANCE
+        line = drawn_line(out, layer)
+        assert line.buffer(TOLERANCE).covers(fine)
+        assert fine.buffer(TOLERANCE).covers(line)
         assert len(read_outline(out, layer).vertices) < 20 * 20
     assert "within 0.001 mm" in " ".join(texts(out))
 

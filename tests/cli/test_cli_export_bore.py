@@ -20,7 +20,7 @@ WRAP = """\
 format_version = 1
 title = "Wrap"
 chain.designation = "08B-1"
-mechanism = { kind = "wrap", phases = 1 }
+mechanism = { kind = "wrap", phases = 2 }
 load = { power_kW = 1, speed_rpm = 100 }
 wear.specific_wear_rate_mm2_per_N = 1e-9
 stop.critical_depth_mm = 0.02

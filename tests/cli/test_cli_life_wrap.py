@@ -22,7 +22,7 @@ profile = "ansi_b29"
 nodes = 101
 [mechanism]
 kind = "wrap"
-phases = 1
+phases = 2
 [drive]
 mate_teeth = 20
 links = 114

@@ -19,7 +19,7 @@ mate_teeth = 57
 links = 120
 [mechanism]
 kind = "wrap"
-phases = 1
+phases = 2
 [joint]
 specific_wear_rate_mm2_per_N = 1.5e-8
 [load]

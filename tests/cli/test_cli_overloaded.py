@@ -35,7 +35,7 @@ mate_teeth = 57
 links = 120
 [mechanism]
 kind = "wrap"
-phases = 1
+phases = 2
 [load]
 power_kW = 7
 speed_rpm = 1000

@@ -23,7 +23,7 @@ role = "driven"
 nodes = 101
 [mechanism]
 kind = "wrap"
-phases = 1
+phases = 2
 [drive]
 mate_teeth = 17
 links = 80

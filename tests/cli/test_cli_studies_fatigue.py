@@ -74,7 +74,7 @@ def test_gears(swept):
 def test_wrap(drive, swept):
     path = drive(profile='"iso606"\n#')
     text = path.read_text().replace("evolute_offset_mm = 5.6\nnodes = 51", "nodes = 101")
-    more = "[mechanism]\nphases = 1\n[run]\nlife_tolerance = 0.1\n"
+    more = "[mechanism]\nphases = 2\n[run]\nlife_tolerance = 0.1\n"
     path.write_text(text.replace('"iso606"\n# = "evolute"', '"iso606"') + HARD + more)
     _, rows = swept(path, '"fatigue.load_factor" = [1.0, 40.0]\n')
     assert rows[1]["stop"] == "sprocket_fatigue"

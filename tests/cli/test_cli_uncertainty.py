@@ -198,7 +198,7 @@ def test_joints_of_a_wrap_scatter_too(cli, case):
     text = path.read_text().replace(
         'profile = "evolute"\nevolute_offset_mm = 5.6\nnodes = 51', 'profile = "iso606"\nnodes = 101'
     )
-    path.write_text(text + "[mechanism]\nphases = 1\n[run]\nlife_tolerance = 0.1\n")
+    path.write_text(text + "[mechanism]\nphases = 2\n[run]\nlife_tolerance = 0.1\n")
     _, found = answer(cli, path, "--samples", 4)
     assert set(found["inputs"]) == {"wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N"}
     assert found["p10_hours"] < found["p50_hours"]

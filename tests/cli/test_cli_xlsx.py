@@ -25,7 +25,7 @@ teeth = 20
 profile = "ansi_b29"
 nodes = 101
 [mechanism]
-phases = 1
+phases = 2
 [drive]
 mate_teeth = 20
 links = 114

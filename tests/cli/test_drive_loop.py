@@ -138,7 +138,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
             "load": {"power_kW": 0.8, "speed_rpm": 100 * 38 / teeth},
             "joint": {"specific_wear_rate_mm2_per_N": 1e-9},
             "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-            "mechanism": {"phases": 1},
+            "mechanism": {"phases": 2},
             "run": {"life_tolerance": 0.1},
         }
         alone.append(wearsim.load_case(tables))
@@ -277,7 +277,7 @@ def test_cassettes_are_checked(cli, tmp_path, cassette):
         ("teeth = 17, share", "teeth = 13, share", "cogs must have different teeth"),
         ('name = "ring"', 'name = "cassette 13T"', "need different names (got 'cassette 13T' twice)"),
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
-        ("phases = 1", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
+        ("phases = 2", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
     ):
         path.write_text(cassette.replace(before, after))
         done = cli("check", path)

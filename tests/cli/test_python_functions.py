@@ -22,7 +22,7 @@ nodes = 51
 mate_teeth = 57
 links = 120
 [mechanism]
-phases = 1
+phases = 2
 [joint]
 specific_wear_rate_mm2_per_N = 1.5e-8
 [load]

@@ -29,7 +29,7 @@ def own_case(teeth, mate, role, rpm):
         "load": {"power_kW": 1.3, "speed_rpm": rpm},
         "joint": {"specific_wear_rate_mm2_per_N": 1e-8},
         "wear": {"specific_wear_rate_mm2_per_N": 5e-9},
-        "mechanism": {"phases": 1},
+        "mechanism": {"phases": 2},
         "run": {"life_tolerance": 0.1},
     }
 

@@ -23,7 +23,7 @@ WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
     "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 101},
-    "mechanism": {"kind": "wrap", "phases": 1},
+    "mechanism": {"kind": "wrap", "phases": 2},
     "drive": {"mate_teeth": 20, "links": 114, "slack_tension_N": 50},
     "joint": {"pitch": "uniform", "specific_wear_rate_mm2_per_N": 2e-11},
     "load": {"tension_N": 1000, "speed_rpm": 100},

@@ -77,7 +77,7 @@ WRAP = {
     "chain": {"designation": "08B-1"},
     "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 101},
     "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
-    "mechanism": {"phases": 1, "friction_roller_tooth": 0.1, "friction_roller_bush": 0.1},
+    "mechanism": {"phases": 2, "friction_roller_tooth": 0.1, "friction_roller_bush": 0.1},
     "joint": {"specific_wear_rate_mm2_per_N": 1e-9},
     "load": {"tension_N": 800, "speed_rpm": 200},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-9},

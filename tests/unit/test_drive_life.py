@@ -24,7 +24,7 @@ DRIVE = {
     "drive": {"links": 110},
     "load": {"power_kW": 0.8, "speed_rpm": 100},
     "wear": {"condition": "hardened, oiled"},
-    "mechanism": {"phases": 1},
+    "mechanism": {"phases": 2},
 }
 
 

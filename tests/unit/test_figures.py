@@ -29,7 +29,7 @@ STRAND = {
 def wrap(profile):
     tables = copy.deepcopy(STRAND)
     tables["sprocket"]["profile"] = profile
-    tables["mechanism"] = {"kind": "wrap", "phases": 1}
+    tables["mechanism"] = {"kind": "wrap", "phases": 2}
     return tables
 
 

@@ -145,7 +145,7 @@ def wrapped():
         {
             **CASE,
             "sprocket": {"teeth": 12, "profile": "iso606", "nodes": 101},
-            "mechanism": {"phases": 1},
+            "mechanism": {"phases": 2},
             "run": {"horizon_hours": 10},
         }
     )

@@ -14,7 +14,7 @@ WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
     "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 101},
-    "mechanism": {"phases": 1},
+    "mechanism": {"phases": 2},
     "wear": {"condition": "hardened, oiled"},
     "run": {"horizon_hours": 20, "life_tolerance": 0.1},
 }

@@ -24,7 +24,7 @@ DRIVE = {
     "chain": {"designation": "ANSI 40"},
     "sprocket": 2 * [{"teeth": 19, "profile": "ansi_b29", "nodes": 51}],
     "drive": {"links": 100},
-    "mechanism": {"phases": 1},
+    "mechanism": {"phases": 2},
     "wear": {"condition": "hardened, oiled"},
     "run": {"horizon_hours": 20, "life_tolerance": 0.1},
 }

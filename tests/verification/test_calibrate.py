@@ -35,7 +35,7 @@ WRAP = {
     "chain": {"designation": "ANSI 40"},
     "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
     "drive": {"mate_teeth": 57, "links": 120},
-    "mechanism": {"kind": "wrap", "phases": 1},
+    "mechanism": {"kind": "wrap", "phases": 2},
     "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
     "load": {"power_kW": 4.6, "speed_rpm": 1000},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
