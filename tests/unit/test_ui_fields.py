@@ -60,8 +60,8 @@ def test_every_sprocket_of_a_drive_is_a_group_of_its_own():
     }
     assert {owner(name) for name in of[1:]} == {"sprocket.2"} and owner("sprocket.2") == ""
     titles = [table_title(DRIVE, f"sprocket.{number}") for number in (1, 2, 3)]
-    assert titles == ["[[sprocket]] 1: chainring", "[[sprocket]] 2", "[[sprocket]] 3: 12 teeth"]
-    assert table_title(DRIVE, "sprocket.2.cog.2") == "[[sprocket.cog]] 2: 13 teeth"
+    assert titles == ["Sprocket 1: chainring", "Sprocket 2", "Sprocket 3: 12 teeth"]
+    assert table_title(DRIVE, "sprocket.2.cog.2") == "Cog 2: 13 teeth"
     names = [field.name for field in tables["sprocket.1"]]
     assert names[:3] == ["name", "role", "position_mm"] and {"teeth", "profile", "power_share"} <= {*names}
     fields = {field.key: field for field in tables["sprocket.1"]}

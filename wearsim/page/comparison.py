@@ -57,8 +57,8 @@ def compared_rows(before_text: str, before: Lives, after_text: str, after: Lives
 
     Examples
     --------
-    >>> compared_rows("a = 1", {"life": Life(1, 8000)}, "a = 2", {"life": Life(1, 9000)})
-    [('life', 'before 8 000 h, after 9 000 h (+12 %)'), ('Changed', 'a: 1, now 2')]
+    >>> compared_rows("a = 1", {"life": Life(1, 8000)}, "a = 2", {"life": Life(1, 10000)})
+    [('life', 'before 8 000 h, after 10 000 h (+25 %)'), ('Changed', 'a: 1, now 2')]
     """
     rows = []
     for name in dict.fromkeys([*before, *after]):

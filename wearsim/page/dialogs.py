@@ -44,7 +44,10 @@ async def ask_example(titles: Mapping[str, str]) -> str | None:
         ui.label("Begin with an example").classes("ws-caption")
         with ui.element("ul").classes("ws-examples"):
             for name, title in titles.items():
-                with ui.element("li"), ui.button(on_click=_submit(dialog, name)).props("flat no-caps align=left"):
+                with (
+                    ui.element("li"),
+                    ui.button(on_click=_submit(dialog, name)).props("flat no-caps align=left"),
+                ):
                     ui.label(title)
                     ui.label(name).classes("ws-key")
         ui.button("Cancel", on_click=dialog.close).props("flat no-caps")

@@ -7,15 +7,8 @@ from nicegui import ui
 
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, LinkedDrawing
-from wearsim.page.text_elements import (
-    assumption_list,
-    heading,
-    row_list,
-    text_element,
-    used_part,
-    warning_list,
-)
-from wearsim.quantities import grouped
+from wearsim.page.rating_lights import rating_list
+from wearsim.page.text_elements import assumption_list, heading, row_list, warning_list
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
 from wearsim.report.text_lines import unbroken

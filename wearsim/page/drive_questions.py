@@ -61,7 +61,9 @@ class _Questions:
         field: Any
         if known.words:
             field = ui.select(
-                {word: choice_words(known.name, word) for word in known.words}, label=label, value=known.words[0]
+                {word: choice_words(known.name, word) for word in known.words},
+                label=label,
+                value=known.words[0],
             )
         else:
             proposals = list(chains()) if known.name == "chain" else []

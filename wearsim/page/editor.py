@@ -69,8 +69,8 @@ class CasePage:
         actions = (
             Action("New", "add", keeper.begin),
             Action("Examples", "menu_book", keeper.begin_with_example),
-            Action("Undo", "undo", lambda: self._go(self._history.undo)),
-            Action("Redo", "redo", lambda: self._go(self._history.redo)),
+            Action("Undo", "undo", lambda: self._go(self._history.undo), True),
+            Action("Redo", "redo", lambda: self._go(self._history.redo), True),
             Action("Pin", "push_pin", self._pin),
             Action("Save", "save", keeper.save),
             Action("Save as", "save_as", keeper.save_as),

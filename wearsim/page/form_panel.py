@@ -9,7 +9,7 @@ from nicegui import ui
 from wearsim.errors import Fault
 from wearsim.input.keys import schema_of
 from wearsim.page.field_words import choice_words, label
-from wearsim.page.fields import Field, form_fields, owner, table_meaning, table_title, value_at
+from wearsim.page.fields import Field, form_fields, owner, table_header, table_meaning, table_title, value_at
 
 _MAX_CHOICES = 20
 """Words of a catalogue that a list still shows at once."""
@@ -114,7 +114,8 @@ class FormPanel:
         """Add a table with all that stand in it."""
         inner = [one for one in self._tables if owner(one) == name]
         fields = [field for one in (name, *inner) for field in self._tables[one]]
-        table = ui.expansion(table_title(self._data, name), caption=table_meaning(self._data, name))
+        caption = f"{table_header(name)} {table_meaning(self._data, name)}"
+        table = ui.expansion(table_title(self._data, name), caption=caption)
         table.value = self._is_open(name)
         self._headed[name] = table.classes("ws-table")
 
@@ -168,7 +169,7 @@ class FormPanel:
 
     def _add_buttons(self, name: str) -> None:
         if name.endswith("[]"):
-            text = f"Add a table {table_title({}, name)}"
+            text = f"Add a table {table_header(name)}"
             ui.button(text, icon="add", on_click=lambda: self._on_add(name[:-2])).props("flat")
         head, _, number = name.rpartition(".")
         if number.isdigit():

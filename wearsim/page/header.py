@@ -14,6 +14,7 @@ class Action:
     name: str
     icon: str
     run: Callable[[], Any]
+    is_icon_only: bool = False
 
 
 class Header:
@@ -57,5 +58,6 @@ class Header:
 
 
 def _button(action: Action) -> Any:
-    button = ui.button(action.name, icon=action.icon, on_click=action.run)
+    shown = "" if action.is_icon_only else action.name
+    button = ui.button(shown, icon=action.icon, on_click=action.run)
     return button.props(f'flat dense no-caps aria-label="{action.name}"')

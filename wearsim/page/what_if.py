@@ -80,7 +80,8 @@ class WhatIf:
         self._shown = found
         kept = {knob.key: self._ranges.get(knob.key, knob.around) for knob in found}
         self._ranges = {
-            knob.key: kept[knob.key] if _between(knob.value, kept[knob.key]) else knob.around for knob in found
+            knob.key: kept[knob.key] if _between(knob.value, kept[knob.key]) else knob.around
+            for knob in found
         }
         self._place.set_visibility(bool(found))
         self._place.clear()
