@@ -37,6 +37,7 @@ class DrivePanel:
             self._layout = LinkedDrawing("Layout, to scale: choose a sprocket", self._choose_place)
             self._tooth = ui.element("section").classes("ws-stack")
         with self._tooth:
+            self._places = ui.html("", sanitize=False)
             self._chosen = ui.select([], label="Flank of", on_change=lambda: self._show_flank())
             self._chosen.classes("ws-chosen").props("outlined dense")
         with ui.element("section").classes("ws-card") as self._lives:
@@ -74,6 +75,8 @@ class DrivePanel:
         """Show all lives over time, and the flank of the sprocket that is chosen."""
         self._bars.content = str(bars)  # every text escaped
         self._flanks = flanks
+        places = [flank_place(number) for number in range(1, len(flanks) + 1)]
+        self._places.content = "".join(f'<span id="{place}"></span>' for place in places)
         chosen = self._chosen.value
         self._chosen.set_options(list(flanks), value=chosen if chosen in flanks else next(iter(flanks)))
         self._show_flank()

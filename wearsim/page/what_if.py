@@ -9,6 +9,7 @@ from nicegui import ui
 
 from wearsim.page.field_words import label
 from wearsim.page.fields import value_at
+from wearsim.page.text_elements import heading
 from wearsim.quantities import quantities
 
 _LOADS = ("load.tension_N", "load.power_kW", "load.torque_N_m", "load.speed_rpm")
@@ -86,6 +87,7 @@ class WhatIf:
         self._place.set_visibility(bool(found))
         self._place.clear()
         with self._place:
+            heading("What if")
             for knob in found:
                 self._add(knob)
 
