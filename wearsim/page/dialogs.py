@@ -40,17 +40,14 @@ async def ask_name(name: str) -> str | None:
 
 async def ask_example(titles: Mapping[str, str]) -> str | None:
     """Ask for one of the shipped cases, by its title and name."""
+    options = {name: f"{title} ({name})" for name, title in titles.items()}
     with named_dialog("Examples") as dialog, ui.card().classes("ws-dialog ws-questions"):
         ui.label("Begin with an example").classes("ws-caption")
-        with ui.element("ul").classes("ws-examples"):
-            for name, title in titles.items():
-                with (
-                    ui.element("li"),
-                    ui.button(on_click=_submit(dialog, name)).props("flat no-caps align=left"),
-                ):
-                    ui.label(title)
-                    ui.label(name).classes("ws-key")
-        ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+        chosen = ui.select(options, label="Example", value=next(iter(options)), with_input=True)
+        chosen.props("outlined dense")
+        with ui.row():
+            ui.button("Open", on_click=lambda: dialog.submit(chosen.value)).props("flat no-caps")
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
     answer: str | None = await dialog
     dialog.delete()
     return answer
