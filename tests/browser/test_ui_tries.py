@@ -193,14 +193,13 @@ def test_axe_finds_nothing(watched, serve, text, width, scheme):
     watched.set_viewport_size({"width": width, "height": 900})
     watched.emulate_media(color_scheme=scheme)
     page = opened(watched, serve(None, text) if text == "packaging-conveyor" else serve(text))
-    click(page, "Pin")
-    for name in (None, "Examples", "New", "Save as", "Export wheel"):
-        if name:
-            click(page, name)
+    for name in ("Examples", "New", "Save as", "Export wheel", "Pin"):
+        click(page, name)
+        if name != "Pin":
             page.locator(".ws-dialog").wait_for()
         # Colours are wrong while a dialog opens.
         eventually(lambda: axe.Axe().run(page).response["violations"], lambda found: not found)
-        if name:
+        if name != "Pin":
             page.keyboard.press("Escape")
             page.wait_for_selector(".q-dialog", state="detached")
     headings = page.locator("h1, [role=heading][aria-level='1']")
