@@ -298,7 +298,7 @@ def test_a_table_of_the_duty_is_added_filled_and_removed(watched, serve):
     text = text.replace("[load]\n", "") + "[[duty]]\nspeed_rpm = 100\npower_kW = 3\nshare_of_time = 1\n"
     server = serve(text)
     page = opened(watched, server)
-    page.get_by_text("[[duty]]", exact=True).click()
+    page.get_by_text("Duty: add one", exact=True).click()
     page.wait_for_timeout(400)  # opens slowly
     page.get_by_role("button", name="Add a table [[duty]]").click()
     page.wait_for_selector('.ws-state[data-state="old"]')

@@ -60,7 +60,7 @@ def test_a_drive_is_what_is_known_of_it(cli, tmp_path):
     done = cli("init", *words(EXAMPLE), "--out", path)
     assert (done.code, done.out, done.err) == (0, "", "")
     drive = load_drive(path)
-    assert drive.title == "12B-1, 21 to 57 teeth, 3 kW at 120 rpm"
+    assert drive.title == "12B-1, 21 to 57 teeth"
     assert [one.case.inputs["sprocket"]["teeth"] for one in drive.sprockets] == [21, 57]
     assert [one.case.inputs["sprocket"]["profile"] for one in drive.sprockets] == ["iso606", "iso606"]
     assert [one.case.inputs["sprocket"]["nodes"] for one in drive.sprockets] == [201, 201]
@@ -144,7 +144,7 @@ def test_hours_are_shifts(start, hours, shifts):
 def test_teeth_are_of_the_standard_of_the_chain(start, chain, form):
     drive = start(chain=chain)
     assert [one.case.inputs["sprocket"]["profile"] for one in drive.sprockets] == [form, form]
-    assert drive.title.startswith(f"{chain}, 19 to 25 teeth, ")
+    assert drive.title == f"{chain}, 19 to 25 teeth"
 
 
 @pytest.mark.parametrize("chain", ["05B-1", "08B-2", "12B-1", "ANSI 40", "16B-3", "ПР-38,1-127", "40B-1"])
@@ -186,7 +186,7 @@ def test_commented_keys_of_a_drive_are_the_defaults(start, tmp_path):
     drive = start(**{name.removeprefix("--").replace("-", "_"): value for name, value in EXAMPLE.items()})
     lines = (tmp_path / "drive.toml").read_text().splitlines()
     keys = [line.removeprefix("# ") if line.startswith("# ") and " = " in line else line for line in lines]
-    assert len([line for line in lines if line not in keys]) == 6
+    assert len([line for line in lines if line not in keys]) == 7
     (tmp_path / "bare.toml").write_text("\n".join(keys))
     bare = load_drive(tmp_path / "bare.toml")
     for before, after in zip(drive.sprockets, bare.sprockets, strict=True):
@@ -304,7 +304,7 @@ def test_drive_lives(cli, start, tmp_path):
     set_all = [word for setting in settings for word in ("--set", setting)]
     done = cli("life", tmp_path / "drive.toml", "--set", "run.life_tolerance=0.1", *set_all)
     assert done.code == 0
-    assert done.out.startswith("08B-1, 17 to 20 teeth, 1.3 kW at 300 rpm, with ")
+    assert done.out.startswith("08B-1, 17 to 20 teeth\n")
     assert "\n  First      replace the chain at " in done.out
 
 

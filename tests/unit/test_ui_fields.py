@@ -2,9 +2,12 @@
 
 import pytest
 
+from wearsim.catalogue.catalogues import wear_conditions
+from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
 from wearsim.input.keys import schema_fields
 from wearsim.input.schema import CaseTables, DriveTables
 from wearsim.mechanisms.gear_pair.keys import GearTables
+from wearsim.page.field_words import choice_words, label
 from wearsim.page.fields import form_fields, owner, table_meaning, table_title
 from wearsim.quantities import quantities
 
@@ -57,8 +60,8 @@ def test_every_sprocket_of_a_drive_is_a_group_of_its_own():
     }
     assert {owner(name) for name in of[1:]} == {"sprocket.2"} and owner("sprocket.2") == ""
     titles = [table_title(DRIVE, f"sprocket.{number}") for number in (1, 2, 3)]
-    assert titles == ["[[sprocket]] 1: chainring", "[[sprocket]] 2", "[[sprocket]] 3: 12 teeth"]
-    assert table_title(DRIVE, "sprocket.2.cog.2") == "[[sprocket.cog]] 2: 13 teeth"
+    assert titles == ["Sprocket 1: chainring", "Sprocket 2", "Sprocket 3: 12 teeth"]
+    assert table_title(DRIVE, "sprocket.2.cog.2") == "Cog 2: 13 teeth"
     names = [field.name for field in tables["sprocket.1"]]
     assert names[:3] == ["name", "role", "position_mm"] and {"teeth", "profile", "power_share"} <= {*names}
     fields = {field.key: field for field in tables["sprocket.1"]}
@@ -91,3 +94,19 @@ def test_kinds_of_fields():
     assert fields["run.horizon_hours"].default == "1e+06"
     assert fields["wear.law"].default == "archard"
     assert fields["maintenance.turn_sprocket"].default == "false"
+
+
+@pytest.mark.parametrize("data", [{}, {"gear": {}}, {"duty": [{}, {}]}, DRIVE])
+def test_every_field_has_a_label_of_its_own_in_plain_words(data):
+    for fields in form_fields(data).values():
+        labels = [label(field.name) for field in fields]
+        assert len({*labels}) == len(labels), labels
+        for words in labels:
+            assert words[0].isupper() and "_" not in words
+
+
+def test_conditions_of_wear_and_of_use_have_words():
+    """Whoever adds a row to a catalogue says what it means."""
+    for name, choices in (("condition", wear_conditions()), ("lubrication", LUBRICATIONS), ("shock", SHOCKS)):
+        for choice in choices:
+            assert choice_words(name, choice).startswith(f"{choice}: ")

@@ -62,20 +62,20 @@ class _Opened:
 
     def __call__(self) -> "tuple[CaseFile, str]":
         from wearsim.input.document import STDIN, text_of
-        from wearsim.page.case_file import NEW, new_file, read_file
+        from wearsim.page.case_file import NEW, example, new_file, read_file
         from wearsim.study.whole_drive.drive_start import start_text
 
         if self._path is None:
             file, text = new_file(NEW), start_text({})
         elif self._path == STDIN:
-            file, text = new_file(NEW), text_of(STDIN)
-        else:
-            place = place_of_case(self._path)
-            file = read_file(place)
+            text = text_of(STDIN)
+            file = new_file(NEW, text)
+        elif place_of_case(self._path) == self._path:
+            file = read_file(self._path)
             text = file.text
-            if place != self._path:
-                # A shipped case is changed in a file of one's own.
-                file = new_file(Path(f"{self._path}.toml"))
+        else:
+            file = example(str(self._path))
+            text = file.begun
         for setting in self._settings:
             text = _with_setting(text, setting)
         return file, text

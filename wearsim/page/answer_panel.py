@@ -7,6 +7,7 @@ from nicegui import ui
 from wearsim.page.answers import Pictures
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
+from wearsim.page.rating_lights import rating_list
 from wearsim.page.text_elements import (
     assumption_list,
     heading,
@@ -36,24 +37,27 @@ class AnswerPanel:
             self._teeth = ui.element("div").classes("ws-stack")
             self._sketch = SketchView()
         self._load = ui.element("div")
+        self._ratings = ui.element("section").classes("ws-card")
         self._margins = ui.element("section").classes("ws-card")
         self._charts = ui.element("div").classes("ws-pair")
         self._text = ui.element("section").classes("ws-card")
-        for place in (self._life, self._tooth, self._margins, self._text):
+        for place in (self._life, self._tooth, self._ratings, self._margins, self._text):
             place.set_visibility(False)
 
     def mark_old(self) -> None:
         """Mark everything as the answer to an earlier input."""
-        for place in (self._life, self._tooth, self._load, self._margins, self._charts, self._text):
+        answers = self._life, self._tooth, self._load, self._ratings
+        for place in (*answers, self._margins, self._charts, self._text):
             place.classes("ws-old")
 
     def show_life(self, result: WearResult) -> None:
         """Show the life and everything in words."""
         self._fill_life(result)
         self._fill_text(result)
-        for place in (self._life, self._text):
+        for place in (self._life, self._text, self._ratings):
             place.set_visibility(True)
             place.classes(remove="ws-old")
+        self._fill_ratings(result)
 
     def show_loads(self, chart: Chart | None) -> None:
         """Show what the teeth carry, or nothing."""
@@ -117,6 +121,12 @@ class AnswerPanel:
                         text_element("dd", hours(life))
             ui.label(f"Band: {result.band}.").classes("ws-muted")
             warning_list(result.warnings)
+
+    def _fill_ratings(self, result: WearResult) -> None:
+        self._ratings.set_visibility(bool(result.ratings))
+        self._ratings.clear()
+        with self._ratings:
+            rating_list(result.ratings)
 
     def _fill_text(self, result: WearResult) -> None:
         taken, defaults = stated_and_defaults(result.assumptions)

@@ -11,7 +11,7 @@ from wearsim.page.edited_input import EditedInput
 from wearsim.page.header import Header
 from wearsim.report.answer import headline
 from wearsim.report.html.run_charts import tooth_load_chart
-from wearsim.result import WearResult
+from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
 
 
@@ -23,6 +23,7 @@ class CaseAnswer:
     ) -> None:
         self._header, self._on_sound = header, on_sound
         self.panel = AnswerPanel(palette)
+        self.lives: Mapping[str, Life | LowerBound] = {}
 
     async def find(self, edited: EditedInput) -> dict[str, tuple[Case, WearResult]]:
         """Find the answer and show it step by step; return case and result of the only wheel."""
@@ -31,6 +32,7 @@ class CaseAnswer:
             await self._show_first(edited, case)
         edited.check()
         result = await edited.step(lambda: simulate(case, edited.watch))
+        self.lives = {"life": result.life}
         self._show_sound(case)
         self._header.show_life(headline(result))
         self._header.show_state("drawing", "of the present input, drawing")

@@ -1,14 +1,21 @@
 """What is asked before a file is written."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from nicegui import ui
 
 
+def named_dialog(name: str) -> ui.dialog:
+    """Return a dialog with a name that a screen reader says."""
+    dialog = ui.dialog()
+    dialog.props["aria-label"] = name
+    return dialog
+
+
 async def choose(question: str, answers: Sequence[str]) -> str | None:
     """Ask for one of several answers."""
-    with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
+    with named_dialog("Question") as dialog, ui.card().classes("ws-dialog"):
         ui.label(question)
         with ui.row():
             for text in answers:
@@ -20,7 +27,7 @@ async def choose(question: str, answers: Sequence[str]) -> str | None:
 
 async def ask_name(name: str) -> str | None:
     """Ask for the name of a file."""
-    with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
+    with named_dialog("Save as") as dialog, ui.card().classes("ws-dialog"):
         field = ui.input("File name", value=name).props("outlined dense autofocus spellcheck=false")
         field.on("keydown.enter", lambda: dialog.submit(field.value))
         with ui.row():
@@ -31,11 +38,26 @@ async def ask_name(name: str) -> str | None:
     return answer
 
 
+async def ask_example(titles: Mapping[str, str]) -> str | None:
+    """Ask for one of the shipped cases, by its title and name."""
+    options = {name: f"{title} ({name})" for name, title in titles.items()}
+    with named_dialog("Examples") as dialog, ui.card().classes("ws-dialog ws-questions"):
+        ui.label("Begin with an example").classes("ws-caption")
+        chosen = ui.select(options, label="Example", value=next(iter(options)), with_input=True)
+        chosen.props("outlined dense")
+        with ui.row():
+            ui.button("Open", on_click=lambda: dialog.submit(chosen.value)).props("flat no-caps")
+            ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+    answer: str | None = await dialog
+    dialog.delete()
+    return answer
+
+
 async def ask_export(
     wheels: Sequence[str], formats: Sequence[str], states: Sequence[str]
 ) -> tuple[str, str, str] | None:
     """Ask which wheel is to be exported, and how."""
-    with ui.dialog() as dialog, ui.card().classes("ws-dialog"):
+    with named_dialog("Export wheel") as dialog, ui.card().classes("ws-dialog"):
         ui.label("The wheel for CAD").classes("ws-caption")
         wheel = ui.select(list(wheels), label="Sprocket", value=wheels[0]).props("outlined dense")
         wheel.set_visibility(len(wheels) > 1)

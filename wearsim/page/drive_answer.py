@@ -16,7 +16,7 @@ from wearsim.page.header import Header
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart
-from wearsim.result import WearResult
+from wearsim.result import Life, LowerBound, WearResult
 from wearsim.study.whole_drive.keys import DriveCase, load_drive
 from wearsim.study.whole_drive.layout_sketch import layout_sketch
 from wearsim.study.whole_drive.lives_bars import lives_bars
@@ -36,6 +36,7 @@ class DriveAnswer:
     ) -> None:
         self._header, self._on_sound = header, on_sound
         self.panel = DrivePanel(palette)
+        self.lives: Mapping[str, Life | LowerBound] = {}
 
     async def find(self, edited: EditedInput) -> dict[str, tuple[Case, WearResult]]:
         """Find the answer and show it step by step; return case and result of every sprocket."""
@@ -47,6 +48,7 @@ class DriveAnswer:
             self._header.show_life(f"about {drive_headline(rough)}")
             self._header.show_state("estimate", "first estimate, computing")
         found = await edited.step(lambda: drive_life(drive, progress=edited.watch))
+        self.lives = found.parts
         self._header.show_life(drive_headline(found))
         self._header.show_state("drawing", "of the present input, drawing")
         self.panel.show_lives(found)

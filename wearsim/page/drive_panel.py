@@ -7,15 +7,8 @@ from nicegui import ui
 
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, LinkedDrawing
-from wearsim.page.text_elements import (
-    assumption_list,
-    heading,
-    row_list,
-    text_element,
-    used_part,
-    warning_list,
-)
-from wearsim.quantities import grouped
+from wearsim.page.rating_lights import rating_list
+from wearsim.page.text_elements import assumption_list, heading, row_list, warning_list
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
 from wearsim.report.text_lines import unbroken
@@ -44,6 +37,7 @@ class DrivePanel:
             self._layout = LinkedDrawing("Layout, to scale: choose a sprocket", self._choose_place)
             self._tooth = ui.element("section").classes("ws-stack")
         with self._tooth:
+            self._places = ui.html("", sanitize=False)
             self._chosen = ui.select([], label="Flank of", on_change=lambda: self._show_flank())
             self._chosen.classes("ws-chosen").props("outlined dense")
         with ui.element("section").classes("ws-card") as self._lives:
@@ -81,6 +75,8 @@ class DrivePanel:
         """Show all lives over time, and the flank of the sprocket that is chosen."""
         self._bars.content = str(bars)  # every text escaped
         self._flanks = flanks
+        places = [flank_place(number) for number in range(1, len(flanks) + 1)]
+        self._places.content = "".join(f'<span id="{place}"></span>' for place in places)
         chosen = self._chosen.value
         self._chosen.set_options(list(flanks), value=chosen if chosen in flanks else next(iter(flanks)))
         self._show_flank()
@@ -127,10 +123,4 @@ class DrivePanel:
     def _fill_ratings(self, found: DriveLife) -> None:
         self._ratings.clear()
         with self._ratings:
-            heading("Ratings")
-            with ui.element("dl").classes("ws-margins"):
-                for one in found.results[found.drive.driver.name].ratings:
-                    sign = "≥" if one.at_least else "≤"
-                    text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
-                    text_element("dt", one.name if one.ok else f"{one.name} (outside)")
-                    used_part(one.name, one.used, text)
+            rating_list(found.results[found.drive.driver.name].ratings)

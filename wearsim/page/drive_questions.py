@@ -8,6 +8,8 @@ from nicegui import ui
 
 from wearsim.catalogue.catalogues import chains
 from wearsim.errors import CaseError, Fault
+from wearsim.page.dialogs import named_dialog
+from wearsim.page.field_words import choice_words
 from wearsim.page.threads import in_thread
 from wearsim.study.whole_drive.drive_start import start_text
 from wearsim.study.whole_drive.known_drive import KNOWN, Known, read_known
@@ -17,7 +19,7 @@ _LOOK = "outlined dense stack-label hide-bottom-space"
 
 async def ask_drive() -> str | None:
     """Ask what is known of a drive; return the text of its case, or nothing."""
-    with ui.dialog() as dialog, ui.card().classes("ws-dialog ws-questions"):
+    with named_dialog("New drive") as dialog, ui.card().classes("ws-dialog ws-questions"):
         ui.label("New drive: one chain on two sprockets").classes("ws-caption")
 
         async def _create() -> None:
@@ -58,7 +60,11 @@ class _Questions:
         label, _, more = re.split("([:;,])", known.what + ";", maxsplit=1)
         field: Any
         if known.words:
-            field = ui.select(list(known.words), label=label, value=known.words[0])
+            field = ui.select(
+                {word: choice_words(known.name, word) for word in known.words},
+                label=label,
+                value=known.words[0],
+            )
         else:
             proposals = list(chains()) if known.name == "chain" else []
             field = ui.input(label, autocomplete=proposals).props("autocomplete=off spellcheck=false")

@@ -43,6 +43,6 @@ class EditedInput:
 
 
 def edited_title(source: CaseText, file: CaseFile) -> str:
-    """Return a title that tells what is not yet in the file, empty where the input has none."""
-    tables, written = parsed_tables(source.text) or {}, parsed_tables(file.text) or {}
+    """Return a title that tells what is no longer as it began, empty where the input has none."""
+    tables, written = parsed_tables(source.text) or {}, parsed_tables(file.begun) or {}
     return str(retitled(tables, written).get("title") or "")

@@ -15,17 +15,24 @@ from wearsim.page.case_answer import CaseAnswer
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
+from wearsim.page.comparison import Comparison
 from wearsim.page.drive_answer import DriveAnswer
+from wearsim.page.edit_history import EditHistory
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import Field
 from wearsim.page.file_saver import FileSaver
 from wearsim.page.form_panel import FormPanel
-from wearsim.page.header import Header
+from wearsim.page.header import Action, Header
 from wearsim.page.text_elements import FaultList
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
+from wearsim.page.what_if import WhatIf
 from wearsim.result import WearResult
 
-_SCHEME = """
+_ARRIVED = """
+const bar = document.querySelector(".ws-header");
+new ResizeObserver(() => {
+    document.documentElement.style.setProperty("--ws-head", `${bar.offsetHeight}px`);
+}).observe(bar);
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const tell = () => emitEvent("scheme", dark.matches);
 dark.addEventListener("change", tell);
@@ -43,6 +50,7 @@ class CasePage:
         self._wheels: tuple[int, Mapping[str, tuple[Case, WearResult]]] = 0, {}
         self._answer: CaseAnswer | DriveAnswer | None = None
         self._palette = palettes()[0]
+        self._history = EditHistory()
         self._client = ui.context.client
         self._keeper = FileSaver(file, lambda: self._text, self._found, self._reloaded, self._named)
         ui.add_css(style(palettes()))
@@ -53,15 +61,25 @@ class CasePage:
         self._client.on_disconnect(self._left)
         self._show_input("")
         self._named()
-        if file.content is None:
+        if file.is_blank:
             ui.timer(0.0, self._keeper.begin, once=True)
 
     def _build(self) -> None:
-        self._header = Header(
-            self._keeper.begin, self._keeper.save, self._keeper.save_as, self._keeper.export
+        keeper = self._keeper
+        actions = (
+            Action("New", "add", keeper.begin),
+            Action("Examples", "menu_book", keeper.begin_with_example),
+            Action("Undo", "undo", lambda: self._go(self._history.undo), True),
+            Action("Redo", "redo", lambda: self._go(self._history.redo), True),
+            Action("Pin", "push_pin", self._pin),
+            Action("Save", "save", keeper.save),
+            Action("Save as", "save_as", keeper.save_as),
+            Action("Export wheel", "download", keeper.export),
         )
-        with ui.element("main").classes("ws-main"):
+        self._header = Header(actions)
+        with ui.element("div").classes("ws-main"):
             with ui.element("section").classes("ws-input").props('aria-label="Input"'):
+                self._what_if = WhatIf(self._turned)
                 with ui.tabs().classes("ws-tabs") as tabs:
                     form, source = ui.tab("Form"), ui.tab("TOML")
                 with ui.tab_panels(tabs, value=form, animated=False).classes("ws-panels"):
@@ -76,6 +94,7 @@ class CasePage:
                         ).classes("ws-source")
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
                 self._faults = FaultList()
+                self._comparison = Comparison()
                 self._place = ui.element("div").classes("ws-answer-place")
 
     def _draw(self, dark: bool) -> None:
@@ -86,6 +105,9 @@ class CasePage:
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
+
+    def _turned(self, key: str, value: str) -> None:
+        self._edit(with_value(self._text, key, value), "")
 
     def _add_table(self, name: str) -> None:
         self._edit(with_table(self._text, name), "")
@@ -101,14 +123,27 @@ class CasePage:
         text = text.encode("utf-8", "replace").decode("utf-8")
         if text == self._text:
             return
+        self._history.leave(self._text, typing)
+        self._take(text, typing)
+
+    def _go(self, step: Callable[[str], str]) -> None:
+        """Take an input from before or after the present one."""
+        self._take(step(self._text), "")
+
+    def _take(self, text: str, typing: str) -> None:
         self._text = text
         self._version += 1
         self._show_input(typing)
         self._named()
         self._follow()
 
+    def _pin(self) -> None:
+        """Keep the answer to the present input to compare later ones with."""
+        self._comparison.pin()
+
     def _show_input(self, typing: str) -> None:
         data = parsed_tables(self._text)
+        self._what_if.show(data)
         self._form.show(data, {} if data is None else shown_values(self._text), typing)
         if typing != "TOML" and self._source.value != self._text:
             self._source.value = self._text
@@ -117,6 +152,8 @@ class CasePage:
         dirty = self._text != self._keeper.file.text
         name = self._keeper.file.path.name
         self._header.show_file(name, dirty)
+        self._header.enable("Undo", self._history.can_undo)
+        self._header.enable("Redo", self._history.can_redo)
         asks = "(event) => event.preventDefault()" if dirty else "null"
         with self._client:
             ui.page_title(f"{'* ' if dirty else ''}{name} - wearsim")
@@ -124,7 +161,7 @@ class CasePage:
 
     def _arrived(self) -> None:
         self._gone = False
-        ui.run_javascript(_SCHEME)
+        ui.run_javascript(_ARRIVED)
         self._follow()
 
     def _left(self) -> None:
@@ -134,6 +171,8 @@ class CasePage:
         if self._answered == self._version:
             return
         self._header.show_state("computing", "computing")
+        self._header.enable("Pin", False)
+        self._comparison.mark_old()
         if self._answer is not None:
             self._answer.panel.mark_old()
         if self._task is None or self._task.done():
@@ -159,7 +198,10 @@ class CasePage:
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
         edited = EditedInput(source, self._keeper.file, self._staleness(version), self._progress(version))
-        self._wheels = version, await self._fitting_answer().find(edited)
+        answer = self._fitting_answer()
+        self._wheels = version, await answer.find(edited)
+        self._comparison.show(self._text, answer.lives)
+        self._header.enable("Pin", True)
 
     def _fitting_answer(self) -> CaseAnswer | DriveAnswer:
         """Return the answer, a new one where the input has become one of another kind."""
@@ -181,7 +223,7 @@ class CasePage:
 
     def _progress(self, version: int) -> Callable[[float], None]:
         """Show how far a run is, from whichever thread it tells."""
-        loop, shown, is_stale = asyncio.get_running_loop(), [-1], self._staleness(version)
+        loop, shown, is_stale = asyncio.get_running_loop(), [0], self._staleness(version)
 
         def _show(percent: int) -> None:
             if not is_stale() and self._answered != version:
@@ -189,7 +231,7 @@ class CasePage:
 
         def report_progress(part: float) -> None:
             percent = int(100.0 * part)
-            if percent != shown[0]:
+            if percent > shown[0]:
                 shown[0] = percent
                 loop.call_soon_threadsafe(_show, percent)
 

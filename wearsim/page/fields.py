@@ -71,26 +71,40 @@ def owner(table: str) -> str:
 
 
 def table_title(data: Mapping[str, Any], name: str) -> str:
-    """Return the header of a table, of one of a list with its number and what it is called.
+    """Return a table in plain words, one of a list with its number and what it is called.
 
     Examples
     --------
     >>> wheels = {"sprocket": [{"name": "motor"}, {"cog": [{"teeth": 11}]}]}
     >>> table_title(wheels, "sprocket.1"), table_title(wheels, "sprocket.2.cog.1")
-    ('[[sprocket]] 1: motor', '[[sprocket.cog]] 1: 11 teeth')
+    ('Sprocket 1: motor', 'Cog 1: 11 teeth')
     >>> table_title(wheels, "sprocket.2.take_up"), table_title(wheels, "duty[]")
-    ('[sprocket.take_up]', '[[duty]]')
+    ('Take up', 'Duty: add one')
     """
-    header = ".".join(part for part in name.removesuffix("[]").split(".") if not part.isdigit())
+    parts_of = _named_parts(name)
+    shown = parts_of[-1:] if owner(name) else parts_of
+    words = ", ".join(shown).replace("_", " ").capitalize()
     number = name.rpartition(".")[2]
     if name.endswith("[]"):
-        return f"[[{header}]]"
+        return f"{words}: add one"
     if not number.isdigit():
-        return f"[{header}]"
+        return words
     table = value_at(data, name)
     teeth, called = (table.get(key) if isinstance(table, Mapping) else None for key in ("teeth", "name"))
-    words = called or (f"{teeth} teeth" if teeth else "")
-    return f"[[{header}]] {number}" + (f": {words}" if words else "")
+    about = called or (f"{teeth} teeth" if teeth else "")
+    return f"{words} {number}" + (f": {about}" if about else "")
+
+
+def table_header(name: str) -> str:
+    """Return the header of a table as it stands in the file.
+
+    Examples
+    --------
+    >>> table_header("sprocket.2.cog.1"), table_header("duty[]"), table_header("material.chain")
+    ('[[sprocket.cog]]', '[[duty]]', '[material.chain]')
+    """
+    header = ".".join(_named_parts(name))
+    return f"[[{header}]]" if name.endswith("[]") or name.rpartition(".")[2].isdigit() else f"[{header}]"
 
 
 def value_at(data: Mapping[str, Any], key: str) -> Any:
@@ -125,6 +139,10 @@ def table_meaning(data: Mapping[str, Any], name: str) -> str:
         if not part.isdigit():
             model = next(tables_in(model.model_fields[part].annotation), None) if model else None
     return (model.__doc__ or "").partition("\n")[0] if model else ""
+
+
+def _named_parts(name: str) -> list[str]:
+    return [part for part in name.removesuffix("[]").split(".") if not part.isdigit()]
 
 
 def _field(key: str, info: FieldInfo) -> Field:

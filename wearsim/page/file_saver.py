@@ -9,8 +9,8 @@ from wearsim.cad.wheel_formats import export
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
 from wearsim.geometry.wheel_outline import State
-from wearsim.page.case_file import NEW, CaseFile, named_beside, new_file, read_file
-from wearsim.page.dialogs import ask_export, ask_name, choose
+from wearsim.page.case_file import NEW, CaseFile, example, example_titles, named_beside, new_file, read_file
+from wearsim.page.dialogs import ask_example, ask_export, ask_name, choose
 from wearsim.page.drive_questions import ask_drive
 from wearsim.page.threads import in_thread
 from wearsim.result import WearResult
@@ -71,16 +71,29 @@ class FileSaver:
     async def begin(self) -> None:
         """Ask what is known of another drive and begin with it; ask before that where a file is not saved."""
         text = await ask_drive()
-        if text is None:
+        if text is None or not await self._may_leave():
             return
-        if self.file.content is not None:
-            question = f"{self.file.path} is not saved as it stands here."
-            lose = "Begin the new drive, and lose what is on this page"
-            if self._text() != self.file.text and await choose(question, (lose, "Cancel")) != lose:
-                return
+        if not self.file.is_blank:
             self.file = new_file(self.file.path.with_name(NEW.name))
         self._on_reload(text)
         self._on_change()
+
+    async def begin_with_example(self) -> None:
+        """Ask for a shipped case and begin with it; ask before that where a file is not saved."""
+        name = await ask_example(example_titles())
+        if name is None or not await self._may_leave():
+            return
+        self.file = example(name)
+        self._on_reload(self.file.begun)
+        self._on_change()
+
+    async def _may_leave(self) -> bool:
+        """Return whether what is on the page may be left: it is as it began, or the user says so."""
+        if self.file.is_blank or self._text() == self.file.begun:
+            return True
+        lose = "Lose what is on this page"
+        question = f"{self.file.path} is not saved as it stands here."
+        return await choose(question, (lose, "Cancel")) == lose
 
     async def export(self) -> None:
         """Send the wheel as a file to the browser."""

@@ -8,7 +8,8 @@ from nicegui import ui
 
 from wearsim.errors import Fault
 from wearsim.input.keys import schema_of
-from wearsim.page.fields import Field, form_fields, owner, table_meaning, table_title, value_at
+from wearsim.page.field_words import choice_words, label
+from wearsim.page.fields import Field, form_fields, owner, table_header, table_meaning, table_title, value_at
 
 _MAX_CHOICES = 20
 """Words of a catalogue that a list still shows at once."""
@@ -104,15 +105,17 @@ class FormPanel:
         with self._body:
             for name, fields in self._tables.items():
                 if not name:
-                    self._add_fields(fields)
+                    self._add_fields([field for field in fields if field.name != "format_version"])
                 elif not owner(name):
                     self._add_group(name)
+            self._add_fields([self._fields["format_version"]])
 
     def _add_group(self, name: str) -> None:
         """Add a table with all that stand in it."""
         inner = [one for one in self._tables if owner(one) == name]
         fields = [field for one in (name, *inner) for field in self._tables[one]]
-        table = ui.expansion(table_title(self._data, name), caption=table_meaning(self._data, name))
+        caption = f"{table_header(name)} {table_meaning(self._data, name)}"
+        table = ui.expansion(table_title(self._data, name), caption=caption)
         table.value = self._is_open(name)
         self._headed[name] = table.classes("ws-table")
 
@@ -155,7 +158,7 @@ class FormPanel:
             self._add_fields(fields)
         else:
             self._add_fields(first)
-            names = ", ".join(field.name for field in more)
+            names = ", ".join(label(field.name) for field in more)
             rest = ui.expansion(f"{len(more)} more", caption=names).classes("ws-more")
             self._fill_when_open(rest, more, partial(self._add_fields, more))
 
@@ -166,7 +169,7 @@ class FormPanel:
 
     def _add_buttons(self, name: str) -> None:
         if name.endswith("[]"):
-            text = f"Add a table {table_title({}, name)}"
+            text = f"Add a table {table_header(name)}"
             ui.button(text, icon="add", on_click=lambda: self._on_add(name[:-2])).props("flat")
         head, _, number = name.rpartition(".")
         if number.isdigit():
@@ -176,19 +179,20 @@ class FormPanel:
 
     def _input(self, field: Field) -> Any:
         value = self._values.get(field.key, "")
-        label = f"{field.name} *" if field.required else field.name
-        choices = _choices(field)
+        words = label(field.name)
+        shown = f"{words} *" if field.required else words
         element: Any
-        if choices:
-            element = ui.select(_with(choices, value), label=label, value=value or None, clearable=True)
+        if _choices(field):
+            options = _options(field, value)
+            element = ui.select(options, label=shown, value=value or None, clearable=True)
         else:
-            element = ui.input(label, value=value, autocomplete=list(field.proposals))
+            element = ui.input(shown, value=value, autocomplete=list(field.proposals))
             element.props("autocomplete=off spellcheck=false")
             element.props.set_optional("suffix", field.unit or None)
         element.classes("ws-field").props(_LOOK)
-        element.props["hint"] = field.meaning
+        element.props["hint"] = f"{field.name}: {field.meaning}"
         element.props["data-key"] = field.key
-        element.props["aria-label"] = " ".join(filter(None, (field.key, field.unit)))
+        element.props["aria-label"] = " ".join(filter(None, (f"{words}, {field.key}", field.unit)))
         taken = _taken(self._taken_inputs, field.key) or field.default
         element.props.set_optional("placeholder", taken or None)
         element.on_value_change(lambda event: self._edited(field, event.value))
@@ -199,9 +203,8 @@ class FormPanel:
             self._on_edit(field, value or "")
 
     def _fill(self, element: Any, field: Field, value: str) -> None:
-        choices = _choices(field)
-        if choices:
-            element.set_options(_with(choices, value), value=value or None)
+        if _choices(field):
+            element.set_options(_options(field, value), value=value or None)
         else:
             element.value = value
 
@@ -210,9 +213,10 @@ def _choices(field: Field) -> tuple[str, ...]:
     return field.choices or (field.proposals if len(field.proposals) <= _MAX_CHOICES else ())
 
 
-def _with(choices: Sequence[str], value: str) -> list[str]:
-    """Give the choices, and a value that is none of them but stands in the source."""
-    return [*choices, *([value] if value and value not in choices else [])]
+def _options(field: Field, value: str) -> dict[str, str]:
+    """Give the choices with their words, and a value that is none of them but stands in the source."""
+    choices = (*_choices(field), *([value] if value else ()))
+    return {choice: choice_words(field.name, choice) for choice in choices}
 
 
 def _taken(inputs: Mapping[str, Any], key: str) -> str:

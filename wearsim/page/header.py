@@ -1,43 +1,45 @@
 """The bar above: the file, what can be done with it, and the life always in sight."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from nicegui import ui
 
 
+@dataclass(frozen=True)
+class Action:
+    """Something that a button of the bar does."""
+
+    name: str
+    icon: str
+    run: Callable[[], Any]
+    is_icon_only: bool = False
+
+
 class Header:
     """The bar of the page."""
 
-    def __init__(
-        self,
-        on_new: Callable[[], Any],
-        on_save: Callable[[], Any],
-        on_save_as: Callable[[], Any],
-        on_export: Callable[[], Any],
-    ) -> None:
+    def __init__(self, actions: Sequence[Action]) -> None:
         with ui.header().classes("ws-header"):
             with ui.element("div").classes("ws-file"):
-                ui.label("wearsim").classes("ws-brand")
+                ui.label("wearsim").classes("ws-brand").props("role=heading aria-level=1")
                 self._name = ui.label().classes("ws-name")
                 self._dirty = ui.label("not saved").classes("ws-dirty")
             with ui.element("div").classes("ws-now").props("role=status aria-live=polite"):
                 self._hours = ui.label().classes("ws-now-hours")
                 self._state = ui.label().classes("ws-state")
-            with ui.element("div").classes("ws-buttons"):
-                for text, icon, action in (
-                    ("New", "add", on_new),
-                    ("Save", "save", on_save),
-                    ("Save as", "save_as", on_save_as),
-                    ("Export wheel", "download", on_export),
-                ):
-                    button = ui.button(text, icon=icon, on_click=action)
-                    button.props(f'flat dense no-caps aria-label="{text}"')
+            with ui.element("div").classes("ws-buttons").props('role=group aria-label="Actions"'):
+                self._buttons = {action.name: _button(action) for action in actions}
 
     def show_file(self, name: str, dirty: bool) -> None:
         """Show which file is edited."""
         self._name.text = name
         self._dirty.set_visibility(dirty)
+
+    def enable(self, name: str, can_run: bool) -> None:
+        """Let a button be pressed, or not."""
+        self._buttons[name].set_enabled(can_run)
 
     def show_life(self, text: str) -> None:
         """Show the life, of whichever input the state says."""
@@ -53,3 +55,9 @@ class Header:
         """Show how far the calculation is."""
         lead = self._state.text.partition(" (")[0]
         self._state.text = f"{lead} ({percent} %)"
+
+
+def _button(action: Action) -> Any:
+    shown = "" if action.is_icon_only else action.name
+    button = ui.button(shown, icon=action.icon, on_click=action.run)
+    return button.props(f'flat dense no-caps aria-label="{action.name}"')

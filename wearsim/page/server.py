@@ -27,7 +27,7 @@ def serve(
 ) -> None:
     """Serve pages until the program is interrupted."""
     stopping = threading.Event()
-    ui.page("/", title="wearsim", dark=None)(partial(_page, opened, stopping))
+    ui.page("/", title="wearsim", dark=None, language="en-GB")(partial(_page, opened, stopping))
     app.on_shutdown(stopping.set)
     host = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
     ui.run_with(host, dark=None, reconnect_timeout=_RECONNECT, show_welcome_message=False)

@@ -62,10 +62,11 @@ def assumption_list(stated: Sequence[str], defaults: Sequence[str]) -> None:
         text_element("p", f"Defaults taken: {'; '.join(defaults)}").classes("ws-muted")
 
 
-def used_part(name: str, used: float, text: str) -> None:
-    """Add how much of a limit is used, in words and as a meter."""
-    with ui.element("dd"):
+def used_part(name: str, used: float, text: str) -> ui.element:
+    """Add how much of a limit is used, in words and as a meter; return what holds both."""
+    with ui.element("dd") as place:
         meter = ui.element("meter").props("min=0 max=1 low=0.7 high=0.95 optimum=0")
         meter.props["value"] = round(min(used, 1.0), 4)
         meter.props["aria-label"] = f"used part of {name}"
         ui.label(f"{text} ({100.0 * used:.0f} %)")
+    return place

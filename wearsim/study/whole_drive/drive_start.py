@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -95,37 +94,25 @@ def _at_option(fault: Fault) -> Fault:
     return fault
 
 
-@dataclass(frozen=True)
-class _Amount:
-    """A number as it is written in the case, and in words."""
-
-    toml: str
-    words: str
-
-
-def _as_typed(value: float, text: str | None, unit: str) -> _Amount:
+def _as_typed(value: float, text: str | None, unit: str) -> str:
     """Return a number as it was typed, in the unit of the case where that is as short."""
     number = f"{value:.15g}"
-    words = f"{number} {unit}"
     if text is None or is_plain(text):
-        return _Amount(number, words)
+        return number
     typed = text.strip()
-    return _Amount(number if len(words) <= len(typed) else json.dumps(typed, ensure_ascii=False), typed)
+    return number if len(f"{number} {unit}") <= len(typed) else json.dumps(typed, ensure_ascii=False)
 
 
-def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -> dict[str, Any]:
+def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> dict[str, Any]:
     """Return what the template shows."""
     from wearsim.study.whole_drive.keys import SERVICE_YEARS
 
     factors, (condition, oil) = use_factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
-    power, rpm = amounts["power"], amounts["rpm"]
-    title = f"{chain}, {driver} to {driven} teeth, {power.words} at {rpm.words}"
     iso, load = SHOCKS[values["shock"]]
     shifts = shifts_in_words(values)
     return {
-        "title": json.dumps(title, ensure_ascii=False),
         "chain": chain,
         "driver": driver,
         "driven": driven,
@@ -139,8 +126,8 @@ def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -
         "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
         "factors": factors,
         "limit": _TOO_HARD if factors.joint > _MOST_JOINT_FACTOR else "",
-        "power": power.toml,
-        "rpm": rpm.toml,
+        "power": amounts["power"],
+        "rpm": amounts["rpm"],
         "lubrication": values["lubrication"],
         "why": _WHY[condition],
         "condition": condition,
@@ -151,7 +138,7 @@ def _shown(values: Values, amounts: Mapping[str, _Amount], drive: "DriveCase") -
     }
 
 
-def _length(values: Values, amounts: Mapping[str, _Amount], case: "Case") -> str:
+def _length(values: Values, amounts: Mapping[str, str], case: "Case") -> str:
     """Return the line of the case that says how long the drive is."""
     from wearsim.chain.drive_layout import DriveLayout
     from wearsim.mechanisms.wrap.drive import WrapDrive
@@ -162,7 +149,7 @@ def _length(values: Values, amounts: Mapping[str, _Amount], case: "Case") -> str
     distance = f"{layout.centre_distance:.6g} mm between the axes"
     if values["centre"] is not None:
         even = f"{layout.links} links, the next even number, take {layout.centre_distance:.6g} mm"
-        return f"centre_distance_mm = {amounts['centre'].toml}  # of the axes; {even}"
+        return f"centre_distance_mm = {amounts['centre']}  # of the axes; {even}"
     if values["links"] is not None:
         return f"links = {layout.links}  # {distance}; or centre_distance_mm"
     return f"links = {layout.links}  # about 40 pitches, {distance}; or centre_distance_mm"

@@ -1,0 +1,112 @@
+"""Plain words for keys and for the words that a key takes."""
+
+from wearsim.report.key_words import key_words
+
+_LABELS = {
+    "applies_to": "Factor acts on",
+    "back_flank": "Back of the tooth",
+    "band_factor": "Wear coefficient may be off by a factor of",
+    "case_depth_mm": "Depth of the hard layer",
+    "coefficient": "Coefficient of the law",
+    "condition": "Material and lubrication of the teeth",
+    "contact_end_mm": "End of contact, at the root",
+    "contact_limit_MPa": "Contact stress limit",
+    "contact_start_mm": "Start of contact, at the tip",
+    "core_factor": "Factor on wear below the hard layer",
+    "critical_depth_mm": "Greatest depth of wear",
+    "designation": "Chain",
+    "displaced": "Halves of the gap moved apart",
+    "duty_file": "File of the load spectrum",
+    "dxf_file": "Drawing (DXF)",
+    "dxf_layer": "Layer of the drawing",
+    "elongation_percent": "Elongation of the chain",
+    "engaged_every": "A roller in every n-th gap",
+    "form": "Gap form",
+    "format_version": "Version of the input format",
+    "friction_roller_bush": "Friction, roller on bush",
+    "friction_roller_tooth": "Friction, roller on tooth",
+    "guide_deg": "Direction of travel",
+    "hardness_HB": "Brinell hardness",
+    "hardness_HRC": "Rockwell hardness",
+    "high": "Highest value",
+    "horizon_hours": "Longest time that is calculated",
+    "joint_application_factor": "Use factor of the joint pressure",
+    "kind": "What touches the flank",
+    "km_per_hour": "Distance run in an hour",
+    "law": "Wear law",
+    "life_tolerance": "Error of the life that is allowed",
+    "links": "Links of the chain",
+    "low": "Lowest value",
+    "mass_kg_per_m": "Mass of a metre",
+    "mate_teeth": "Teeth of the other sprocket",
+    "method": "Method of calculation",
+    "min_slack_tension_N": "Least slack tension",
+    "min_tip_land_mm": "Least width of the tooth tip",
+    "min_tooth_thickness_mm": "Least tooth thickness",
+    "nodes": "Points along the flank",
+    "over_pins_change_mm": "Change of the size over pins",
+    "phases": "Phases of a pitch",
+    "points_file": "File of flank points",
+    "poissons_ratio": "Poisson's ratio",
+    "profile": "Tooth form",
+    "regime": "Loading regime",
+    "replace_at_percent": "New chain at an elongation of",
+    "role": "Driver, driven or idler",
+    "roller_slip_fraction": "Sliding of the roller, as a fraction",
+    "sag_percent": "Sag of the slack span",
+    "seat_centre": "Centre of the seat arc",
+    "service_factor": "Service factor",
+    "table_file": "File of load and sliding",
+    "tonnes_per_hour": "Tonnes in an hour",
+    "travel_mm": "Ends of the take-up's travel",
+    "treatment": "Heat treatment",
+    "turn_sprocket": "Turn the worn sprocket over",
+    "youngs_modulus_MPa": "Young's modulus",
+}
+"""Where the key itself is no plain word."""
+
+_CONDITIONS = {
+    "hardened, oiled": "hardened teeth, oil on teeth and joints at all times",
+    "normalised, greased": "softer teeth, grease or oil now and then",
+    "hardened, dry": "hardened teeth, no lubricant",
+    "unhardened, dry": "soft teeth, no lubricant",
+    "soil-contaminated": "soil or sand on the chain, as in tracks and field machines",
+}
+_LUBRICATIONS = {
+    "drip": "oil drips on the chain",
+    "oil-bath": "the chain dips into oil",
+    "forced": "a pump sprays oil on the chain",
+    "periodic": "oil by hand now and then",
+    "grease": "grease now and then",
+    "dry": "none",
+}
+_SHOCKS = {
+    "smooth": "even load, such as a fan or a belt conveyor",
+    "moderate": "uneven load, such as a mixer or a piston pump",
+    "heavy": "shocks, such as a crusher or a press",
+}
+_WORDS = {"condition": _CONDITIONS, "lubrication": _LUBRICATIONS, "shock": _SHOCKS}
+
+
+def label(name: str) -> str:
+    """Return what a key is called in plain words.
+
+    Examples
+    --------
+    >>> label("tension_N"), label("profile"), label("centre_distance_mm")
+    ('Tension', 'Tooth form', 'Centre distance')
+    """
+    words = key_words(name)
+    return _LABELS.get(name, words[0].upper() + words[1:])
+
+
+def choice_words(name: str, choice: str) -> str:
+    """Return a word that a key takes, with what it means where that does not go without saying.
+
+    Examples
+    --------
+    >>> choice_words("condition", "hardened, dry"), choice_words("profile", "iso606")
+    ('hardened, dry: hardened teeth, no lubricant', 'iso606')
+    """
+    meaning = _WORDS.get(name, {}).get(choice)
+    return f"{choice}: {meaning}" if meaning else choice
