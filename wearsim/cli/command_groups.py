@@ -37,7 +37,7 @@ from wearsim.study.uncertainty.command import uncertainty
 
 COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
     "Design": {
-        init: "wearsim init --chain 12B-1 --teeth 25 --out drive.toml",
+        init: "wearsim init --chain 12B-1 --driver 21 --driven 57 --out drive.toml",
         select: "wearsim select --power 3 --rpm 120 --ratio 2.7 --hours 15000",
         check: "wearsim check packaging-conveyor",
         loads: "wearsim loads a40-19t-rating --elongation 1",
