@@ -9,7 +9,6 @@ import pytest
 import wearsim
 from wearsim.catalogue.catalogues import environments, lubricants
 from wearsim.errors import CaseError
-from wearsim.input.schema.lubrication_tables import LubricantOption, LubricationPhase, LubricationTable
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -47,22 +46,6 @@ def faults(tables: dict[str, Any], *settings: str) -> str:
     with pytest.raises(CaseError) as caught:
         wearsim.load_case(tables, settings)
     return str(caught.value)
-
-
-@pytest.mark.parametrize(
-    "setting",
-    [
-        "interval_hours=25",
-        "lasts_hours=9",
-        "fades_over_hours=5",
-        "dry_factor=12",
-        "completeness=0.5",
-        "contamination_factor=2",
-        "ageing_factor=3",
-    ],
-)
-def test_key_moves_the_life(setting: str) -> None:
-    assert hours(STRAND, f"lubrication.{setting}") != pytest.approx(hours(STRAND), rel=1e-3)
 
 
 def _with(**changes: Any) -> dict[str, Any]:
@@ -126,41 +109,12 @@ PHASES: list[dict[str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"hours": 70.0},
-        {"contaminations": 0},
-        {"relubrications": 5},
-        {"contamination_factor": 5.0},
-        {"ageing_factor": 20.0},
-        {"environment": "mud", "contamination_factor": None},
-    ],
-    ids=lambda change: next(iter(change)),
-)
-def test_key_of_a_phase_moves_the_life(change: dict[str, Any]) -> None:
-    base = _with(interval_hours=None, phase=PHASES, contamination_removed=0.5)
-    second = {key: value for key, value in {**PHASES[1], **change}.items() if value is not None}
-    changed = _with(interval_hours=None, phase=[PHASES[0], second], contamination_removed=0.5)
-    assert hours(changed) != pytest.approx(hours(base), rel=1e-4)
-
-
 def test_dirt_that_stays_moves_the_life() -> None:
     phases = [PHASES[1], {"hours": 20.0, "relubrications": 3, "contamination_factor": 1.0}]
     lives = [
         hours(_with(interval_hours=None, phase=phases, contamination_removed=part)) for part in (0.2, 0.9)
     ]
     assert lives[0] < lives[1]
-
-
-def test_every_key_is_tried() -> None:
-    """Those of no life are prices and other lubricants, of `wearsim lubricate`."""
-    text = Path(__file__).read_text(encoding="utf-8") + Path(__file__).with_name(
-        "test_cli_lubricate.py"
-    ).read_text(encoding="utf-8")
-    for table in (LubricationTable, LubricationPhase, LubricantOption):
-        for key in table.model_fields:
-            assert any(f"{mark}{key}{end}" in text for mark in '" .' for end in '="'), key
 
 
 @pytest.mark.parametrize("name", list(lubricants()))

@@ -9,6 +9,7 @@ import wearsim
 from wearsim.case.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.schema import CaseTables
+from wearsim.input.schema.lubrication_tables import LubricantOption
 from wearsim.report.flank_view import profile_table
 
 WITHOUT_EFFECT = {
@@ -27,6 +28,13 @@ WITHOUT_EFFECT = {
     "service.tonnes_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.start_date": "only how hours are shown (tests/cli/test_cli_maintain.py)",
+    "lubrication.minutes_per_application": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
+    "lubrication.price_per_application": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
+    "lubrication.labour_cost_per_hour": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
+    **{
+        f"lubrication.option.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"
+        for key in LubricantOption.model_fields
+    },
     "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
     **{
         f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
@@ -94,6 +102,19 @@ OWN_CHAIN = {
     "mass_kg_per_m": 0.7,
 }
 
+AGEING = {"lubricant": "manual", "lasts_hours": 12.0, "fades_over_hours": 8.0}
+LUBRICATED = {
+    **AGEING,
+    "interval_hours": 30.0,
+    "dry_factor": 20.0,
+    "completeness": 0.9,
+    "contamination_factor": 1.5,
+}
+PHASES = [
+    {"hours": 20.0, "contaminations": 7, "contamination_factor": 3.0, "relubrications": 2},
+    {"km": 200.0, "relubrications": 3},
+]
+
 BASES = {
     "strand": STRAND,
     "wrap": WRAP,
@@ -137,6 +158,50 @@ BASES = {
     "own chain": edited(
         STRAND, chain={"pitch_mm": 25.4, "roller_diameter_mm": 15.88, "inner_width_mm": 17.02}
     ),
+    "lubricated": edited(STRAND, wear=None, stop=None, lubrication=LUBRICATED, service={"km_per_hour": 10}),
+    "by km": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        service={"km_per_hour": 10},
+        lubrication={"lubricant": "manual", "interval_km": 300.0, "lasts_km": 120.0, "fades_over_km": 80.0},
+    ),
+    "by way": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        lubrication={
+            "lubricant": "manual",
+            "interval_sliding_m": 20.0,
+            "lasts_sliding_m": 10.0,
+            "fades_over_sliding_m": 8.0,
+        },
+    ),
+    "programme": edited(
+        STRAND, wear=None, stop=None, service={"km_per_hour": 10}, lubrication={**AGEING, "phase": PHASES}
+    ),
+    "km programme": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        service={"km_per_hour": 10},
+        lubrication={**AGEING, "phase": PHASES[::-1]},
+    ),
+    "at times": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        service={"km_per_hour": 10},
+        lubrication={**AGEING, "at_hours": [30.0, 60.0]},
+    ),
+    "at km": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        service={"km_per_hour": 10},
+        lubrication={**AGEING, "at_km": [300.0, 600.0]},
+    ),
+    "by rate": edited(STRAND, wear=None, stop=None, lubrication={**AGEING, "when_rate_exceeds": 4.0}),
     "default width": edited(
         STRAND,
         chain={"pitch_mm": 25.4, "roller_diameter_mm": 15.88, "inner_width_mm": 17.02},
@@ -381,6 +446,44 @@ CHANGES |= {
     "duty.speed_rpm": [("duty", 51), ("duty of cycles", 51)],
     "duty.wear_factor": [("duty", 2), ("duty", 0, "duty.1.wear_factor")],
     "duty.applies_to": [("wrap duty", "joints"), ("duty", "joints", "duty.1.applies_to")],
+    "lubrication.lubricant": [
+        ("lubricated", "wet drip"),
+        ("lubricated", "drip", "lubrication.interval_hours"),
+    ],
+    "lubrication.environment": [
+        ("programme", "dust"),
+        ("lubricated", "clean", "lubrication.contamination_factor"),
+    ],
+    "lubrication.interval_hours": [("lubricated", 25.0), ("lubricated", 2e6, "lubrication.interval_hours")],
+    "lubrication.interval_km": [("by km", 250.0), ("lubricated", 9.0, "lubrication.interval_km")],
+    "lubrication.interval_sliding_m": [("by way", 25.0)],
+    "lubrication.at_hours": [("at times", [30.0]), ("lubricated", [1.0], "lubrication.at_hours")],
+    "lubrication.at_km": [("at km", [300.0]), ("by way", [3.0], "lubrication.at_km")],
+    "lubrication.when_rate_exceeds": [("by rate", 8.0), ("by rate", 0.5, "lubrication.when_rate_exceeds")],
+    "lubrication.lasts_hours": [("lubricated", 9.0), ("lubricated", -1.0, "lubrication.lasts_hours")],
+    "lubrication.lasts_km": [("by km", 90.0), ("lubricated", 9.0, "lubrication.lasts_km")],
+    "lubrication.lasts_sliding_m": [("by way", 9.0)],
+    "lubrication.fades_over_hours": [("lubricated", 5.0)],
+    "lubrication.fades_over_km": [("by km", 50.0)],
+    "lubrication.fades_over_sliding_m": [("by way", 5.0)],
+    "lubrication.dry_factor": [("lubricated", 12.0), ("lubricated", 0.5, "lubrication.dry_factor")],
+    "lubrication.completeness": [("lubricated", 0.5), ("lubricated", 1.1, "lubrication.completeness")],
+    "lubrication.contamination_factor": [("lubricated", 2.0)],
+    "lubrication.ageing_factor": [("lubricated", 3.0)],
+    "lubrication.contamination_removed": [("programme", 0.2)],
+    "lubrication.phase.hours": [("programme", 30.0), ("programme", -1.0, "lubrication.phase.1.hours")],
+    "lubrication.phase.km": [("km programme", 150.0), ("programme", 20.0, "lubrication.phase.1.hours")],
+    "lubrication.phase.environment": [
+        ("programme", "mud"),
+        ("programme", "clean", "lubrication.phase.1.contamination_factor"),
+    ],
+    "lubrication.phase.contamination_factor": [("programme", 5.0)],
+    "lubrication.phase.ageing_factor": [("programme", 20.0)],
+    "lubrication.phase.relubrications": [("programme", 5)],
+    "lubrication.phase.contaminations": [
+        ("programme", 0),
+        ("programme", -1, "lubrication.phase.1.contaminations"),
+    ],
     "load.regime": [("regime", "III"), ("duty", "I", "load.regime")],
     "load.duty_file": [("log", "other_duty.csv"), ("strand", "duty.csv", "load.tension_N")],
     "fatigue.load_factor": [

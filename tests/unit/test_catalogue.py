@@ -241,7 +241,7 @@ def test_wear_conditions_are_bands_around_a_typical_value():
 
 def test_lubricated_joints_wear_less_than_dry_and_contaminated_ones():
     """One rate tells the two states apart: 1e-9 mm2/N, the end of the boundary-lubricated range."""
-    for condition in wear_conditions().values():
+    for condition in (row for row in wear_conditions().values() if row.machine == "any"):
         greatest, least = condition.joint_high, condition.joint_low
         assert greatest <= 1e-9 if condition.lubricated else least >= 1e-9
 

@@ -25,6 +25,7 @@ BASES, CHANGES, OWN_CHAIN, WRAP, draw, edited = (
 )
 
 WITHOUT_EFFECT = {
+    **{key: why for key, why in OF_ONE["WITHOUT_EFFECT"].items() if key.startswith("lubrication.")},
     "title": "only shown above the answer",
     "maintenance.downtime_hours": "only the plan (tests/cli/test_drive_plan.py)",
     "maintenance.downtime_cost_per_hour": "only the plan (tests/cli/test_drive_plan.py)",
@@ -279,6 +280,17 @@ WALK = [
     (key, MORE[base], value, *named)
     for key, changes in OWN_CHANGES.items()
     for base, value, *named in changes
+]
+
+WALK += [
+    (
+        key,
+        edited(TWO, wear=None, **{name: BASES[base].get(name) for name in ("lubrication", "service")}),
+        value,
+    )
+    for key, changes in CHANGES.items()
+    for base, value, *named in changes
+    if key.startswith("lubrication.") and not named
 ]
 
 

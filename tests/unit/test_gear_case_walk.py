@@ -12,10 +12,20 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
+from wearsim.input.schema.lubrication_tables import LubricantOption
 from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.simulation.batch_lives import CaseLife
 
 WITHOUT_EFFECT = {
+    **{
+        f"lubrication.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"
+        for key in (
+            "minutes_per_application",
+            "price_per_application",
+            "labour_cost_per_hour",
+            *(f"option.{name}" for name in LubricantOption.model_fields),
+        )
+    },
     "format_version": "1 only",
     "title": "only shown",
     "mechanism.kind": "one value",
@@ -100,6 +110,13 @@ STRESS = {
     "last_pitch_point_distance_mm": 7.0,
     "nodes": 61,
 }
+AGEING: dict[str, Any] = {"lasts_hours": 4.0, "fades_over_hours": 2.0, "dry_factor": 20.0}
+LUBRICATED = {**AGEING, "interval_hours": 8.0, "completeness": 0.9, "contamination_factor": 1.5}
+WAYS = {"interval_sliding_m": 200.0, "lasts_sliding_m": 100.0, "fades_over_sliding_m": 50.0}
+PHASES = [
+    {"hours": 5.0, "contaminations": 7, "contamination_factor": 3.0, "relubrications": 2},
+    {"hours": 5.0, "relubrications": 3},
+]
 BASES = {
     "convex": edited(gear=CONVEX),
     "stress": edited(gear=STRESS, load={"torque_N_m": 240, "speed_rpm": 100}),
@@ -108,6 +125,11 @@ BASES = {
     "drozdov": edited(wear=DROZDOV),
     "rigid": edited(("mechanism.load_sharing", "rigid")),
     "running in": edited(("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)),
+    "lubricated": edited(lubrication=LUBRICATED),
+    "by way": edited(lubrication={**WAYS, "dry_factor": 20.0}),
+    "programme": edited(lubrication={**AGEING, "phase": PHASES}),
+    "at times": edited(lubrication={**AGEING, "at_hours": [4.5, 5.0]}),
+    "by rate": edited(lubrication={**AGEING, "when_rate_exceeds": 4.0}),
     "fatigue": edited(fatigue={"pinion": STEEL, "wheel": STEEL}),
     "per cycle": edited(
         ("run.method", "per_cycle"),
@@ -234,12 +256,50 @@ def test_every_key_is_covered_and_no_other(leaves: Callable[[type[BaseModel]], l
     assert sorted([*CHANGES, *WITHOUT_EFFECT]) == sorted(leaves(GearTables))
 
 
+CHANGES |= {
+    f"lubrication.{key}": changes
+    for key, changes in {
+        "interval_hours": [("lubricated", 7.0), ("lubricated", 2e6, "lubrication.interval_hours")],
+        "interval_sliding_m": [("by way", 250.0)],
+        "at_hours": [("at times", [4.8]), ("lubricated", [1.0], "lubrication.at_hours")],
+        "when_rate_exceeds": [("by rate", 8.0)],
+        "lasts_hours": [("lubricated", 3.0)],
+        "lasts_sliding_m": [("by way", 90.0)],
+        "fades_over_hours": [("lubricated", 1.0)],
+        "fades_over_sliding_m": [("by way", 40.0)],
+        "dry_factor": [("lubricated", 12.0)],
+        "completeness": [("lubricated", 0.5)],
+        "contamination_factor": [("lubricated", 2.0)],
+        "ageing_factor": [("lubricated", 3.0)],
+        "contamination_removed": [("programme", 0.2)],
+        "phase.hours": [("programme", [{"hours": 7.0}])],
+        "phase.contamination_factor": [("programme", [{**PHASES[0], "contamination_factor": 4.0}])],
+        "phase.ageing_factor": [("programme", [{**PHASES[0], "ageing_factor": 9.0}])],
+        "phase.relubrications": [("programme", [{**PHASES[0], "relubrications": 5}])],
+        "phase.contaminations": [("programme", [{**PHASES[0], "contaminations": 0}])],
+        "lubricant": [("lubricated", "drip", "lubrication.lubricant")],
+        "environment": [("lubricated", "dust", "lubrication.environment")],
+        **{
+            key: [("programme", 3.0, f"lubrication.{key}")]
+            for key in ("interval_km", "lasts_km", "fades_over_km")
+        },
+        "at_km": [("programme", [3.0], "lubrication.at_km")],
+        "phase.environment": [
+            ("programme", [{"hours": 7.0, "environment": "dust"}], "lubrication.phase.1.environment")
+        ],
+        "phase.km": [("programme", [{"km": 7.0}], "lubrication.phase.1.km")],
+    }.items()
+}
+
 ALL = [(key, *change) for key, changes in CHANGES.items() for change in changes]
 
 
 @pytest.mark.parametrize("change", ALL, ids=lambda change: "-".join(map(str, change[:3])))
 def test_a_changed_key_changes_the_result_or_is_named(change: tuple[Any, ...]) -> None:
     key, base, value, *named = change
+    if isinstance(value, list) and "phase." in key:
+        # A list of tables is given whole.
+        key = "lubrication.phase"
     tables = with_keys(BASES[base], (key, value))
     if named:
         with pytest.raises(wearsim.CaseError) as error:

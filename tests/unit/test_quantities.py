@@ -121,7 +121,7 @@ def calculation_columns(path, folder):
 
 
 def catalogue_columns():
-    for table in ("chains", "materials", "wear_conditions", "regimes"):
+    for table in ("chains", "materials", "wear_conditions", "lubricants", "environments", "regimes"):
         yield from catalogue_rows(table)[0]
     yield from Quantity.__annotations__
     yield "file"

@@ -11,6 +11,7 @@ from wearsim.page.field_words import choice_words, label
 from wearsim.page.fields import form_fields, owner, table_meaning, table_title
 from wearsim.quantities import quantities
 
+LUBRICATION = {"lubrication": {"phase": [{}], "option": [{}]}}
 DRIVE = {
     "sprocket": [{"name": "chainring", "teeth": 50}, {"cog": [{"teeth": 11}, {"teeth": 13}]}, {"teeth": 12}]
 }
@@ -19,9 +20,9 @@ DRIVE = {
 @pytest.mark.parametrize(
     ("data", "model"),
     [
-        ({"duty": [{}]}, CaseTables),
-        ({"gear": {}}, GearTables),
-        ({"duty": [{}], "sprocket": [{"cog": [{}]}]}, DriveTables),
+        ({"duty": [{}], **LUBRICATION}, CaseTables),
+        ({"gear": {}, **LUBRICATION}, GearTables),
+        ({"duty": [{}], **LUBRICATION, "sprocket": [{"cog": [{}]}]}, DriveTables),
     ],
 )
 def test_every_key_has_one_field_with_unit_and_meaning(data, model):
@@ -90,6 +91,8 @@ def test_kinds_of_fields():
     assert not fields["load.power_kW"].is_text and not fields["load.duty_bins"].is_text
     assert "16B-1" in fields["chain.designation"].proposals
     assert "hardened, oiled" in fields["wear.condition"].proposals
+    assert "oil bath" in fields["lubrication.lubricant"].proposals
+    assert "dust" in fields["lubrication.environment"].proposals
     assert fields["sprocket.teeth"].required and not fields["sprocket.nodes"].required
     assert fields["run.horizon_hours"].default == "1e+06"
     assert fields["wear.law"].default == "archard"

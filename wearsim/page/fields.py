@@ -6,7 +6,7 @@ from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.catalogue.catalogues import catalogue_rows, chains, wear_conditions
+from wearsim.catalogue.catalogues import catalogue_rows, chains, environments, lubricants, wear_conditions
 from wearsim.input.keys import parts, schema_fields, schema_of, tables_in, words
 from wearsim.input.schema import Table
 from wearsim.quantities import quantities
@@ -186,6 +186,10 @@ def _proposals(key: str) -> tuple[str, ...]:
         return tuple(chains())
     if key.endswith("wear.condition"):
         return tuple(wear_conditions())
+    if key.endswith(".lubricant"):
+        return tuple(lubricants())
+    if key.endswith(".environment"):
+        return tuple(environments())
     if "material." in key and key.endswith(".name"):
         return tuple(row["name"] for row in catalogue_rows("materials"))
     return ()

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from wearsim.input.schema.drive_tables import (
     ChainTable,
@@ -17,7 +17,7 @@ from wearsim.input.schema.drive_tables import (
 )
 from wearsim.input.schema.lubrication_tables import LubricationTable
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
-from wearsim.input.schema.table import FormatVersion, Table
+from wearsim.input.schema.table import FormatVersion, Table, describe
 from wearsim.input.schema.wear_tables import (
     MaterialsTable,
     MaterialTable,
@@ -52,8 +52,17 @@ __all__ = [
 ]
 
 
+def _wear_or_lubricant(schema: dict[str, Any]) -> None:
+    """Let a schema ask for [wear] only where no lubricant gives the wear condition."""
+    describe(schema)
+    schema["required"] = [name for name in schema["required"] if name != "wear"]
+    schema["anyOf"] = [{"required": ["wear"]}, {"required": ["lubrication"]}]
+
+
 class CaseTables(Table):
     """The tables of an input file as they were given."""
+
+    model_config = ConfigDict(json_schema_extra=_wear_or_lubricant)
 
     format_version: FormatVersion
     title: str = ""

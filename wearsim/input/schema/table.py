@@ -12,7 +12,8 @@ from wearsim.catalogue.catalogues import nearest
 from wearsim.quantities import quantities
 
 
-def _describe(schema: dict[str, Any]) -> None:
+def describe(schema: dict[str, Any]) -> None:
+    """Add to the schema of a table what its keys mean."""
     for name, entry in schema.get("properties", {}).items():
         entry.pop("title", None)
         _without_null(entry)
@@ -65,7 +66,7 @@ def _without_unit(key: str) -> tuple[str, float]:
 class Table(BaseModel):
     """A table of the input file; closed to unknown keys, strict in its types."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, json_schema_extra=_describe)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, json_schema_extra=describe)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
