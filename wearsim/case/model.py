@@ -160,8 +160,8 @@ class Drive:
 class WearInput:
     """The wear law as it was given."""
 
-    law: str  # `archard`, `power` or `drozdov`
-    coefficient: float  # k [mm2/N], K [1/MPa^m] or the intensity K
+    law: str  # a law of the registry, `wearsim list wear-laws`
+    coefficient: float  # k [mm2/N], K [1/MPa^m], the intensity K, or a factor on published constants
     pressure_exponent: float  # m; 1 for archard
     # hardness, reference_speed, speed_exponent: H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for
     # the others
@@ -181,6 +181,27 @@ class WearInput:
     # [mm] over which the excess falls to 1/e
     running_in_factor: float = 1.0
     running_in_distance: float = 1.0
+    # cycles_exponent, reference_hours: power of the accumulated cycles, and the running time [h] after which
+    # as much has worn as by a constant coefficient
+    cycles_exponent: float = 1.0
+    reference_hours: float = 1.0
+    # pv_limit, severe_factor: peak pressure times sliding speed [MPa mm/s] beyond which the coefficient is so
+    # many times as high
+    pv_limit: float = math.inf
+    severe_factor: float = 1.0
+    friction: float = 0.0  # coefficient of friction, of `t_gamma`
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the coefficient does not change with the cycles run."""
+        return self.running_in_factor == 1.0 and self.cycles_exponent == 1.0
+
+    @property
+    def changes_with_load(self) -> str:
+        """Key of [wear] by which the mechanism of wear changes with load and speed; empty for none."""
+        if self.severe_factor != 1.0:
+            return "pv_limit_MPa_mm_per_s"
+        return "law" if self.law == "t_gamma" else ""
 
 
 @dataclass(frozen=True)

@@ -104,6 +104,7 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
         hardness=table.hardness_MPa or 1.0,
         reference_speed=table.reference_speed_mm_per_s or 1.0,
         speed_exponent=table.speed_exponent or 0.0,
+        friction=table.friction_coefficient or 0.0,
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",
@@ -118,6 +119,10 @@ def _changing(table: WearTable, wear: WearInput) -> WearInput:
         wear = replace(
             wear, running_in_factor=table.running_in_factor, running_in_distance=table.running_in_distance_mm
         )
+    if table.cycles_exponent is not None and table.reference_hours is not None:
+        wear = replace(wear, cycles_exponent=table.cycles_exponent, reference_hours=table.reference_hours)
+    if table.pv_limit_MPa_mm_per_s is not None and table.severe_factor is not None:
+        wear = replace(wear, pv_limit=table.pv_limit_MPa_mm_per_s, severe_factor=table.severe_factor)
     if table.roller_wear_ratio is not None:
         wear = replace(wear, roller_ratio=table.roller_wear_ratio)
     return wear

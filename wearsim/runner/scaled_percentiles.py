@@ -19,7 +19,7 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     L k / k_(1-p).
     """
     table = result.inputs.get("uncertainty") or {}
-    steady = not case.drive.wear_coefficients and case.wear.running_in_factor == 1.0
+    steady = not case.drive.wear_coefficients and case.wear.is_steady
     alone = list(table) == [coefficient_key(case)] and not result.fatigue
     if not alone or not steady or not isinstance(result.life, Life):
         return []
@@ -30,10 +30,14 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
 
 
 def check_steady_coefficient(case: Case, command: str) -> None:
-    """Raise where the wear of a case runs in."""
-    if case.wear.running_in_factor != 1.0:
-        message = (
-            f"{command!r} scales lives, which holds for a constant coefficient only: remove "
-            "running_in_factor and running_in_distance_mm"
-        )
-        raise CaseError([Fault(message, "wear.running_in_factor", case.name)])
+    """Raise where the wear coefficient of a case changes with the cycles run."""
+    if case.wear.is_steady:
+        return
+    runs_in = case.wear.running_in_factor != 1.0
+    key, other = (
+        ("running_in_factor", "running_in_distance_mm") if runs_in else ("cycles_exponent", "reference_hours")
+    )
+    message = (
+        f"{command!r} scales lives, which holds for a constant coefficient only: remove {key} and {other}"
+    )
+    raise CaseError([Fault(message, f"wear.{key}", case.name)])

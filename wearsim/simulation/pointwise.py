@@ -15,9 +15,9 @@ from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, sett
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.simulation.wear_task import (
     WearTask,
+    clock_assumptions,
     limit_states,
     new_flank_pressure,
-    running_in_assumptions,
     wear_task,
 )
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
@@ -67,7 +67,7 @@ def simulate_points(case: Case) -> WearResult:
         ratings=(),
         assumptions=(
             *mechanism.assumptions(),
-            *running_in_assumptions(task.running_in),
+            *clock_assumptions(task.running_in),
             *settled.assumptions(),
             *case.assumptions,
         ),

@@ -16,15 +16,15 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.wear_task import case_running_in, limit_states, running_in_assumptions, wear_law
+from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
-from wearsim.wear.running_in import RunningIn
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
+from wearsim.wear.wear_clock import WearClock
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
@@ -88,7 +88,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         parts=parts,
         limits=_limits(contact, drive, stop_limits, run, life),
         ratings=ratings,
-        assumptions=(*contact.assumptions(), *running_in_assumptions(running_in), *case.assumptions),
+        assumptions=(*contact.assumptions(), *clock_assumptions(running_in), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -100,7 +100,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
 
 def wrap_problem(case: Case, contact: WrapContact) -> tuple[WearLaw, tuple[StopLimit, ...], float]:
     """Return what a wrap asks of the wear engine."""
-    running_in = case_running_in(case.wear, contact.sliding_per_cycle)
+    running_in = case_clock(case, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=running_in)
     stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
     return law, stop_limits, running_in.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
@@ -168,7 +168,7 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     ]
 
 
-def _chain_life(case: Case, contact: WrapContact, horizon: float, running_in: RunningIn) -> Life | LowerBound:
+def _chain_life(case: Case, contact: WrapContact, horizon: float, running_in: WearClock) -> Life | LowerBound:
     """Life of a chain: apart from running-in its joints wear at a constant rate."""
     cycles = contact.cycles_per_chain
     run = float(running_in.running_cycles(np.array([min(cycles, horizon)]))[0])
@@ -190,7 +190,7 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def _scaled(life: Life | LowerBound, factor: float, case: Case, running_in: RunningIn) -> Life | LowerBound:
+def _scaled(life: Life | LowerBound, factor: float, case: Case, running_in: WearClock) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
     steady = running_in.steady_cycles(life.cycles_run)
     scaled = running_in.running_cycles(np.array([steady / factor]))
