@@ -10,7 +10,14 @@ from pydantic import ValidationError
 
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
 from wearsim.case.model import Case, Drive, WearInput
-from wearsim.case.table_inputs import contact_modulus_of, fatigue_input, run_input, take_defaults, wear_input
+from wearsim.case.table_inputs import (
+    contact_modulus_of,
+    fatigue_input,
+    film_input,
+    run_input,
+    take_defaults,
+    wear_input,
+)
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
@@ -89,6 +96,7 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
         given=document.given,
+        film=film_input(tables.film),
     )
 
 

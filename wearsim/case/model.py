@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
 from wearsim.case.input_lines import input_lines
 from wearsim.chain.selection import RatingFinding
-from wearsim.contact.engagement import FlankContact, Mechanism
+from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
 from wearsim.errors import CaseError, Fault
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
@@ -115,6 +117,18 @@ class Drive:
         """Return what loads every point of the flank once a cycle."""
         raise NotImplementedError(f"{type(self).__name__}: mates rest in the outline")
 
+    def entrainment_speed(self, case: "Case", touch: Engagement) -> Vector:
+        """Return the mean speed of both surfaces towards their contact [mm/s], nan where it is not known.
+
+        The contact runs along the flank at v_t, so that its surface comes at v_t and that of a mate that slides
+        at v_t - v_s.
+        """
+        if touch.kind is not ContactKind.TRAVELLING:
+            return np.full(touch.slip.size, np.nan)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rolling = touch.sliding_speed / touch.slip
+        return np.abs(rolling - 0.5 * touch.sliding_speed)
+
     def stop_limits(self, case: "Case", contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return what ends the life of a flank with this contact, the critical depth first."""
         return self.tooth_limits(case)
@@ -205,6 +219,15 @@ class WearInput:
 
 
 @dataclass(frozen=True)
+class FilmInput:
+    """The oil between the flanks and their roughness."""
+
+    viscosity: float  # dynamic [MPa s]
+    pressure_viscosity: float  # [1/MPa]
+    roughness: float  # composite, rms [mm]
+
+
+@dataclass(frozen=True)
 class RunInput:
     """How the life is calculated."""
 
@@ -265,6 +288,8 @@ class Case:
         What was taken for granted, and what the user should look at.
     given : GivenInput or None
         What it was read from; None for one sprocket of a whole drive.
+    film : FilmInput or None
+        The oil between the flanks; None where it is not given.
     """
 
     name: str
@@ -286,6 +311,7 @@ class Case:
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     given: GivenInput | None = None
+    film: FilmInput | None = None
 
     def __repr__(self) -> str:
         return one_line("Case", self.title, f"{len(self.assumptions)} assumptions", *self.warnings[:1])

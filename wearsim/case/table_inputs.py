@@ -5,13 +5,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from wearsim.case.duty_blocks import GivenLoad
-from wearsim.case.model import FatigueInput, RunInput, WearInput
+from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.case_record import CaseRecord, ChainRecord
 from wearsim.input.schema import MaterialTable, RunTable, SprocketTable, Table, WearTable
-from wearsim.input.schema.wear_tables import FatigueTable, FlankMaterialTable
+from wearsim.input.schema.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
@@ -76,6 +76,15 @@ def run_input(case: CaseRecord, table: RunTable, tolerance: float) -> RunInput:
         case.take("run.life_tolerance", tolerance, "default")
     return RunInput(
         table.method, table.cycles_per_update or 1, table.life_tolerance or tolerance, table.horizon_hours
+    )
+
+
+def film_input(table: FilmTable | None) -> FilmInput | None:
+    """Return the oil between the flanks."""
+    if table is None:
+        return None
+    return FilmInput(
+        1e-9 * table.viscosity_mPa_s, 1e-3 * table.pressure_viscosity_per_GPa, 1e-3 * table.roughness_um
     )
 
 

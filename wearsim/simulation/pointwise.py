@@ -11,6 +11,7 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
+from wearsim.simulation.film_ratio import film_assumptions
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.simulation.wear_task import (
@@ -68,6 +69,7 @@ def simulate_points(case: Case) -> WearResult:
         assumptions=(
             *mechanism.assumptions(),
             *clock_assumptions(task.running_in),
+            *film_assumptions(case),
             *settled.assumptions(),
             *case.assumptions,
         ),

@@ -18,6 +18,7 @@ from wearsim.input.schema.drive_tables import (
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.input.schema.table import FormatVersion, Table
 from wearsim.input.schema.wear_tables import (
+    FilmTable,
     MaterialsTable,
     MaterialTable,
     RunTable,
@@ -64,6 +65,7 @@ class CaseTables(Table):
     load: LoadTable = LoadTable()
     duty: list[DutyBlock] = Field(default_factory=list)
     wear: WearTable
+    film: FilmTable | None = None
     fatigue: SprocketFatigueTable | None = None
     stop: StopTable = StopTable()
     run: RunTable = RunTable()

@@ -157,6 +157,14 @@ class RunTable(Table):
         return [("cycles_per_update", message)]
 
 
+class FilmTable(Table):
+    """The oil between the flanks and their roughness."""
+
+    viscosity_mPa_s: Annotated[Positive, Field(ge=1e-2, le=1e7)]
+    pressure_viscosity_per_GPa: Annotated[Positive, Field(ge=0.1, le=100.0)]
+    roughness_um: Annotated[Positive, Field(ge=1e-3, le=1e3)]
+
+
 Treatment = Literal[
     "normalised", "quenched_and_tempered", "through_hardened", "surface_hardened", "carburised", "nitrided"
 ]

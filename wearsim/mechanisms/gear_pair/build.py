@@ -10,6 +10,7 @@ from wearsim.case.table_inputs import (
     TOLERANCE,
     contact_modulus_of,
     fatigue_input,
+    film_input,
     run_input,
     take_defaults,
     wear_input,
@@ -91,6 +92,7 @@ def read(document: Document) -> Case:
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
         given=document.given,
+        film=film_input(tables.film),
     )
 
 

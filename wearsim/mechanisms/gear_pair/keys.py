@@ -10,6 +10,7 @@ from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.schema.wear_tables import (
     Depth,
     FatigueTable,
+    FilmTable,
     FlankMaterialTable,
     MaterialTable,
     RunTable,
@@ -186,6 +187,7 @@ class GearTables(CalculationTables):
     mechanism: GearMechanismTable = GearMechanismTable()
     load: GearLoadTable
     wear: GearWearTable
+    film: FilmTable | None = None
     fatigue: GearFatigueTable | None = None
     stop: GearStopTable
     run: RunTable = RunTable()
