@@ -92,7 +92,10 @@ def test_every_key_changes_the_ratio_and_none_may_lack(key: str) -> None:
 
 def test_the_wear_does_not_change() -> None:
     few = ["sprocket.nodes=61", "stop.critical_depth_mm=0.01"]
-    lives = [wearsim.simulate(wearsim.load_case(CASES / "16b-20t-oiled.toml", [*few, *film])).cycles for film in ((), FILM)]
+    lives = [
+        wearsim.simulate(wearsim.load_case(CASES / "16b-20t-oiled.toml", [*few, *film])).cycles
+        for film in ((), FILM)
+    ]
     assert lives[0] == lives[1]
 
 
@@ -104,7 +107,7 @@ def test_a_contact_without_rolling_is_refused(prescribed: Callable[..., wearsim.
         "sliding_distance_mm": 0.3,
     }
     case = prescribed(columns, {"specific_wear_rate_mm2_per_N": 1e-9}, 0.01, 6.0, list(FILM))
-    with pytest.raises(CaseError, match="film.*slip_ratio"):
+    with pytest.raises(CaseError, match=r"film.*slip_ratio"):
         film_ratio(case, case.film)
-    with pytest.raises(CaseError, match="film.*wrap"):
+    with pytest.raises(CaseError, match=r"film.*wrap"):
         wearsim.load_case(CASES / "08b-19t-wrap.toml", FILM)

@@ -1,7 +1,8 @@
 """Powers of load and cycles, severe wear by p v and by T-gamma, against their closed forms.
 
 On a flank of uniform load and sliding the depth per cycle is constant, so tau cycles of a constant
-coefficient wear tau I off; N = N_ref (tau/N_ref)^(1/b) of them are run. Rates are the formulas written out here.
+coefficient wear tau I off; N = N_ref (tau/N_ref)^(1/b) of them are run. Rates are the formulas written out
+here.
 """
 
 import math
@@ -74,9 +75,7 @@ ARCHARD = {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-9}
 def test_life_by_a_power_of_the_cycles(
     validated: Callable[..., None], flat: CaseMaker, exponent: float, method: str
 ) -> None:
-    case = flat(
-        ARCHARD, f"wear.cycles_exponent={exponent}", "wear.reference_hours=5", f"run.method={method}"
-    )
+    case = flat(ARCHARD, f"wear.cycles_exponent={exponent}", "wear.reference_hours=5", f"run.method={method}")
     steady, reference = 0.01 / (1e-9 * sigma(100.0) * 0.3), 5.0 * 60.0 * case.speed_rpm
     result = wearsim.simulate(case.with_({"run.horizon_hours": 1e13}))
     validated(
@@ -127,7 +126,11 @@ def test_lives_in_batches_are_the_same() -> None:
 
 def test_joints_of_every_chain_begin_anew() -> None:
     """Chain k lives as long as the first: by hand, N = N_ref (limit/(rate N_ref))^(1/b)."""
-    settings = ["wear.cycles_exponent=0.5", "wear.reference_hours=50", "joint.specific_wear_rate_mm2_per_N=1.5e-7"]
+    settings = [
+        "wear.cycles_exponent=0.5",
+        "wear.reference_hours=50",
+        "joint.specific_wear_rate_mm2_per_N=1.5e-7",
+    ]
     plain = wearsim.simulate(wearsim.load_case(WRAP, [settings[-1]]))
     case = wearsim.load_case(WRAP, settings)
     slow = wearsim.simulate(case)
@@ -244,9 +247,7 @@ def test_published_rate_by_t_gamma(energy: float, rate: float) -> None:
 
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 @pytest.mark.parametrize("slip", [0.01, 0.2])
-def test_life_by_t_gamma(
-    validated: Callable[..., None], flat: CaseMaker, slip: float, method: str
-) -> None:
+def test_life_by_t_gamma(validated: Callable[..., None], flat: CaseMaker, slip: float, method: str) -> None:
     """Twin discs on a flank: mild at 1 % of slip, catastrophic at 20 %."""
     load, friction = 500.0, 0.45
     wear = {"law": "t_gamma", "coefficient": 1e-3, "friction_coefficient": friction}
@@ -319,7 +320,10 @@ def test_a_wrap_refuses_severity() -> None:
 
 def test_a_duty_refuses_severity() -> None:
     duty = {
-        "duty": [{"share_of_time": 0.5, "tension_N": 800, "speed_rpm": 50}, {"share_of_time": 0.5, "tension_N": 400, "speed_rpm": 50}]
+        "duty": [
+            {"share_of_time": 0.5, "tension_N": 800, "speed_rpm": 50},
+            {"share_of_time": 0.5, "tension_N": 400, "speed_rpm": 50},
+        ]
     }
     tables = {
         "format_version": 1,
@@ -346,4 +350,9 @@ def test_every_law_of_the_registry_is_known_to_the_engine() -> None:
     for name, entry in wear_laws().items():
         assert entry.formula and entry.valid and entry.source and entry.not_for, name
         if entry.kind == "law":
-            assert wear_law(type(case.wear)(**{**vars(case.wear), "law": name, "friction": 0.5}), 1.0).coefficient > 0.0
+            assert (
+                wear_law(
+                    type(case.wear)(**{**vars(case.wear), "law": name, "friction": 0.5}), 1.0
+                ).coefficient
+                > 0.0
+            )

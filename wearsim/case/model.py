@@ -120,8 +120,8 @@ class Drive:
     def entrainment_speed(self, case: "Case", touch: Engagement) -> Vector:
         """Return the mean speed of both surfaces towards their contact [mm/s], nan where it is not known.
 
-        The contact runs along the flank at v_t, so that its surface comes at v_t and that of a mate that slides
-        at v_t - v_s.
+        The contact runs along the flank at v_t, so that its surface comes at v_t and that of a mate that
+        slides at v_t - v_s.
         """
         if touch.kind is not ContactKind.TRAVELLING:
             return np.full(touch.slip.size, np.nan)

@@ -60,10 +60,12 @@ def film_assumptions(case: Case) -> tuple[str, ...]:
     state = (
         "boundary lubrication somewhere"
         if least < _BOUNDARY
-        else "mixed lubrication somewhere" if least < _FULL else "full film"
+        else "mixed lubrication somewhere"
+        if least < _FULL
+        else "full film"
     )
     return (
-        f"film ratio lambda {least:.3g} to {greatest:.3g} along the new flank, {state} (Dowson and Higginson; inlet "
-        "flooded with oil, which a starved contact or an oil bath at high speed does not have: its film is "
-        "thinner); it does not change the wear",
+        f"film ratio lambda {least:.3g} to {greatest:.3g} along the new flank, {state} (Dowson and "
+        "Higginson; inlet flooded with oil, which a starved contact or an oil bath at high speed does not "
+        "have: its film is thinner); it does not change the wear",
     )

@@ -15,6 +15,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import FIRST, SECOND
 from wearsim.result import LimitState
 from wearsim.wear.advance import run_advance
+from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.law import (
     RelativeLoad,
     WearLaw,
@@ -26,7 +27,6 @@ from wearsim.wear.law import (
     t_gamma,
     with_pressure_speed_limit,
 )
-from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 from wearsim.wear.severity import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
@@ -88,9 +88,10 @@ def _check_t_gamma(case: Case, contact: FlankContact) -> None:
     energy = t_gamma_energy(mean_pressure_factor(1.0) * pressure, touch.slip, case.wear.friction)
     if on_level_branch(energy[touch.load_per_width > 0.0]):
         message = (
-            f"T-gamma over the contact area must lie below {FIRST:g} or above {SECOND:g} N/mm2 all along the new "
-            f"flank, but is {energy.min():.3g} to {energy.max():.3g}: in between the rate does not rise with "
-            "the pressure, a pit deepens itself and the problem is ill-posed; take another law or load"
+            f"T-gamma over the contact area must lie below {FIRST:g} or above {SECOND:g} N/mm2 all along "
+            f"the new flank, but is {energy.min():.3g} to {energy.max():.3g}: in between the rate does not "
+            "rise with the pressure, a pit deepens itself and the problem is ill-posed; take another law or "
+            "load"
         )
         raise CaseError([Fault(message, "wear.law", case.name)])
 

@@ -7,9 +7,10 @@ HARDNESS_RATIO = 1.2
 def abrasion_share(abrasive_hardness: float, surface_hardness: float) -> float:
     """Return which part of the abrasion by contaminants a surface suffers: all or none.
 
-    Abrasion needs particles at least 1.2 times as hard as the surface: below that they yield before the surface
-    does (I. M. Hutchings, Tribology, 1992; Proc. IMechE J 216 (2002) 55; reviewed by Pintaude, J. Tribol. 132
-    (2010) 034502). Measured wear falls over some width about that ratio, which is not told here.
+    Abrasion needs particles at least 1.2 times as hard as the surface: below that they yield before the
+    surface does (I. M. Hutchings, Tribology, 1992; Proc. IMechE J 216 (2002) 55; reviewed by Pintaude,
+    J. Tribol. 132 (2010) 034502). Measured wear falls over some width about that ratio, which is not told
+    here.
 
     Equation physics.md (L9).
 

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from wearsim.geometry.profile_points import Vector
 
 
@@ -20,8 +18,8 @@ def minimum_film(
 ) -> Vector:
     """Return the least thickness of the film in line contacts whose inlet is flooded.
 
-    Dowson and Higginson's formula (D. Dowson, Proc. IMechE 182 (1968) 151): elastic bodies, an oil that stiffens
-    with the pressure, of one temperature, smooth surfaces.
+    Dowson and Higginson's formula (D. Dowson, Proc. IMechE 182 (1968) 151): elastic bodies, an oil that
+    stiffens with the pressure, of one temperature, smooth surfaces.
 
     Equation physics.md (L10).
 

@@ -74,8 +74,8 @@ class WearLaw:
         -------
         numpy.ndarray
             Factor, exponent of the pressure, of the load and of the speed, depth of the
-            hardened layer and the factor below it, kind, limit and factor of the severity. In a travelling contact
-            c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
+            hardened layer and the factor below it, kind, limit and factor of the severity. In a
+            travelling contact c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
         """
         m, n = self.pressure_exponent, self.speed_exponent
         if kind is ContactKind.LOCAL:

@@ -34,8 +34,8 @@ from wearsim.wear.law import WearLaw
 Rows = NDArray[np.float64]
 
 _LEAST = 1e-12
-"""Part of the cycles of a run that a step takes at least: a new chain whose coefficient falls fast is longer by
-much after cycles that are too few to be told apart."""
+"""Part of the cycles of a run that a step takes at least: a new chain whose coefficient falls fast is longer
+by much after cycles that are too few to be told apart."""
 
 _REACH = 1.2
 """Half of the stretch of outline that an event may touch, in radii of the mate."""

@@ -72,8 +72,8 @@ class RunningIn(WearClock):
     def assumption(self) -> str:
         """Say what is taken for granted."""
         return (
-            f"running-in: the coefficients of teeth and joints are {self.factor:g} times as high at first, the "
-            f"excess falls to 1/e in {self.cycles:.3g} cycles; joints of every new chain run in as well"
+            f"running-in: the coefficients of teeth and joints are {self.factor:g} times as high at first, "
+            f"the excess falls to 1/e in {self.cycles:.3g} cycles; joints of every new chain run in as well"
         )
 
     def steady_cycles(self, cycles: float) -> float:

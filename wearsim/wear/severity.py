@@ -2,11 +2,14 @@
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels import severity as kernel
+
+_Energy = TypeVar("_Energy", float, Vector)
 
 _DENSITY = 7.85e6
 """Density of steel, 7850 kg/m3, in ug/mm3, times 1000 mm/m."""
@@ -32,7 +35,8 @@ class Severity:
     def steepness(self) -> float:
         """Bound of d(ln depth)/d(ln pressure) that it adds.
 
-        By p v 1.5 (1 + w)/w ln(factor), w the width of the transition; by T-gamma where the last branch begins.
+        By p v 1.5 (1 + w)/w ln(factor), w the width of the transition; by T-gamma that where the last branch
+        begins.
         """
         if self.kind == kernel.BY_PRESSURE_SPEED:
             return 1.5 * (1.0 + kernel.TRANSITION) / kernel.TRANSITION * math.log(self.factor)
@@ -74,23 +78,23 @@ def severe_multiple(pressure: float, speed: float, pv_limit: float, severe_facto
     return float(kernel.severe_multiple(pressure * speed / pv_limit, severe_factor))
 
 
-def t_gamma_energy(mean_pressure: float, slip_ratio: float, friction: float) -> float:
+def t_gamma_energy(mean_pressure: _Energy, slip_ratio: _Energy, friction: float) -> _Energy:
     """Return T-gamma over the contact area, x = mu p_mean s.
 
     Equation physics.md (L8).
 
     Parameters
     ----------
-    mean_pressure : float
+    mean_pressure : float or numpy.ndarray
         Mean pressure of the contact [MPa], pi/4 of the peak in a line contact.
-    slip_ratio : float
+    slip_ratio : float or numpy.ndarray
         Sliding over rolling.
     friction : float
         Coefficient of friction.
 
     Returns
     -------
-    float
+    float or numpy.ndarray
         X [N/mm2].
 
     Examples

@@ -10,8 +10,8 @@ from wearsim.geometry.profile_points import Vector
 class WearClock(ABC):
     """Turns the cycles run into cycles of constant coefficient that wear as much, and back.
 
-    A coefficient that changes with the cycles is a factor of the whole wear rate. The engines run on cycles of
-    constant coefficient, tau; a clock says which tau belongs to N cycles run.
+    A coefficient that changes with the cycles is a factor of the whole wear rate. The engines run on cycles
+    of constant coefficient, tau; a clock says which tau belongs to N cycles run.
     """
 
     @property

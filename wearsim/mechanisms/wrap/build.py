@@ -54,11 +54,13 @@ def wrapped_drive(
     if wear.changes_with_load:
         faults.add(
             f"wear.{wear.changes_with_load}",
-            "asks for the pressure and the slip of a contact that travels, but rollers of a wrap rest in their "
-            "gaps: remove it, or take kind = 'strand', 'prescribed' or gears",
+            "asks for the pressure and the slip of a contact that travels, but rollers of a wrap rest in "
+            "their gaps: remove it, or take kind = 'strand', 'prescribed' or gears",
         )
     if tables.film is not None:
-        faults.add("film", "is that of a contact that rolls, but rollers of a wrap rest in their gaps: remove it")
+        faults.add(
+            "film", "is that of a contact that rolls, but rollers of a wrap rest in their gaps: remove it"
+        )
     if table.role is None:
         case.take("sprocket.role", "driver", "default")
     given = tables.drive or DriveTable()

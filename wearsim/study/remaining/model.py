@@ -96,8 +96,8 @@ def remaining_life(
 
     Wear depends on coefficient times time only. If the case's own coefficient k gives the
     reading after h_m hours and it was made after h, the coefficient is k h_m/h and the life
-    is L h/h_m instead of L. Where wear goes with the cycles to a power b the life is the same, and the coefficient
-    is k (h_m/h)^b. On a wrap the coefficients of teeth and joints change alike for a
+    is L h/h_m instead of L. Where wear goes with the cycles to a power b the life is the same, and the
+    coefficient is k (h_m/h)^b. On a wrap the coefficients of teeth and joints change alike for a
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
     long as the coefficient does not change otherwise.
     """
