@@ -24,7 +24,7 @@ WITHOUT_EFFECT = {
     "maintenance.turn_sprocket": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.replace_at_percent": "only wearsim maintain (tests/unit/test_maintain.py)",
     **{
-        f"film.{key}": "only the film ratio, which check and --explain print (tests/verification/test_film_ratio.py)"
+        f"film.{key}": "only the film ratio, printed by check (tests/verification/test_film_ratio.py)"
         for key in ("viscosity_mPa_s", "pressure_viscosity_per_GPa", "roughness_um")
     },
     "service.km_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",

@@ -190,6 +190,13 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
+def with_coefficients(case: Case, life: Life | LowerBound, factor: float) -> Life | LowerBound:
+    """Return what becomes of a life of a wrapped case with all wear coefficients multiplied."""
+    if case.wear.is_steady:
+        return type(life)(life.cycles_run / factor, life.hours_run / factor)
+    return _scaled(life, factor, case, case_clock(case, wrap_of(case).contact(case).sliding_per_cycle))
+
+
 def _scaled(life: Life | LowerBound, factor: float, case: Case, running_in: WearClock) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
     steady = running_in.steady_cycles(life.cycles_run)
