@@ -13,7 +13,7 @@ from pathlib import Path
 HEAD = Path(__file__).with_name("validation_head.md")
 SECTIONS = {
     "Line contact": ("test_hertz_line", "test_line_stress"),
-    "Wear laws": ("test_archard", "test_laws_closed_form"),
+    "Wear laws": ("test_archard", "test_laws_closed_form", "test_wear_laws", "test_film_ratio"),
     "Strand: the evolute flank": ("test_evolute_closed_form", "test_strand_closed_form"),
     "Strand: lives": ("test_reference_run", "test_reference_life_b9", "test_removed_area"),
     "Duty": ("test_duty_closed_form",),

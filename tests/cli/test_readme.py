@@ -197,12 +197,18 @@ def test_input_md_has_every_key_of_the_schema_and_no_other():
     # The first table of [wear] is of laws; its keys stand in the table that starts with law.
     wear = INPUT.split("\n## [wear]\n", 1)[1]
     laws = documented(INPUT, "[wear]")
-    assert laws == ["archard", "power", "drozdov"]
+    assert laws == [row["law"] for row in catalogue_rows("wear_laws")]
     wear = "\n## [wear]\n" + wear[wear.index("| key |") :]
     for table in tables:
         keys = documented(wear if table == "wear" else INPUT, f"[{table}]")
         found += [f"{table}.{key}" for key in keys]
     assert sorted(found) == sorted(schema_keys(CaseTables))
+
+
+def test_input_md_has_the_registry_of_laws_as_it_is():
+    for row in catalogue_rows("wear_laws"):
+        name, *others = row.values()
+        assert f"| `{name}` | {' | '.join(others)} |" in INPUT
 
 
 def test_input_md_has_the_wear_conditions_as_they_are():

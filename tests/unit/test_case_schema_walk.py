@@ -24,6 +24,10 @@ WITHOUT_EFFECT = {
     "maintenance.downtime_cost_per_hour": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.turn_sprocket": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.replace_at_percent": "only wearsim maintain (tests/unit/test_maintain.py)",
+    **{
+        f"film.{key}": "only the film ratio, printed by check (tests/verification/test_film_ratio.py)"
+        for key in ("viscosity_mPa_s", "pressure_viscosity_per_GPa", "roughness_um")
+    },
     "service.km_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.tonnes_per_hour": "only how hours are shown (tests/cli/test_cli_maintain.py)",
     "service.hours_per_day": "only how hours are shown (tests/cli/test_cli_maintain.py)",
@@ -250,7 +254,17 @@ BASES = {
     ),
 }
 
+SLOWING = {"cycles_exponent": 0.8, "reference_hours": 100.0}
 BASES |= {
+    "slowing": edited(STRAND, wear={"specific_wear_rate_mm2_per_N": 1e-10, **SLOWING}),
+    "wrap slowing": edited(WRAP, wear={**WRAP["wear"], **SLOWING}),
+    "severe": edited(
+        STRAND,
+        wear={"specific_wear_rate_mm2_per_N": 1e-10, "pv_limit_MPa_mm_per_s": 2e5, "severe_factor": 5.0},
+    ),
+    "t gamma": edited(
+        BASES["prescribed"], wear={"law": "t_gamma", "coefficient": 1e-3, "friction_coefficient": 0.02}
+    ),
     "duty": edited(
         STRAND,
         load=None,
@@ -345,6 +359,20 @@ CHANGES = {
     "wear.hardness_MPa": [("drozdov", 4100), ("power law", 4000, "wear.hardness_MPa")],
     "wear.reference_speed_mm_per_s": [("drozdov", 310), ("power law", 300, "wear.reference_speed_mm_per_s")],
     "wear.speed_exponent": [("drozdov", -0.2), ("power law", 0.1, "wear.speed_exponent")],
+    "wear.friction_coefficient": [("t gamma", 0.025), ("strand", 0.3, "wear.friction_coefficient")],
+    "wear.cycles_exponent": [
+        ("slowing", 0.7),
+        ("wrap slowing", 0.7),
+        ("strand", 0.7, "wear.reference_hours"),
+        ("layers", 0.7, "wear.cycles_exponent"),
+    ],
+    "wear.reference_hours": [
+        ("slowing", 90.0),
+        ("wrap slowing", 90.0),
+        ("strand", 90.0, "wear.cycles_exponent"),
+    ],
+    "wear.pv_limit_MPa_mm_per_s": [("severe", 2.2e5), ("strand", 2e5, "wear.severe_factor")],
+    "wear.severe_factor": [("severe", 4.0), ("strand", 4.0, "wear.pv_limit_MPa_mm_per_s")],
     "wear.band_factor": [("archard", 2.5), ("strand", 2.5), ("power law", 2.5), ("drozdov", 2.5)],
     "stop.critical_depth_mm": [("strand", 0.06), ("prescribed", 0.06)],
     "stop.min_tip_land_mm": [("tip land", 9.08), ("prescribed", 1.0, "stop.min_tip_land_mm")],

@@ -29,6 +29,10 @@ WITHOUT_EFFECT = {
     "format_version": "1 only",
     "title": "only shown",
     "mechanism.kind": "one value",
+    **{
+        f"film.{key}": "only the film ratio (tests/verification/test_film_ratio.py)"
+        for key in ("viscosity_mPa_s", "pressure_viscosity_per_GPa", "roughness_um")
+    },
     "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
     **{
         f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
@@ -130,6 +134,9 @@ BASES = {
     "programme": edited(lubrication={**AGEING, "phase": PHASES}),
     "at times": edited(lubrication={**AGEING, "at_hours": [4.5, 5.0]}),
     "by rate": edited(lubrication={**AGEING, "when_rate_exceeds": 4.0}),
+    "slowing": edited(("wear.cycles_exponent", 0.8), ("wear.reference_hours", 100.0)),
+    "severe": edited(("wear.pv_limit_MPa_mm_per_s", 1e5), ("wear.severe_factor", 5.0)),
+    "t gamma": edited(wear={"law": "t_gamma", "coefficient": 1e-3, "friction_coefficient": 0.002}),
     "fatigue": edited(fatigue={"pinion": STEEL, "wheel": STEEL}),
     "per cycle": edited(
         ("run.method", "per_cycle"),
@@ -215,6 +222,11 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     "wear.roller_wear_ratio": [("archard", 0.5, "wear.roller_wear_ratio")],
     "wear.running_in_factor": [("running in", 2.0), ("archard", 2.0, "wear.running_in_distance_mm")],
     "wear.running_in_distance_mm": [("running in", 5000.0)],
+    "wear.friction_coefficient": [("t gamma", 0.0024), ("archard", 0.1, "wear.friction_coefficient")],
+    "wear.cycles_exponent": [("slowing", 0.7), ("archard", 0.7, "wear.reference_hours")],
+    "wear.reference_hours": [("slowing", 90.0), ("archard", 90.0, "wear.cycles_exponent")],
+    "wear.pv_limit_MPa_mm_per_s": [("severe", 8e4), ("archard", 1e5, "wear.severe_factor")],
+    "wear.severe_factor": [("severe", 4.0), ("archard", 4.0, "wear.pv_limit_MPa_mm_per_s")],
     "wear.band_factor": [("archard", 2.0)],
     "wear.wheel_wear_ratio": [("archard", 3.0), ("archard", 0.0, "wear.wheel_wear_ratio")],
     "fatigue.load_factor": [("fatigue", 1.2), ("fatigue", 0.9, "fatigue.load_factor")],

@@ -18,7 +18,7 @@ from wearsim.wear.lubricant_clock import (
     LubricantEvent,
     LubricantLaw,
     LubricantSchedule,
-    WearClock,
+    LubricatedClock,
 )
 from wearsim.wear.running_in import RunningIn
 
@@ -164,7 +164,7 @@ def test_running_in_counts_lubricated_cycles() -> None:
     running_in, lubricant = RunningIn(4.0, 50.0), LubricantClock(LAW, every(130.0))
     worn, _ = quad(lubricant.factor, 0.0, 500.0, points=[100, 130, 230, 260, 360, 390, 490], limit=400)
     expected = worn + 3.0 * 50.0 * (1.0 - math.exp(-worn / 50.0))
-    clock = WearClock(running_in, lubricant)
+    clock = LubricatedClock(running_in, lubricant)
     assert clock.steady_cycles(500.0) == pytest.approx(expected, rel=1e-9)
     assert clock.running_cycles(np.array([expected]))[0] == pytest.approx(500.0, rel=1e-9)
     assert FRESH.steady_cycles(0.1) == 0.1

@@ -11,7 +11,14 @@ from pydantic import ValidationError
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
 from wearsim.case.lubrication_input import lubrication_input, with_condition
 from wearsim.case.model import Case, Drive, WearInput
-from wearsim.case.table_inputs import contact_modulus_of, fatigue_input, run_input, take_defaults, wear_input
+from wearsim.case.table_inputs import (
+    contact_modulus_of,
+    fatigue_input,
+    film_input,
+    run_input,
+    take_defaults,
+    wear_input,
+)
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
@@ -94,6 +101,7 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
         warnings=tuple(case.warnings),
         given=document.given,
         lubrication=lubrication,
+        film=film_input(tables.film),
     )
 
 

@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
 from wearsim.case.input_lines import input_lines
 from wearsim.case.lubrication_input import LubricationInput
 from wearsim.chain.selection import RatingFinding
-from wearsim.contact.engagement import FlankContact, Mechanism
+from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
 from wearsim.errors import CaseError, Fault
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
@@ -116,6 +118,18 @@ class Drive:
         """Return what loads every point of the flank once a cycle."""
         raise NotImplementedError(f"{type(self).__name__}: mates rest in the outline")
 
+    def entrainment_speed(self, case: "Case", touch: Engagement) -> Vector:
+        """Return the mean speed of both surfaces towards their contact [mm/s], nan where it is not known.
+
+        The contact runs along the flank at v_t, so that its surface comes at v_t and that of a mate that
+        slides at v_t - v_s.
+        """
+        if touch.kind is not ContactKind.TRAVELLING:
+            return np.full(touch.slip.size, np.nan)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rolling = touch.sliding_speed / touch.slip
+        return np.abs(rolling - 0.5 * touch.sliding_speed)
+
     def stop_limits(self, case: "Case", contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return what ends the life of a flank with this contact, the critical depth first."""
         return self.tooth_limits(case)
@@ -161,8 +175,8 @@ class Drive:
 class WearInput:
     """The wear law as it was given."""
 
-    law: str  # `archard`, `power` or `drozdov`
-    coefficient: float  # k [mm2/N], K [1/MPa^m] or the intensity K
+    law: str  # a law of the registry, `wearsim list wear-laws`
+    coefficient: float  # k [mm2/N], K [1/MPa^m], the intensity K, or a factor on published constants
     pressure_exponent: float  # m; 1 for archard
     # hardness, reference_speed, speed_exponent: H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for
     # the others
@@ -182,6 +196,36 @@ class WearInput:
     # [mm] over which the excess falls to 1/e
     running_in_factor: float = 1.0
     running_in_distance: float = 1.0
+    # cycles_exponent, reference_hours: power of the accumulated cycles, and the running time [h] after which
+    # as much has worn as by a constant coefficient
+    cycles_exponent: float = 1.0
+    reference_hours: float = 1.0
+    # pv_limit, severe_factor: peak pressure times sliding speed [MPa mm/s] beyond which the coefficient is so
+    # many times as high
+    pv_limit: float = math.inf
+    severe_factor: float = 1.0
+    friction: float = 0.0  # coefficient of friction, of `t_gamma`
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether the coefficient does not change with the cycles run."""
+        return self.running_in_factor == 1.0 and self.cycles_exponent == 1.0
+
+    @property
+    def changes_with_load(self) -> str:
+        """Key of [wear] by which the mechanism of wear changes with load and speed; empty for none."""
+        if self.severe_factor != 1.0:
+            return "pv_limit_MPa_mm_per_s"
+        return "law" if self.law == "t_gamma" else ""
+
+
+@dataclass(frozen=True)
+class FilmInput:
+    """The oil between the flanks and their roughness."""
+
+    viscosity: float  # dynamic [MPa s]
+    pressure_viscosity: float  # [1/MPa]
+    roughness: float  # composite, rms [mm]
 
 
 @dataclass(frozen=True)
@@ -247,6 +291,8 @@ class Case:
         What it was read from; None for one sprocket of a whole drive.
     lubrication : LubricationInput or None
         How it is lubricated; None where that stays as the wear coefficients say.
+    film : FilmInput or None
+        The oil between the flanks; None where it is not given.
     """
 
     name: str
@@ -269,6 +315,7 @@ class Case:
     warnings: tuple[str, ...]
     given: GivenInput | None = None
     lubrication: LubricationInput | None = None
+    film: FilmInput | None = None
 
     def __repr__(self) -> str:
         return one_line("Case", self.title, f"{len(self.assumptions)} assumptions", *self.warnings[:1])

@@ -5,13 +5,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from wearsim.case.duty_blocks import GivenLoad
-from wearsim.case.model import FatigueInput, RunInput, WearInput
+from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.case_record import CaseRecord, ChainRecord
 from wearsim.input.schema import MaterialTable, RunTable, SprocketTable, Table, WearTable
-from wearsim.input.schema.wear_tables import FatigueTable, FlankMaterialTable
+from wearsim.input.schema.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
@@ -79,6 +79,15 @@ def run_input(case: CaseRecord, table: RunTable, tolerance: float) -> RunInput:
     )
 
 
+def film_input(table: FilmTable | None) -> FilmInput | None:
+    """Return the oil between the flanks."""
+    if table is None:
+        return None
+    return FilmInput(
+        1e-9 * table.viscosity_mPa_s, 1e-3 * table.pressure_viscosity_per_GPa, 1e-3 * table.roughness_um
+    )
+
+
 def wear_input(case: CaseRecord, table: WearTable) -> WearInput:
     """Return the wear law with its band."""
     return _changing(table, _law(case, table))
@@ -104,6 +113,7 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
         hardness=table.hardness_MPa or 1.0,
         reference_speed=table.reference_speed_mm_per_s or 1.0,
         speed_exponent=table.speed_exponent or 0.0,
+        friction=table.friction_coefficient or 0.0,
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",
@@ -118,6 +128,10 @@ def _changing(table: WearTable, wear: WearInput) -> WearInput:
         wear = replace(
             wear, running_in_factor=table.running_in_factor, running_in_distance=table.running_in_distance_mm
         )
+    if table.cycles_exponent is not None and table.reference_hours is not None:
+        wear = replace(wear, cycles_exponent=table.cycles_exponent, reference_hours=table.reference_hours)
+    if table.pv_limit_MPa_mm_per_s is not None and table.severe_factor is not None:
+        wear = replace(wear, pv_limit=table.pv_limit_MPa_mm_per_s, severe_factor=table.severe_factor)
     if table.roller_wear_ratio is not None:
         wear = replace(wear, roller_ratio=table.roller_wear_ratio)
     return wear

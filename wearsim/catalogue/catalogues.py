@@ -135,6 +135,19 @@ class Environment:
     source: str  # where the numbers come from
 
 
+@dataclass(frozen=True)
+class WearLawEntry:
+    """A row of the registry of wear laws, and of what multiplies their coefficient."""
+
+    name: str  # as in the table
+    kind: str  # `law`, of which a case has one, or `factor`, of which it may have several
+    formula: str  # in plain text; I is the depth of one cycle
+    keys: tuple[str, ...]  # keys of [wear] that it needs
+    valid: str  # range in which it holds
+    source: str  # where it comes from
+    not_for: str  # what it must not be used for
+
+
 @cache
 def catalogue_rows(table: str) -> tuple[dict[str, str], ...]:
     """Return a table as it stands in its file."""
@@ -333,6 +346,29 @@ def environments() -> dict[str, Environment]:
             row["source"],
         )
         for row in catalogue_rows("environments")
+    }
+
+
+@cache
+def wear_laws() -> dict[str, WearLawEntry]:
+    """Return the wear laws and the factors of their coefficient by name.
+
+    Examples
+    --------
+    >>> wear_laws()["power"].keys
+    ('coefficient', 'pressure_exponent')
+    """
+    return {
+        row["law"]: WearLawEntry(
+            row["law"],
+            row["kind"],
+            row["formula"],
+            tuple(row["keys"].split()),
+            row["range"],
+            row["source"],
+            row["not_for"],
+        )
+        for row in catalogue_rows("wear_laws")
     }
 
 

@@ -23,14 +23,14 @@ def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> 
         checked(cases, settings, as_json)
         return
     loaded = load_cases(cases, settings, as_json)
-    from wearsim.report.rating import check_json, check_warnings, notes_text, rating_table
+    from wearsim.report.rating import check_assumptions, check_json, check_warnings, notes_text, rating_table
 
     for path, case in zip(cases, loaded, strict=True):
         if as_json:
             click.echo(json.dumps(check_json(case), ensure_ascii=False))
             continue
         click.echo(f"{path}: ok")
-        for text in case.assumptions:
+        for text in check_assumptions(case):
             click.echo(f"  assumes  {text}")
         for text in (rating_table(case), notes_text(case)):
             if text:

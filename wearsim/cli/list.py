@@ -58,13 +58,14 @@ _COLUMNS: dict[str, dict[str, str]] = {
         "high": "high",
         "ageing_factor": "ageing",
     },
+    "wear-laws": {"law": "law", "kind": "kind", "formula": "formula", "keys": "keys of [wear]"},
     "cases": {"name": "name", "command": "command", "title": "title"},
     "quantities": {"name": "name", "symbol": "symbol", "unit": "unit", "meaning": "meaning"},
 }
 """Columns of each table on the screen, with their headings; JSON has all of them, under their names."""
 
 
-@click.command("list", short_help="Chains, materials, wear conditions, cases, quantities.")
+@click.command("list", short_help="Chains, materials, wear conditions and laws, cases, quantities.")
 @click.argument("table", type=click.Choice(tuple(_COLUMNS)))
 @click.option("--json", "as_json", is_flag=True, help="As a JSON array, with all columns.")
 @common_options
@@ -78,7 +79,7 @@ def list_table(table: str, as_json: bool) -> None:
         click.echo(json.dumps(rows, ensure_ascii=False))
         return
     click.echo(_table_text(_COLUMNS[table], rows))
-    for line in (*_legend(_COLUMNS[table]), *_sources(_COLUMNS[table], rows), *_doubts(table)):
+    for line in (*_legend(_COLUMNS[table]), *_notes(_COLUMNS[table], rows), *_doubts(table)):
         click.echo(line)
 
 
@@ -134,9 +135,13 @@ def _legend(columns: Mapping[str, str]) -> Iterator[str]:
     yield from ["", *lines] if lines else []
 
 
-def _sources(columns: Mapping[str, str], rows: list[dict[str, str]]) -> Iterator[str]:
-    """Give the sources of each row where they are too long for a column."""
-    for name in (name for name in rows[0] if name.endswith("source") and name not in columns):
+_NOTES = ("range", "not_for", "source", "joint_source")
+"""Columns of whole sentences, which are printed below a table unless they stand in it."""
+
+
+def _notes(columns: Mapping[str, str], rows: list[dict[str, str]]) -> Iterator[str]:
+    """Give what is to say of each row and too long for a column."""
+    for name in (name for name in _NOTES if name in rows[0] and name not in columns):
         yield f"\n{name.replace('_', ' ')}"
         for row in rows:
             text = f"{next(iter(row.values()))}: {row[name]}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank_geometry import flank_frame
+from wearsim.kernels.severity import KIND, NONE, make_severe
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ def wear_depth(
 
     ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
     depth = factor pressure^a load^b slip speed^n, zero where the load is zero. The Hertz pressure,
-    a root, is found in the place of the depth, and only where the law asks for it.
+    a root, is found in the place of the depth, and only where the law asks for it. What makes wear severe
+    follows: its kind, limit and factor.
 
     Equations physics.md (C2) and (L1) or (L3).
     """
@@ -54,6 +56,8 @@ def wear_depth(
     else:
         for j in range(n):
             depth[j] = depth[j] * slip[j] if load[j] > 0.0 else 0.0
+    if law[KIND] != NONE:
+        make_severe(load, slip, speed, relative, modulus, law, depth)
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften_edges, update_status
+from wearsim.kernels.severity import KIND, NONE, make_severe
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
@@ -126,7 +127,10 @@ def run_offset_cycles(
     """
     prepare_offset(depth, constants, columns, modulus, law, diffusion, cycles_per_update, work)
     step, n, made = work[8], depth.size, 0
+    severe = law[KIND] != NONE
     offset_step(depth, law[1], work)
+    if severe:
+        make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[7], modulus, law, step)
     soften_edges(depth, law, step)
     status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
     while status == RUNNING and made < updates:
@@ -139,6 +143,8 @@ def run_offset_cycles(
             status = DEPTH_REACHED
         elif made < updates:
             offset_step(depth, law[1], work)
+            if severe:
+                make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[7], modulus, law, step)
             soften_edges(depth, law, step)
             if offset_failures(work) > 0:
                 status = update_status(columns[LOAD], work[7], step, work[3], diffusion)

@@ -18,6 +18,7 @@ _LABELS = {
     "contact_end_mm": "End of contact, at the root",
     "contact_limit_MPa": "Contact stress limit",
     "contact_start_mm": "Start of contact, at the tip",
+    "cycles_exponent": "Wear grows with the cycles to the power",
     "core_factor": "Factor on wear below the hard layer",
     "critical_depth_mm": "Greatest depth of wear",
     "designation": "Chain",

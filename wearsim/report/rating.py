@@ -17,10 +17,19 @@ def check_json(case: Case) -> dict[str, Any]:
     return {
         **ANSWER_HEAD,
         "case": case.name,
-        "assumptions": list(case.assumptions),
+        "assumptions": list(check_assumptions(case)),
         "warnings": check_warnings(case),
         **rating_json(case),
     }
+
+
+def check_assumptions(case: Case) -> tuple[str, ...]:
+    """Return what is taken for granted before a run, and the film ratio where the oil is given."""
+    if case.film is None:
+        return case.assumptions
+    from wearsim.simulation.film_ratio import film_assumptions
+
+    return (*film_assumptions(case), *case.assumptions)
 
 
 def check_warnings(case: Case) -> list[str]:

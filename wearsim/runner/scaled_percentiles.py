@@ -21,7 +21,7 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     table = result.inputs.get("uncertainty") or {}
     steady = (
         not case.drive.wear_coefficients
-        and case.wear.running_in_factor == 1.0
+        and case.wear.is_steady
         and (case.lubrication is None or case.lubrication.steady)
     )
     alone = list(table) == [coefficient_key(case)] and not result.fatigue
@@ -34,16 +34,20 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
 
 
 def check_steady_coefficient(case: Case, command: str) -> None:
-    """Raise where the wear of a case runs in, or its lubricant changes."""
+    """Raise where the wear coefficient of a case changes with the cycles run, or with its lubricant."""
     if case.lubrication is not None and not case.lubrication.steady:
         message = (
             f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or "
             "see what relubrication does with wearsim lubricate"
         )
         raise CaseError([Fault(message, "lubrication", case.name)])
-    if case.wear.running_in_factor != 1.0:
-        message = (
-            f"{command!r} scales lives, which holds for a constant coefficient only: remove "
-            "running_in_factor and running_in_distance_mm"
-        )
-        raise CaseError([Fault(message, "wear.running_in_factor", case.name)])
+    if case.wear.is_steady:
+        return
+    runs_in = case.wear.running_in_factor != 1.0
+    key, other = (
+        ("running_in_factor", "running_in_distance_mm") if runs_in else ("cycles_exponent", "reference_hours")
+    )
+    message = (
+        f"{command!r} scales lives, which holds for a constant coefficient only: remove {key} and {other}"
+    )
+    raise CaseError([Fault(message, f"wear.{key}", case.name)])

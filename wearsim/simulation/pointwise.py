@@ -11,13 +11,14 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
+from wearsim.simulation.film_ratio import film_assumptions
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.simulation.wear_task import (
     WearTask,
+    clock_assumptions,
     limit_states,
     new_flank_pressure,
-    running_in_assumptions,
     wear_task,
 )
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
@@ -67,7 +68,8 @@ def simulate_points(case: Case) -> WearResult:
         ratings=(),
         assumptions=(
             *mechanism.assumptions(),
-            *running_in_assumptions(task.clock.running_in),
+            *clock_assumptions(task.clock.part),
+            *film_assumptions(case),
             *settled.assumptions(),
             *case.assumptions,
         ),

@@ -6,17 +6,32 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wearsim.case.model import Case, WearInput, heaviest_block
-from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.engagement import ContactKind, Engagement, FlankContact
 from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit
+from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
+from wearsim.kernels.severity import FIRST, SECOND
 from wearsim.result import LimitState
 from wearsim.simulation.lubricant import lubricant_clock, sliding_per_cycle
 from wearsim.wear.advance import run_advance
-from wearsim.wear.law import RelativeLoad, WearLaw, archard, drozdov, equivalent_factor, power
-from wearsim.wear.lubricant_clock import WearClock
+from wearsim.wear.cycles_power import CyclesPower
+from wearsim.wear.law import (
+    RelativeLoad,
+    WearLaw,
+    archard,
+    drozdov,
+    equivalent_factor,
+    mean_pressure_factor,
+    power,
+    t_gamma,
+    with_pressure_speed_limit,
+)
+from wearsim.wear.lubricant_clock import LubricatedClock
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
+from wearsim.wear.severity import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
+from wearsim.wear.wear_clock import WearClock
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +41,7 @@ class WearTask:
     contact: FlankContact  # the flank and its contact
     law: WearLaw  # the wear law, for the mean over the duty
     stop_limits: tuple[StopLimit, ...]  # limits, the depth stop limit first
-    clock: WearClock  # between the cycles run and those of constant coefficient
+    clock: LubricatedClock  # between the cycles run and those of constant coefficient
     horizon: float  # cycles of constant coefficient at which the run ends in any case
     life_tolerance: float  # relative tolerance of the life in such cycles
 
@@ -53,10 +68,12 @@ def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask]:
 
 
 def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
+    if case.wear.law == "t_gamma":
+        _check_t_gamma(case, contact)
     changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
     sliding = sliding_per_cycle(case, contact) if changes else 0.0
-    running_in = case_running_in(case.wear, sliding)
-    clock = WearClock(running_in, lubricant_clock(case, sliding))
+    running_in = case_clock(case, sliding)
+    clock = LubricatedClock(running_in, lubricant_clock(case, sliding))
     return WearTask(
         contact,
         replace(law, running_in=running_in),
@@ -65,6 +82,26 @@ def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
         clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
         case.run.life_tolerance / clock.amplification,
     )
+
+
+def _check_t_gamma(case: Case, contact: FlankContact) -> None:
+    """Raise where the law by T-gamma does not tell how the shape of the new flank goes on."""
+    touch = _new_touch(contact)
+    pressure = peak_pressure(touch.load_per_width, np.maximum(touch.relative_curvature, 0.0), contact.modulus)
+    energy = t_gamma_energy(mean_pressure_factor(1.0) * pressure, touch.slip, case.wear.friction)
+    if on_level_branch(energy[touch.load_per_width > 0.0]):
+        message = (
+            f"T-gamma over the contact area must lie below {FIRST:g} or above {SECOND:g} N/mm2 all along "
+            f"the new flank, but is {energy.min():.3g} to {energy.max():.3g}: in between the rate does not "
+            "rise with the pressure, a pit deepens itself and the problem is ill-posed; take another law or "
+            "load"
+        )
+        raise CaseError([Fault(message, "wear.law", case.name)])
+
+
+def _new_touch(contact: FlankContact) -> Engagement:
+    profile = contact.profile
+    return contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
 
 
 def _law(case: Case) -> WearLaw:
@@ -94,23 +131,22 @@ def wear_law(wear: WearInput, coefficient: float) -> WearLaw:
         "drozdov": lambda: drozdov(
             coefficient, wear.pressure_exponent, wear.hardness, wear.reference_speed, wear.speed_exponent
         ),
+        "t_gamma": lambda: t_gamma(coefficient, wear.friction),
     }
-    return replace(laws[wear.law](), case_depth=wear.case_depth, core_factor=wear.core_factor)
+    law = with_pressure_speed_limit(laws[wear.law](), wear.pv_limit, wear.severe_factor)
+    return replace(law, case_depth=wear.case_depth, core_factor=wear.core_factor)
 
 
-def running_in_assumptions(running_in: RunningIn) -> tuple[str, ...]:
-    """Return what running-in takes for granted."""
-    if running_in.factor == 1.0:
-        return ()
-    return (
-        f"running-in: the coefficients of teeth and joints are {running_in.factor:g} times as high at first, "
-        f"the excess falls to 1/e in {running_in.cycles:.3g} cycles; joints of every new chain run in as "
-        "well",
-    )
+def clock_assumptions(clock: WearClock) -> tuple[str, ...]:
+    """Return what a coefficient that changes with the cycles takes for granted."""
+    return () if clock.is_steady else (clock.assumption(),)
 
 
-def case_running_in(wear: WearInput, sliding_per_cycle: float) -> RunningIn:
-    """Return how the law of a case runs in."""
+def case_clock(case: Case, sliding_per_cycle: float) -> WearClock:
+    """Return how the coefficient of a case changes with the cycles."""
+    wear = case.wear
+    if wear.cycles_exponent != 1.0:
+        return CyclesPower(wear.cycles_exponent, wear.reference_hours * case.cycles_per_hour)
     if wear.running_in_factor == 1.0 or not sliding_per_cycle > 0.0:
         return NO_RUNNING_IN
     return RunningIn(wear.running_in_factor, wear.running_in_distance / sliding_per_cycle)
@@ -128,7 +164,6 @@ def limit_states(
 
 def new_flank_pressure(contact: FlankContact) -> float:
     """Return the highest pressure on a flank that has not worn, by Hertz's theory."""
-    flank = contact.profile
-    touch = contact.engage(flank.x.copy(), flank.y.copy(), np.zeros(flank.x.size))
+    touch = _new_touch(contact)
     relative = np.maximum(touch.relative_curvature, 0.0)
     return float(peak_pressure(touch.load_per_width, relative, contact.modulus).max())

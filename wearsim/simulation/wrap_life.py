@@ -17,15 +17,16 @@ from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.lubricant import lubricant_clock
-from wearsim.simulation.wear_task import case_running_in, limit_states, running_in_assumptions, wear_law
+from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
-from wearsim.wear.lubricant_clock import WearClock
+from wearsim.wear.lubricant_clock import LubricatedClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
+from wearsim.wear.wear_clock import WearClock
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
@@ -88,7 +89,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         parts=parts,
         limits=_limits(contact, drive, stop_limits, run, life),
         ratings=ratings,
-        assumptions=(*contact.assumptions(), *running_in_assumptions(clock.running_in), *case.assumptions),
+        assumptions=(*contact.assumptions(), *clock_assumptions(clock.part), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -98,12 +99,14 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     )
 
 
-def wrap_problem(case: Case, contact: WrapContact) -> tuple[WearLaw, tuple[StopLimit, ...], float, WearClock]:
+def wrap_problem(
+    case: Case, contact: WrapContact
+) -> tuple[WearLaw, tuple[StopLimit, ...], float, LubricatedClock]:
     """Return what a wrap asks of the wear engine."""
-    running_in = case_running_in(case.wear, contact.sliding_per_cycle)
+    running_in = case_clock(case, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=running_in)
     stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
-    clock = WearClock(running_in, lubricant_clock(case, contact.joint_sliding_per_cycle))
+    clock = LubricatedClock(running_in, lubricant_clock(case, contact.joint_sliding_per_cycle))
     horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
     return law, stop_limits, horizon, clock
 
@@ -192,6 +195,14 @@ def _first(
     if run.met is not None:
         return sprocket, run.met.name, run.met.limit
     return sprocket, "horizon_hours", case.run.horizon_hours
+
+
+def with_coefficients(case: Case, life: Life | LowerBound, factor: float) -> Life | LowerBound:
+    """Return what becomes of a life of a wrapped case with all wear coefficients multiplied."""
+    if case.wear.is_steady and (case.lubrication is None or case.lubrication.steady):
+        return type(life)(life.cycles_run / factor, life.hours_run / factor)
+    *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+    return _scaled(life, factor, case, clock)
 
 
 def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:

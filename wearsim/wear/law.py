@@ -12,7 +12,10 @@ import numpy as np
 
 from wearsim.contact.engagement import ContactKind
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
+from wearsim.kernels.severity import BY_PRESSURE_SPEED, BY_T_GAMMA
+from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.severity import NO_SEVERITY, Severity, t_gamma_coefficient
+from wearsim.wear.wear_clock import WearClock
 
 
 def mean_pressure_factor(exponent: float) -> float:
@@ -52,9 +55,10 @@ class WearLaw:
     speed_exponent: float  # n
     case_depth: float = math.inf  # depth of the hardened layer [mm], infinite where there is none
     core_factor: float = 1.0  # what the coefficient is multiplied by below it
-    # how the coefficient falls at first. The engines count cycles of constant coefficient; it tells how a
-    # part that is renewed meanwhile runs in.
-    running_in: RunningIn = NO_RUNNING_IN
+    # how the coefficient changes with the cycles. The engines count cycles of constant coefficient; it tells
+    # how a part that is renewed meanwhile runs in.
+    running_in: WearClock = NO_RUNNING_IN
+    severity: Severity = NO_SEVERITY
 
     def numbers(self, kind: ContactKind) -> Vector:
         """Return the law as the kernel takes it.
@@ -70,14 +74,18 @@ class WearLaw:
         -------
         numpy.ndarray
             Factor, exponent of the pressure, of the load and of the speed, depth of the
-            hardened layer and the factor below it. In a travelling contact
-            c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
+            hardened layer and the factor below it, kind, limit and factor of the severity. In a
+            travelling contact c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
         """
         m, n = self.pressure_exponent, self.speed_exponent
         if kind is ContactKind.LOCAL:
-            return np.array([self.coefficient, m, 0.0, n, self.case_depth, self.core_factor])
+            return np.array([self.coefficient, m, 0.0, n, *self._changes])
         factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
-        return np.array([factor, m - 1.0, 1.0, n, self.case_depth, self.core_factor])
+        return np.array([factor, m - 1.0, 1.0, n, *self._changes])
+
+    @property
+    def _changes(self) -> tuple[float, ...]:
+        return self.case_depth, self.core_factor, *self.severity.numbers
 
     def unit_numbers(self, kind: ContactKind) -> Vector:
         """Return the law as the kernel takes it, with the coefficient 1."""
@@ -98,10 +106,11 @@ class WearLaw:
         Returns
         -------
         float
-            (m+1)/2 on a strand, m/2 with a given path, (m-1)/2 with a given slip ratio.
+            (m+1)/2 on a strand, m/2 with a given path, (m-1)/2 with a given slip ratio; with a severity the
+            most that it comes to.
         """
         swept = self.pressure_exponent if kind is ContactKind.LOCAL else self.pressure_exponent - 1.0
-        return 0.5 * swept + slip_curvature_exponent
+        return 0.5 * (swept + self.severity.steepness) + slip_curvature_exponent
 
 
 def archard(specific_wear_rate: float) -> WearLaw:
@@ -174,6 +183,51 @@ def drozdov(
     """
     scale = hardness**pressure_exponent * reference_speed**speed_exponent
     return WearLaw(coefficient / scale, pressure_exponent, speed_exponent)
+
+
+def t_gamma(coefficient: float, friction: float) -> WearLaw:
+    """Return the law by T-gamma, mild to catastrophic, for contacts that travel with a slip ratio.
+
+    Equation physics.md (L8).
+
+    Parameters
+    ----------
+    coefficient : float
+        C on the published rate; 1 for the pair R8T on UIC60 900A.
+    friction : float
+        Coefficient of friction.
+
+    Returns
+    -------
+    Law
+        Archard's, with the coefficient of the mild branch and a severity.
+    """
+    mild = archard(coefficient * t_gamma_coefficient(friction))
+    return replace(mild, severity=Severity(BY_T_GAMMA, math.inf, friction))
+
+
+def with_pressure_speed_limit(law: WearLaw, pv_limit: float, severe_factor: float) -> WearLaw:
+    """Return a law whose coefficient is higher beyond a limit of peak pressure times sliding speed.
+
+    Equation physics.md (L6).
+
+    Parameters
+    ----------
+    law : Law
+        That below the limit.
+    pv_limit : float
+        Limit [MPa mm/s].
+    severe_factor : float
+        What the coefficient is multiplied by beyond it, at least 1.
+
+    Returns
+    -------
+    Law
+        The same law with a severity.
+    """
+    if severe_factor == 1.0:
+        return law
+    return replace(law, severity=Severity(BY_PRESSURE_SPEED, pv_limit, severe_factor))
 
 
 @dataclass(frozen=True)

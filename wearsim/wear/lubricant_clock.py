@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.running_in import RunningIn
+from wearsim.wear.wear_clock import WearClock
 
 _MOST = 100_000
 """Stretches between two events that a schedule may have before it repeats itself."""
@@ -323,27 +323,41 @@ FRESH = LubricantClock(LubricantLaw(), LubricantSchedule())
 
 
 @dataclass(frozen=True, eq=False)
-class WearClock:
-    """Between cycles run and the cycles of constant coefficient that wear as much.
+class LubricatedClock(WearClock):
+    """Between cycles run and the cycles of constant coefficient, where the lubricant changes too.
 
-    Contacts run in by what they wear, so running-in counts the cycles of lubricated contacts.
+    Contacts run in by what they wear, so the clock of a part counts the cycles of lubricated contacts.
 
     Equation physics.md (O3).
     """
 
-    running_in: RunningIn
+    part: WearClock
     lubricant: LubricantClock = FRESH
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether both kinds of cycles are the same."""
+        return self.part.is_steady and self.lubricant is FRESH
+
+    @property
+    def shortest(self) -> float:
+        """As of a part."""
+        return self.part.shortest
 
     @property
     def amplification(self) -> float:
         """Greatest relative error of the cycles run for one of the constant cycles, at most."""
-        return self.running_in.amplification * self.lubricant.amplification
+        return self.part.amplification * self.lubricant.amplification
+
+    def assumption(self) -> str:
+        """Say what is taken for granted of a part; the case says what is of the lubricant."""
+        return self.part.assumption()
 
     def steady_cycles(self, cycles: float) -> float:
         """Return the cycles of constant coefficient that wear as much as those run."""
-        return self.running_in.steady_cycles(self.lubricant.steady_cycles(cycles))
+        return self.part.steady_cycles(self.lubricant.steady_cycles(cycles))
 
     def running_cycles(self, constant: Vector) -> Vector:
         """Return the cycles run that wear as much as those of constant coefficient."""
-        lubricated = self.running_in.running_cycles(constant)
+        lubricated = self.part.running_cycles(constant)
         return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)

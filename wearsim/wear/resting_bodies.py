@@ -33,6 +33,10 @@ from wearsim.wear.law import WearLaw
 
 Rows = NDArray[np.float64]
 
+_LEAST = 1e-12
+"""Part of the cycles of a run that a step takes at least: a new chain whose coefficient falls fast is longer
+by much after cycles that are too few to be told apart."""
+
 _REACH = 1.2
 """Half of the stretch of outline that an event may touch, in radii of the mate."""
 
@@ -193,7 +197,8 @@ class WornBodies:
     def cycles_to(self, elongation: float) -> float:
         """Return the cycles from now until the chain in use is longer by so much."""
         worn = self.joint_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
-        return self.running_in.until_renewed(self.chain_new_at, worn) - self.cycles
+        cycles = self.running_in.until_renewed(self.chain_new_at, worn) - self.cycles
+        return max(cycles, _LEAST * self.cycles)
 
     @property
     def chain_is_worn(self) -> bool:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.wear.wear_clock import WearClock
 
 _MAX_STEPS = 1000
 """Steps of Newton's method; it takes about the logarithm of the factor."""
@@ -15,7 +16,7 @@ _GRID = np.geomspace(0.1, 1e4, 1000)
 
 
 @dataclass(frozen=True)
-class RunningIn:
+class RunningIn(WearClock):
     """K(N) = K (1 + (f - 1) exp(-N/N_r)), the same for all contacts of a drive.
 
     As it is a factor of the whole wear rate, a drive that runs in wears as one of constant
@@ -35,6 +36,16 @@ class RunningIn:
 
     factor: float  # f, first coefficient over the lasting one, at least 1
     cycles: float  # N_r, over which the excess falls to 1/e
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether there is no running-in."""
+        return self.factor == 1.0
+
+    @property
+    def shortest(self) -> float:
+        """Cycles below which the coefficient of a new part hardly falls."""
+        return self.cycles
 
     @property
     def amplification(self) -> float:
@@ -57,6 +68,13 @@ class RunningIn:
         n, excess = _GRID, self.factor - 1.0
         rate = n * (1.0 + excess * np.exp(-n))
         return float(((n - excess * np.expm1(-n)) / rate).max())
+
+    def assumption(self) -> str:
+        """Say what is taken for granted."""
+        return (
+            f"running-in: the coefficients of teeth and joints are {self.factor:g} times as high at first, "
+            f"the excess falls to 1/e in {self.cycles:.3g} cycles; joints of every new chain run in as well"
+        )
 
     def steady_cycles(self, cycles: float) -> float:
         """Return the cycles of constant coefficient that wear as much.
@@ -105,28 +123,6 @@ class RunningIn:
             if (step <= 1e-15 * cycles).all():
                 break
         return cycles
-
-    def renewed(self, new_at: float, until: float) -> float:
-        """Return what a part has worn that was new later than the drive.
-
-        Examples
-        --------
-        Long after the drive has run in, a new part still costs (f - 1) N_r cycles:
-
-        >>> round(RunningIn(3.0, 100.0).renewed(1e6, 1.1e6), 6)
-        100200.0
-        """
-        if self.factor == 1.0 or new_at == 0.0:
-            return until - new_at
-        start, end = self.running_cycles(np.array([new_at, until]))
-        return self.steady_cycles(float(end - start))
-
-    def until_renewed(self, new_at: float, worn: float) -> float:
-        """Return when a part that was new later has worn so much, the inverse of ``renewed``."""
-        if self.factor == 1.0 or new_at == 0.0:
-            return new_at + worn
-        start, run = self.running_cycles(np.array([new_at, worn]))
-        return self.steady_cycles(float(start + run))
 
 
 NO_RUNNING_IN = RunningIn(1.0, 1.0)

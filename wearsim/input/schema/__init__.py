@@ -19,6 +19,7 @@ from wearsim.input.schema.lubrication_tables import LubricationTable
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.input.schema.table import FormatVersion, Table, describe
 from wearsim.input.schema.wear_tables import (
+    FilmTable,
     MaterialsTable,
     MaterialTable,
     RunTable,
@@ -76,6 +77,7 @@ class CaseTables(Table):
     duty: list[DutyBlock] = Field(default_factory=list)
     lubrication: LubricationTable | None = None
     wear: WearTable
+    film: FilmTable | None = None
     fatigue: SprocketFatigueTable | None = None
     stop: StopTable = StopTable()
     run: RunTable = RunTable()

@@ -1,30 +1,25 @@
 """How it wears and when that ends: [wear], [material], [stop], [run] and [fatigue]."""
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.catalogue.catalogues import materials, wear_conditions
+from wearsim.catalogue.catalogues import materials, wear_conditions, wear_laws
 from wearsim.input.schema.table import Table, known, others_of
 from wearsim.input.units import Number, Positive, PositiveNumber
 
-_KEYS = {
-    "archard": ("specific_wear_rate_mm2_per_N",),
-    "power": ("coefficient", "pressure_exponent"),
-    "drozdov": (
-        "coefficient",
-        "pressure_exponent",
-        "hardness_MPa",
-        "reference_speed_mm_per_s",
-        "speed_exponent",
-    ),
-}
+_KEYS = {name: entry.keys for name, entry in wear_laws().items() if entry.kind == "law"}
+_TOGETHER = [entry.keys for entry in wear_laws().values() if entry.kind == "factor" and len(entry.keys) > 1]
+if TYPE_CHECKING:
+    _LawName = str
+else:
+    _LawName = Literal[tuple(_KEYS)]
 
 
 class WearTable(Table):
     """The wear law and its coefficient."""
 
-    law: Literal["archard", "power", "drozdov"] = "archard"
+    law: _LawName = "archard"
     condition: str | None = None
     specific_wear_rate_mm2_per_N: Positive | None = None
     coefficient: PositiveNumber | None = None
@@ -32,11 +27,16 @@ class WearTable(Table):
     hardness_MPa: Annotated[Positive, Field(ge=1e-3, le=1e6)] | None = None
     reference_speed_mm_per_s: Annotated[Positive, Field(ge=1e-6, le=1e9)] | None = None
     speed_exponent: Annotated[Number, Field(ge=-20.0, le=20.0)] | None = None
+    friction_coefficient: Annotated[PositiveNumber, Field(le=2.0)] | None = None
     case_depth_mm: Positive | None = None
     core_factor: PositiveNumber | None = None
     roller_wear_ratio: Annotated[Number, Field(ge=0.0)] | None = None
     running_in_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
     running_in_distance_mm: Positive | None = None
+    cycles_exponent: Annotated[PositiveNumber, Field(ge=0.05, le=1.0)] | None = None
+    reference_hours: Positive | None = None
+    pv_limit_MPa_mm_per_s: Positive | None = None
+    severe_factor: Annotated[PositiveNumber, Field(ge=1.0, le=1e6)] | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
 
     @classmethod
@@ -73,11 +73,14 @@ class WearTable(Table):
             other = f"or {', '.join(given)}" if given else f"or law = {self.law!r}"
             message = f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
             found.append(("condition", message))
-        for pair in (("case_depth_mm", "core_factor"), ("running_in_factor", "running_in_distance_mm")):
+        for pair in _TOGETHER:
             missing = [key for key in pair if getattr(self, key) is None]
             if len(missing) == 1:
                 other = pair[1 - pair.index(missing[0])]
                 found.append((missing[0], f"{other} needs this key"))
+        if self.cycles_exponent is not None and self.running_in_factor is not None:
+            message = "is a running-in that never ends: remove it or running_in_factor"
+            found.append(("cycles_exponent", message))
         return found
 
 
@@ -152,6 +155,14 @@ class RunTable(Table):
             return []
         message = "belongs to method = 'per_cycle': remove it or change the method"
         return [("cycles_per_update", message)]
+
+
+class FilmTable(Table):
+    """The oil between the flanks and their roughness."""
+
+    viscosity_mPa_s: Annotated[Positive, Field(ge=1e-2, le=1e7)]
+    pressure_viscosity_per_GPa: Annotated[Positive, Field(ge=0.1, le=100.0)]
+    roughness_um: Annotated[Positive, Field(ge=1e-3, le=1e3)]
 
 
 Treatment = Literal[

@@ -11,6 +11,7 @@ from wearsim.case.table_inputs import (
     TOLERANCE,
     contact_modulus_of,
     fatigue_input,
+    film_input,
     run_input,
     take_defaults,
     wear_input,
@@ -95,6 +96,7 @@ def read(document: Document) -> Case:
         warnings=tuple(case.warnings),
         given=document.given,
         lubrication=lubrication,
+        film=film_input(tables.film),
     )
 
 

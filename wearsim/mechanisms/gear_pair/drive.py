@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, Drive, FatigueInput
-from wearsim.contact.engagement import FlankContact, Mechanism
+from wearsim.contact.engagement import Engagement, FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.fatigue.contact_fatigue import fatigue_life
@@ -71,6 +71,11 @@ class GearDrive(Drive):
             stiffness=self.stiffness,
             points=self.points,
         )
+
+    def entrainment_speed(self, case: Case, touch: Engagement) -> Vector:
+        """Return the mean speed at which the contact runs along both flanks [mm/s]."""
+        rolling = self.pair.mesh(self.points).rolling
+        return np.asarray(np.pi * case.speed_rpm / 60.0 * rolling.sum(axis=0))
 
     def stop_limits(self, case: Case, contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return the limits of the pinion's flank, and that of the wheel."""

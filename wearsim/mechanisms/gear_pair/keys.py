@@ -11,6 +11,7 @@ from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.schema.wear_tables import (
     Depth,
     FatigueTable,
+    FilmTable,
     FlankMaterialTable,
     MaterialTable,
     RunTable,
@@ -211,6 +212,7 @@ class GearTables(CalculationTables):
     load: GearLoadTable
     lubrication: GearLubricationTable | None = None
     wear: GearWearTable
+    film: FilmTable | None = None
     fatigue: GearFatigueTable | None = None
     stop: GearStopTable
     run: RunTable = RunTable()

@@ -38,6 +38,16 @@ def prescribed_drive(
             key, "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0"
         )
         return None
+    if wear.severe_factor != 1.0 and table.sliding_speed is None:
+        case.faults.add(
+            key, "pv_limit_MPa_mm_per_s needs the column sliding_speed_mm_per_s: add it or remove the limit"
+        )
+        return None
+    if wear.law == "t_gamma" and table.slip_ratio is None:
+        case.faults.add(
+            key, "law = 't_gamma' needs the column slip_ratio in the place of sliding_distance_mm"
+        )
+        return None
     if wear.pressure_exponent < 1.0 and table.slip_ratio is not None:
         case.faults.add(
             "wear.pressure_exponent",

@@ -54,6 +54,12 @@ def strand_drive(
     if tooth_and_range is None or blocks is None:
         return None
     tooth, contact_end, contact_start = tooth_and_range
+    if wear.changes_with_load and len(blocks) > 1:
+        faults.add(
+            f"wear.{wear.changes_with_load}",
+            "holds for one constant load: the blocks of a duty become one equivalent load, which it does not "
+            "allow; remove it or the duty",
+        )
     fraction = slip_fraction(case)
     evolute = table.profile == "evolute"
     return StrandDrive(tooth, contact_end, contact_start, width, blocks, fraction, chain, evolute, hub)

@@ -51,6 +51,16 @@ def wrapped_drive(
         return None
     before = faults.count
     _check_chain(case, chain)
+    if wear.changes_with_load:
+        faults.add(
+            f"wear.{wear.changes_with_load}",
+            "asks for the pressure and the slip of a contact that travels, but rollers of a wrap rest in "
+            "their gaps: remove it, or take kind = 'strand', 'prescribed' or gears",
+        )
+    if tables.film is not None:
+        faults.add(
+            "film", "is that of a contact that rolls, but rollers of a wrap rest in their gaps: remove it"
+        )
     if table.role is None:
         case.take("sprocket.role", "driver", "default")
     given = tables.drive or DriveTable()

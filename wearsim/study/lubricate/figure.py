@@ -1,5 +1,6 @@
 """The picture of relubrication: lives and cost against the interval."""
 
+import math
 import textwrap
 
 import numpy as np
@@ -63,4 +64,4 @@ def _draw_cost(axis: Axes, plan: LubricantPlan, at: list[float], colour: str) ->
     cost, low, high = (np.array(values, dtype=float) for values in costs)
     axis.plot(at, cost, "-", color=colour)
     axis.fill_between(at, low, high, color=colour, alpha=0.12, linewidth=0.0)
-    axis.plot([plan.cheapest.interval], [plan.cheapest.cost], "o", color=colour)
+    axis.plot([plan.cheapest.interval], [plan.cheapest.cost or math.nan], "o", color=colour)

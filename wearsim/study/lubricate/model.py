@@ -5,7 +5,7 @@ part lives, and each interval only how fast that clock goes.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -223,12 +223,23 @@ class _Intervals:
     def policy(self, interval: float) -> RelubricationPolicy:
         """Return what an interval leads to."""
         clock = self.clock(interval)
-        lives = [
-            {part.name: self._life(clock, part.hours / factor(part)) for part in self.parts}
-            for factor in (lambda part: 1.0, lambda part: part.high, lambda part: part.low)
-        ]
-        costs = [self._cost(clock, interval, hourly) if self.priced else None for hourly in self.hourly]
-        return RelubricationPolicy(interval, *lives, clock.lasting_factor, *costs)
+
+        def lives(factor: Callable[[WornPart], float]) -> dict[str, float]:
+            return {part.name: self._life(clock, part.hours / factor(part)) for part in self.parts}
+
+        cost, low, high = (
+            self._cost(clock, interval, hourly) if self.priced else None for hourly in self.hourly
+        )
+        return RelubricationPolicy(
+            interval=interval,
+            lives=lives(lambda part: 1.0),
+            lives_low=lives(lambda part: part.high),
+            lives_high=lives(lambda part: part.low),
+            wear_factor=clock.lasting_factor,
+            cost=cost,
+            cost_low=low,
+            cost_high=high,
+        )
 
     @staticmethod
     def _life(clock: LubricantClock, lubricated: float) -> float:

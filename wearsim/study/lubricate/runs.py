@@ -8,6 +8,7 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
+from wearsim.input.schema.lubrication_tables import FADES, LASTS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
@@ -17,6 +18,9 @@ from wearsim.study.whole_drive.maintenance import part_lives
 from wearsim.study.whole_drive.model import CHAIN, drive_life
 
 SPROCKET = "sprocket"
+
+_OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed")
+"""Keys that do not hold for another lubricant."""
 
 
 def lubricate(
@@ -49,9 +53,7 @@ def _options(given: GivenInput) -> Iterator[Case | DriveCase]:
         changes: dict[str, Any] = {f"lubrication.{key}": value for key, value in option.items()}
         if "lubricant" in option:
             # What the lubricant before lasts and wears is not that of another.
-            own = ("lasts_hours", "lasts_km", "lasts_sliding_m", "fades_over_hours", "fades_over_km")
-            own = (*own, "fades_over_sliding_m", "dry_factor", "completeness", "contamination_removed")
-            changes = {f"lubrication.{key}": None for key in own if key in table} | changes
+            changes = {f"lubrication.{key}": None for key in _OF_A_LUBRICANT if key in table} | changes
         other = changed(given, changes)
         yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
 

@@ -11,6 +11,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_steady_coefficient
 from wearsim.simulation import simulate
+from wearsim.simulation.wear_task import case_clock
 from wearsim.simulation.wrap_life import wrap_of
 
 
@@ -57,6 +58,7 @@ class RemainingLife:
     part: str  # `sprocket` or `chain`
     reading: SingleReading  # what was measured
     model_hours: float  # when the case's own coefficient gives that reading [h]
+    factor: float  # the coefficient that the reading stands for over that of the case
     coefficient: float  # that the reading stands for, in the unit of the case's law
     life: Life | LowerBound  # from new, and from the reading on
     remaining: Life | LowerBound  # from new, and from the reading on
@@ -65,11 +67,6 @@ class RemainingLife:
     remaining_high: Life | LowerBound
     assumptions: tuple[str, ...]  # what was taken for granted, and what the user should look at
     warnings: tuple[str, ...]  # what was taken for granted, and what the user should look at
-
-    @property
-    def factor(self) -> float:
-        """The coefficient over that of the case."""
-        return self.model_hours / self.reading.hours
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,12 +79,14 @@ class _PartHistory:
     coefficient: float
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
+    exponent: float  # of the hours in the wear, along which it is interpolated
 
     def hours_of(self, value: float) -> float:
         """Hours at which a value is first reached."""
         highest = np.maximum.accumulate(self.values)
         rising = np.concatenate([[True], highest[1:] > highest[:-1]])
-        return float(np.interp(value, highest[rising], self.hours[rising]))
+        steady = np.interp(value, highest[rising], self.hours[rising] ** self.exponent)
+        return float(steady ** (1.0 / self.exponent))
 
 
 def remaining_life(
@@ -97,11 +96,14 @@ def remaining_life(
 
     Wear depends on coefficient times time only. If the case's own coefficient k gives the
     reading after h_m hours and it was made after h, the coefficient is k h_m/h and the life
-    is L h/h_m instead of L. On a wrap the coefficients of teeth and joints change alike for a
+    is L h/h_m instead of L. Where wear goes with the cycles to a power b the life is the same, and the
+    coefficient is k (h_m/h)^b. On a wrap the coefficients of teeth and joints change alike for a
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
-    long as the coefficient is constant.
+    long as the coefficient does not change otherwise.
     """
-    check_steady_coefficient(case, "remaining")
+    exponent = case.wear.cycles_exponent
+    if exponent == 1.0:
+        check_steady_coefficient(case, "remaining")
     if not 0.0 < reading.error < reading.value:
         raise _fault(
             case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"
@@ -116,7 +118,7 @@ def remaining_life(
     low = history.hours_of(min(reading.value + reading.error, greatest))
     high = history.hours_of(reading.value - reading.error)
     warnings = list(history.warnings)
-    factor = model / reading.hours
+    factor = (model / reading.hours) ** exponent
     if not case.wear.low <= factor <= case.wear.high and reading.quantity != ELONGATION:
         warnings.append(
             f"the reading asks for {factor:.3g} times the wear coefficient of the case, outside its band "
@@ -128,6 +130,7 @@ def remaining_life(
         part="chain" if reading.quantity == ELONGATION else "sprocket",
         reading=reading,
         model_hours=model,
+        factor=factor,
         coefficient=factor * history.coefficient,
         life=_stretched(history.life, reading.hours / model, 0.0),
         remaining=_stretched(history.life, reading.hours / model, reading.hours),
@@ -150,12 +153,13 @@ def _fault(case: Case, reading: SingleReading, message: str) -> CaseError:
 
 
 def _chain(case: Case, reading: SingleReading) -> _PartHistory:
-    """Elongation of a chain: linear, so that no run is needed."""
+    """Elongation of a chain: linear in cycles of constant coefficient, so that no run is needed."""
     if not case.drive.wear_coefficients:
         raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     drive = wrap_of(case)
     contact = drive.contact(case)
-    cycles = contact.cycles_per_chain
+    clock = case_clock(case, contact.sliding_per_cycle)
+    [cycles] = clock.running_cycles(np.array([contact.cycles_per_chain])).tolist()
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _PartHistory(
         hours=np.array([0.0, life.hours]),
@@ -164,6 +168,7 @@ def _chain(case: Case, reading: SingleReading) -> _PartHistory:
         coefficient=drive.joint.coefficient,
         assumptions=(*_CONSTANT, *case.assumptions),
         warnings=case.warnings,
+        exponent=case.wear.cycles_exponent,
     )
 
 
@@ -187,4 +192,5 @@ def _teeth(case: Case, reading: SingleReading, progress: Callable[[float], None]
         coefficient=case.wear.coefficient,
         assumptions=(*_CONSTANT, *(joints if "chain" in result.parts else ()), *result.assumptions),
         warnings=result.warnings,
+        exponent=case.wear.cycles_exponent,
     )
