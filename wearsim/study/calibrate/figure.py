@@ -12,7 +12,8 @@ from scipy.stats import norm
 from wearsim.report.text_lines import literal
 from wearsim.study.calibrate.calibration import Calibration
 from wearsim.study.calibrate.observations import ReadingResidual
-from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE
+from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE
+from wearsim.study.remaining.chain_readings import ELONGATION, GAUGE
 
 _AXES = {
     DEEPEST: "depth at the deepest point, mm",
@@ -20,6 +21,7 @@ _AXES = {
     OVER_PINS: "less over pins, mm",
     ELONGATION: "elongation of the chain, %",
     PROFILE: "profile behind the new one, mm",
+    GAUGE: "mark of a gauge, %",
 }
 
 

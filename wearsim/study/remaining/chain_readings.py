@@ -204,9 +204,22 @@ def _reading(
         links = int(cells["links"])
         low = high = elongation_over(value, links, pitch)
         error *= 100.0 / (links * pitch)
+    error = usual_error if math.isnan(error) else error
     if quantity == GAUGE:
-        low, high = (-math.inf, value) if cells["result"] == GO else (value, math.inf)
-    return ChainReading(line, hours, quantity, low, high, usual_error if math.isnan(error) else error)
+        return side_of_mark(line, hours, value, cells["result"], error)
+    return ChainReading(line, hours, quantity, low, high, error)
+
+
+def side_of_mark(line: int, hours: float, mark: float, result: str, error: float) -> ChainReading:
+    """Return what a gauge says that fell in (no-go) or did not (go).
+
+    Examples
+    --------
+    >>> side_of_mark(2, 100.0, 0.75, "no-go", 0.05).high
+    inf
+    """
+    low, high = (-math.inf, mark) if result == GO else (mark, math.inf)
+    return ChainReading(line, hours, GAUGE, low, high, error)
 
 
 def _check_times(log: ChainLog) -> None:
@@ -214,9 +227,8 @@ def _check_times(log: ChainLog) -> None:
     faults = []
     for one in log.readings:
         if not one.hours > 0.0:
-            text = (
-                f"a reading must come after the day on which the chain was new: give that in a first row {NEW!r}"
-                + (" or as service.start_date" if log.time.column == DATE else "")
+            text = f"must be later than 0, when the chain was new: give that time in a first row {NEW!r}" + (
+                " or as service.start_date" if log.time.column == DATE else ""
             )
             faults.append(Fault(text, log.time.column, log.file, one.line))
         if one.measured and one.low < -_BELOW_NEW * one.error:

@@ -73,9 +73,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     callback=finite,
     help="Error of an elongation, to either side; a standard deviation for rows that state none.",
 )
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="New folder for tables and a picture of READINGS."
-)
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and a picture.")
 @click.option("--force", is_flag=True, help="Replace what --out names.")
 @click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
 @overrides
