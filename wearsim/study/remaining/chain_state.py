@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
+import numpy as np
+
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
-from wearsim.simulation.wrap_life import wrap_of
+from wearsim.simulation.wrap_life import wrap_of, wrap_problem
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
@@ -70,27 +71,30 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
     CaseError
         What is wrong with case or readings, or a reading beyond the limit.
     """
-    check_steady_coefficient(case, "remaining")
     if not case.drive.wear_coefficients:
         text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
         raise CaseError([Fault(text, "mechanism.kind", case.name)])
     drive = wrap_of(case)
     log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
     limit = 100.0 * drive.joint.elongation_limit
-    life = drive.contact(case).cycles_per_chain / case.cycles_per_hour
     _check_within(log, limit)
     _check_relubrications(log)
-    expected = tuple(limit * one.hours / life for one in log.readings)
+    contact = drive.contact(case)
+    clock, per_hour = wrap_problem(case, contact)[0].running_in, case.cycles_per_hour
+    rate = limit / contact.cycles_per_chain
+    expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
     joint = drive.joint
     prior = FactorPrior(case.wear.low, case.wear.high)
     if joint.low is not None and joint.high is not None:
         prior = FactorPrior(joint.low / joint.coefficient, joint.high / joint.coefficient)
     posterior = factor_posterior(log.readings, expected, prior)
-    lives = tuple(life / factor for factor in reversed(posterior.quantiles))
-    now = tuple(limit * log.today * factor / life for factor in posterior.quantiles)
+    factors = np.array(posterior.quantiles)
+    cycles = clock.running_cycles(contact.cycles_per_chain / factors[::-1])
+    lives = tuple((cycles / per_hour).tolist())
+    now = rate * clock.steady_cycles(log.today * per_hour) * factors
     quantiles = (
         *_left(case, log, lives),
-        Quantiles("elongation_percent", now),
+        Quantiles("elongation_percent", tuple(now.tolist())),
         Quantiles("life_hours", lives),
         Quantiles("coefficient_factor", posterior.quantiles),
     )
@@ -143,7 +147,7 @@ def _check_relubrications(log: ChainLog) -> None:
 
 
 def _assumptions(prior: FactorPrior) -> Iterator[str]:
-    yield "the coefficient of the joints is constant: load and lubrication stay as they were"
+    yield "load and lubrication stay as they were"
     yield (
         f"before any reading it is {prior.low:.3g} to {prior.high:.3g} times the case's (90 % of a "
         "log-normal distribution, the band of the case)"

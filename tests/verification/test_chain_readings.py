@@ -1,0 +1,216 @@
+"""What readings of a chain leave of its life: closed forms, and intervals that hold the truth as often as told."""
+
+import copy
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import norm, truncnorm
+
+import wearsim
+from wearsim.study.remaining.chain_readings import side_of_mark
+from wearsim.study.remaining.chain_state import chain_state
+from wearsim.study.remaining.posterior import LEVELS, FactorPrior, factor_posterior
+
+WRAP = {
+    "format_version": 1,
+    "chain": {"designation": "ANSI 40"},
+    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
+    "drive": {"mate_teeth": 57, "links": 120},
+    "mechanism": {"kind": "wrap", "phases": 2},
+    "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
+    "load": {"power_kW": 4.6, "speed_rpm": 1000},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+    "stop": {"elongation_percent": 3},
+    "service": {"km_per_hour": 30, "hours_per_day": 8},
+}
+PITCH = 12.7
+BAND = 3.0
+"""Factor to either side, the default band: 90 % of a log-normal distribution."""
+
+SIGMA = math.log(BAND) / norm.ppf(0.95)
+
+
+def case(**tables):
+    changed = copy.deepcopy(WRAP)
+    for table, keys in tables.items():
+        changed.setdefault(table, {}).update(keys)
+    return wearsim.load_case(changed)
+
+
+@pytest.fixture(scope="module")
+def drive():
+    """The case, and the hours in which its chain grows by 3 %."""
+    loaded = case()
+    return loaded, wearsim.remaining(loaded, 1.0, elongation_percent=3).found.model_hours
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Function that writes readings."""
+
+    def write(*rows, head="time_hours,quantity,value,links,result,error"):
+        path = tmp_path / "readings.csv"
+        path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+        return path
+
+    return write
+
+
+def quantiles(found, name):
+    return dict(zip(LEVELS, found.of(name).values, strict=True))
+
+
+def test_one_sharp_reading_is_the_rule_of_three(drive, table):
+    """0.6 % after 500 h is 3 % after 2500 h: 2000 h are left."""
+    loaded, life = drive
+    found = chain_state(loaded, table("500,elongation_percent,0.6,,,1e-6"))
+    assert found.of("remaining_hours").middle == pytest.approx(2000.0, rel=1e-5)
+    assert found.of("life_hours").middle == pytest.approx(2500.0, rel=1e-5)
+    assert found.of("elongation_percent").middle == pytest.approx(0.6, rel=1e-5)
+    assert found.of("coefficient_factor").middle == pytest.approx(life / 2500.0, rel=1e-5)
+    assert found.of("remaining_km").middle == pytest.approx(60000.0, rel=1e-5)
+    single = wearsim.remaining(loaded, 500, elongation_percent=0.6)
+    assert found.of("remaining_hours").middle == pytest.approx(single.remaining.hours, rel=1e-5)
+
+
+def test_a_length_over_links_is_an_elongation(drive, table):
+    """100 links of 12.7 mm are 1270 mm; 1277.62 mm are 0.6 % more, and 0.0127 mm are 0.001 %."""
+    loaded, _ = drive
+    length = chain_state(loaded, table("500,chain_length_mm,1277.62,100,,0.0127"))
+    percent = chain_state(loaded, table("500,elongation_percent,0.6,,,0.001"))
+    for one, other in zip(length.quantiles, percent.quantiles, strict=True):
+        assert one.values == pytest.approx(other.values, rel=1e-9)
+
+
+def test_km_and_days_are_hours(drive, table):
+    """30 km/h and 8 h a day: 500 h are 15 000 km; 62.5 days of 8 h end in the 63rd day."""
+    loaded, _ = drive
+    hours = chain_state(loaded, table("496,elongation_percent,0.6,,,0.03"))
+    km = chain_state(
+        loaded,
+        table("14880,elongation_percent,0.6,,,0.03", head="distance_km,quantity,value,links,result,error"),
+    )
+    days = chain_state(
+        loaded,
+        table(
+            "2026-01-01,new,,,,",
+            "2026-03-04,elongation_percent,0.6,,,0.03",
+            head="date,quantity,value,links,result,error",
+        ),
+    )
+    assert km.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
+    assert days.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
+    ends = [np.datetime64("2026-01-01") + int(life / 8.0) for life in hours.of("life_hours").values]
+    assert days.of("end_date").values == tuple(str(day) for day in ends)
+
+
+def test_readings_without_a_band_are_least_squares():
+    """v = f p with errors s: f is the weighted mean, its error 1/sqrt(sum(p/s)^2)."""
+    values, at, errors = np.array([0.31, 0.58, 0.95]), np.array([0.3, 0.6, 0.9]), np.array([0.01, 0.02, 0.01])
+    readings = [reading(value, error) for value, error in zip(values, errors, strict=True)]
+    found = factor_posterior(readings, at, FactorPrior(1e-4, 1e4))
+    information = float(((at / errors) ** 2).sum())
+    factor = float((at * values / errors**2).sum()) / information
+    # Of a density flat in the logarithm the middle is lower by (s/f)^2.
+    error = 1.0 / math.sqrt(information)
+    expected = norm.ppf(LEVELS, factor - error**2 / factor, error)
+    assert found.quantiles == pytest.approx(expected, rel=2e-5)
+    assert found.scale == 1.0
+
+
+def reading(value, error):
+    from wearsim.study.remaining.chain_readings import ChainReading
+
+    return ChainReading(2, 1.0, "elongation_percent", value, value, error)
+
+
+@pytest.mark.parametrize(
+    ("result", "cut"), [("go", (-math.inf, math.log(1.5))), ("no-go", (math.log(1.5), math.inf))]
+)
+def test_a_gauge_cuts_the_band_off_at_its_mark(result, cut):
+    """A gauge of 0.75 % where 0.5 % was expected: factors below or above 1.5, the rest of the band as it was."""
+    found = factor_posterior([side_of_mark(2, 1.0, 0.75, result, 1e-7)], [0.5], FactorPrior(1 / BAND, BAND))
+    ends = [end / SIGMA for end in cut]
+    expected = np.exp(truncnorm.ppf(LEVELS, *ends, scale=SIGMA))
+    assert found.quantiles == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_gauge_on_its_own_leaves_a_wide_interval(drive, table):
+    """Of the band of a factor of 9 more than a factor of 3 is left, where one reading leaves a few per cent."""
+    loaded, life = drive
+    found = quantiles(chain_state(loaded, table(f"{0.2 * life},gauge_percent,0.75,,go,")), "life_hours")
+    assert 3.0 < found[0.95] / found[0.05] < 9.0
+
+
+def test_two_gauges_are_an_interval(drive, table):
+    """Below 0.5 % after 1000 h and at least 0.75 % after 1600 h: 3 % after 4000 to 6400 h, not sooner than 6000 h."""
+    loaded, _ = drive
+    found = chain_state(
+        loaded, table("1000,gauge_percent,0.5,,go,1e-6", "1600,gauge_percent,0.75,,no-go,1e-6")
+    )
+    low, *_, high = found.of("life_hours").values
+    assert 6000.0 < low < high < 6400.0
+
+
+def drives(loaded, life, seed, write, times, reading_of):
+    """Shares of 200 random drives whose life lies in the intervals of 50 and 90 %."""
+    random = np.random.default_rng(seed)
+    inside = np.zeros(2)
+    for _ in range(200):
+        truth = life / math.exp(random.normal(0.0, SIGMA))
+        rows = [reading_of(random, part * life, 3.0 * part * life / truth) for part in times]
+        low, lower, _, upper, high = chain_state(loaded, write(*rows)).of("life_hours").values
+        inside += lower < truth < upper, low < truth < high
+    return inside / 200.0
+
+
+def measured(random, hours, percent):
+    """A length over 40 links, read to 0.5 mm, and a reading in per cent, by turns."""
+    if random.random() < 0.5:
+        return f"{hours},chain_length_mm,{508.0 * (1.0 + 0.01 * percent) + random.normal(0.0, 0.5)},40,,0.5"
+    return f"{hours},elongation_percent,{percent + random.normal(0.0, 0.1)},,,0.1"
+
+
+def gauged(random, hours, percent):
+    """A gauge of 0.5 or of 0.75 %, whose mark is off by 0.03 % at random."""
+    mark = random.choice([0.5, 0.75])
+    result = "no-go" if percent + random.normal(0.0, 0.03) >= mark else "go"
+    return f"{hours},gauge_percent,{mark},,{result},0.03"
+
+
+@pytest.mark.parametrize(("reading_of", "seed"), [(measured, 1), (gauged, 2)], ids=["measured", "gauges"])
+def test_intervals_hold_the_truth_as_often_as_they_say(drive, table, reading_of, seed):
+    """200 drives whose coefficient scatters over the band of the case: 90 % of lives, within 85 to 95 %."""
+    half, most = drives(*drive, seed, table, (0.05, 0.1, 0.15), reading_of)
+    assert 0.85 <= most <= 0.95
+    assert 0.40 <= half <= 0.60
+
+
+def test_readings_off_one_line_widen_the_intervals(drive, table):
+    """Three readings that jump by ten errors: errors are taken so much larger, and it is said."""
+    loaded, _ = drive
+    rows = [
+        f"{hours},elongation_percent,{value},,,0.01"
+        for hours, value in ((500, 0.5), (1000, 1.3), (1500, 1.5))
+    ]
+    found = chain_state(loaded, table(*rows))
+    assert found.posterior.scale > 5.0
+    assert any("as far from one line" in text for text in found.warnings)
+
+
+def test_a_gauge_that_comes_out_again_is_named(drive, table):
+    loaded, _ = drive
+    found = chain_state(loaded, table("900,gauge_percent,0.75,,no-go,", "1000,gauge_percent,0.5,,go,"))
+    (text,) = (text for text in found.warnings if "contradicts" in text)
+    assert "line 3: go at 0.5 % contradicts no-go at 0.75 % in line 2" in text
+
+
+def test_running_in_counts(table):
+    """A factor of 3 over many cycles: the coefficient that explains a reading is a third, and then some."""
+    slow = case(wear={"running_in_factor": 3.0, "running_in_distance_mm": 1e12})
+    plain, running = (
+        chain_state(one, table("500,elongation_percent,0.6,,,1e-6")).of("coefficient_factor").middle
+        for one in (case(), slow)
+    )
+    assert running == pytest.approx(plain / 3.0, rel=1e-3)
