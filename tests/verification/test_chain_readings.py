@@ -1,4 +1,4 @@
-"""What readings of a chain leave of its life: closed forms, and intervals that hold the truth as often as told."""
+"""What readings leave of a chain's life: closed forms, and how often intervals hold the truth."""
 
 import copy
 import math
@@ -24,7 +24,7 @@ WRAP = {
     "stop": {"elongation_percent": 3},
     "service": {"km_per_hour": 30, "hours_per_day": 8},
 }
-PITCH = 12.7
+CELLS = "quantity,value,links,result,error"
 BAND = 3.0
 """Factor to either side, the default band: 90 % of a log-normal distribution."""
 
@@ -49,7 +49,7 @@ def drive():
 def table(tmp_path):
     """Function that writes readings."""
 
-    def write(*rows, head="time_hours,quantity,value,links,result,error"):
+    def write(*rows, head=f"time_hours,{CELLS}"):
         path = tmp_path / "readings.csv"
         path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
         return path
@@ -87,17 +87,9 @@ def test_km_and_days_are_hours(drive, table):
     """30 km/h and 8 h a day: 500 h are 15 000 km; 62.5 days of 8 h end in the 63rd day."""
     loaded, _ = drive
     hours = chain_state(loaded, table("496,elongation_percent,0.6,,,0.03"))
-    km = chain_state(
-        loaded,
-        table("14880,elongation_percent,0.6,,,0.03", head="distance_km,quantity,value,links,result,error"),
-    )
+    km = chain_state(loaded, table("14880,elongation_percent,0.6,,,0.03", head=f"distance_km,{CELLS}"))
     days = chain_state(
-        loaded,
-        table(
-            "2026-01-01,new,,,,",
-            "2026-03-04,elongation_percent,0.6,,,0.03",
-            head="date,quantity,value,links,result,error",
-        ),
+        loaded, table("2026-01-01,new,,,,", "2026-03-04,elongation_percent,0.6,,,0.03", head=f"date,{CELLS}")
     )
     assert km.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
     assert days.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
@@ -129,7 +121,7 @@ def reading(value, error):
     ("result", "cut"), [("go", (-math.inf, math.log(1.5))), ("no-go", (math.log(1.5), math.inf))]
 )
 def test_a_gauge_cuts_the_band_off_at_its_mark(result, cut):
-    """A gauge of 0.75 % where 0.5 % was expected: factors below or above 1.5, the rest of the band as it was."""
+    """A gauge of 0.75 % where 0.5 % was expected: what of the band lies below or above 1.5."""
     found = factor_posterior([side_of_mark(2, 1.0, 0.75, result, 1e-7)], [0.5], FactorPrior(1 / BAND, BAND))
     ends = [end / SIGMA for end in cut]
     expected = np.exp(truncnorm.ppf(LEVELS, *ends, scale=SIGMA))
@@ -137,14 +129,14 @@ def test_a_gauge_cuts_the_band_off_at_its_mark(result, cut):
 
 
 def test_a_gauge_on_its_own_leaves_a_wide_interval(drive, table):
-    """Of the band of a factor of 9 more than a factor of 3 is left, where one reading leaves a few per cent."""
+    """Of the band of a factor of 9 more than a factor of 3 is left."""
     loaded, life = drive
     found = quantiles(chain_state(loaded, table(f"{0.2 * life},gauge_percent,0.75,,go,")), "life_hours")
     assert 3.0 < found[0.95] / found[0.05] < 9.0
 
 
 def test_two_gauges_are_an_interval(drive, table):
-    """Below 0.5 % after 1000 h and at least 0.75 % after 1600 h: 3 % after 4000 to 6400 h, not sooner than 6000 h."""
+    """Below 0.5 % after 1000 h, 0.75 % or more after 1600 h: 3 % after 6000 to 6400 h."""
     loaded, _ = drive
     found = chain_state(
         loaded, table("1000,gauge_percent,0.5,,go,1e-6", "1600,gauge_percent,0.75,,no-go,1e-6")
