@@ -10,6 +10,7 @@ from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.remaining.chain_readings import GAUGE, GO, NO_GO, ChainReading
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
+from wearsim.study.remaining.relubrications import mean_interval
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""
@@ -36,6 +37,7 @@ def chain_text(found: ChainState) -> str:
             for label, form in [_WORDS[one.name]]
         ),
         ("Readings", counted_readings(found)),
+        *([("Lubricated", _relubrications(found))] if found.log.relubricated else []),
         ("Assumes", numbered_assumptions(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
@@ -50,6 +52,12 @@ def counted_readings(found: ChainState) -> str:
     return f"{measured} measured, {gauges} by a gauge" + (
         f", errors taken {widened:.3g} times as large" if widened > 1.0 else ""
     )
+
+
+def _relubrications(found: ChainState) -> str:
+    """Return how often the chain was relubricated."""
+    count, every = len(found.log.relubricated), grouped(mean_interval(found.log))
+    return f"{count} times, every {every} h in the mean, and so on from here"
 
 
 def chain_json(found: ChainState) -> dict[str, Any]:
@@ -67,6 +75,7 @@ def chain_json(found: ChainState) -> dict[str, Any]:
         "remaining_hours_high": left.values[-1],
         "intervals": interval_rows(found),
         "readings": reading_rows(found),
+        "relubrications": len(found.log.relubricated),
         "error_scale": found.posterior.scale,
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),

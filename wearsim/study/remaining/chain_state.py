@@ -10,13 +10,17 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
+from wearsim.geometry.profile_points import Vector
+from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.simulation.wrap_life import wrap_of, wrap_problem
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
+from wearsim.study.remaining.relubrications import as_before, as_logged, check_relubrications, mean_interval
+from wearsim.wear.lubricant_clock import WearClock
 
-_PAST = 0.05
-"""Probability of a limit that is passed already from which on the user is warned."""
+_BEYOND, _POINTS = 1.1, 400
+"""Part of the latest end of the life up to which the elongation is told, and at how many times."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,8 @@ class ChainState:
     log: ChainLog
     limit: float  # elongation at which its life ends [%]
     expected: tuple[float, ...]  # elongation at each reading with the case's own coefficient [%]
+    course_hours: Vector  # from new to beyond the latest end of the life [h]
+    course: Vector  # elongation then with the case's own coefficient [%]
     posterior: FactorPosterior  # of the coefficient over the case's
     quantiles: tuple[Quantiles, ...]  # of everything that is told
     assumptions: tuple[str, ...]
@@ -78,9 +84,9 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
     log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
     limit = 100.0 * drive.joint.elongation_limit
     _check_within(log, limit)
-    _check_relubrications(log)
-    contact = drive.contact(case)
-    clock, per_hour = wrap_problem(case, contact)[0].running_in, case.cycles_per_hour
+    check_relubrications(case, log)
+    contact, per_hour = drive.contact(case), case.cycles_per_hour
+    clock = _clock(as_logged(case, log), contact)
     rate = limit / contact.cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
     joint = drive.joint
@@ -89,9 +95,12 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
         prior = FactorPrior(joint.low / joint.coefficient, joint.high / joint.coefficient)
     posterior = factor_posterior(log.readings, expected, prior)
     factors = np.array(posterior.quantiles)
-    cycles = clock.running_cycles(contact.cycles_per_chain / factors[::-1])
-    lives = tuple((cycles / per_hour).tolist())
+    steady = contact.cycles_per_chain / factors[::-1]
+    # As no state of the lubricant wears less than fresh, no life has more hours than these.
+    going_on = _clock(as_before(case, log, float(steady[-1]) / per_hour), contact)
+    lives = tuple((going_on.running_cycles(steady) / per_hour).tolist())
     now = rate * clock.steady_cycles(log.today * per_hour) * factors
+    hours = np.linspace(0.0, _BEYOND * max(lives[-1], log.today), _POINTS)
     quantiles = (
         *_left(case, log, lives),
         Quantiles("elongation_percent", tuple(now.tolist())),
@@ -103,9 +112,11 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
         log=log,
         limit=limit,
         expected=expected,
+        course_hours=hours,
+        course=rate * np.array([going_on.steady_cycles(float(one) * per_hour) for one in hours]),
         posterior=posterior,
         quantiles=quantiles,
-        assumptions=(*_assumptions(prior), *case.assumptions),
+        assumptions=(*_assumptions(log, prior), *case.assumptions),
         warnings=(*_warnings(log, posterior, prior, lives), *case.warnings),
     )
 
@@ -140,14 +151,20 @@ def _check_within(log: ChainLog, limit: float) -> None:
         raise CaseError(faults)
 
 
-def _check_relubrications(log: ChainLog) -> None:
+def _clock(case: Case, contact: WrapContact) -> WearClock:
+    """Return the clock of the wear of a case."""
+    *_, clock = wrap_problem(case, contact)
+    return clock
+
+
+def _assumptions(log: ChainLog, prior: FactorPrior) -> Iterator[str]:
     if log.relubricated:
-        text = "relubrications cannot be taken into account: remove these rows"
-        raise CaseError([Fault(text, "quantity", log.file)])
-
-
-def _assumptions(prior: FactorPrior) -> Iterator[str]:
-    yield "load and lubrication stay as they were"
+        yield (
+            f"the load stays as it was, and the chain is relubricated every {mean_interval(log):.4g} h as "
+            "before, in place of what [lubrication] says"
+        )
+    else:
+        yield "load and lubrication stay as they were"
     yield (
         f"before any reading it is {prior.low:.3g} to {prior.high:.3g} times the case's (90 % of a "
         "log-normal distribution, the band of the case)"
