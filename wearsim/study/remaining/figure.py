@@ -1,9 +1,9 @@
 """Readings of a chain with the bands of its elongation, up to the limit."""
 
 import math
+import textwrap
 from collections.abc import Sequence
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -11,17 +11,16 @@ from wearsim.report.text_lines import literal
 from wearsim.study.remaining.chain_readings import ChainReading
 from wearsim.study.remaining.chain_state import ChainState
 
-_BEYOND = 1.1
-"""Part of the latest end of the life that is shown."""
+_LETTERS = 88
+"""Letters of a line of the title."""
 
 
 def chain_figure(found: ChainState) -> Figure:
     """Return elongation over running time: readings, and what they say of past and future."""
     figure = Figure(figsize=(7.5, 4.5), layout="constrained")
     panel = figure.subplots()
-    lives = [float(value) for value in found.of("life_hours").values]
-    hours = np.linspace(0.0, _BEYOND * max(lives[-1], found.log.today), 200)
-    low, lower, middle, upper, high = (found.limit * hours / life for life in reversed(lives))
+    hours = found.course_hours
+    low, lower, middle, upper, high = (factor * found.course for factor in found.posterior.quantiles)
     panel.fill_between(hours, low, high, color="C0", alpha=0.15, linewidth=0, label="90 %")
     panel.fill_between(hours, lower, upper, color="C0", alpha=0.3, linewidth=0, label="50 %")
     panel.plot(hours, middle, color="C0", label="median")
@@ -29,13 +28,16 @@ def chain_figure(found: ChainState) -> Figure:
     panel.axvline(found.log.today, color="0.5", linewidth=0.8, linestyle=":", label="last row")
     _measured([one for one in found.log.readings if one.measured], panel)
     _gauges([one for one in found.log.readings if not one.measured], panel)
+    if found.log.relubricated:
+        times = found.log.relubricated
+        panel.plot(times, [0.0] * len(times), "|", color="C2", markersize=14, label="relubricated")
     panel.set_xlim(0.0, float(hours[-1]))
     panel.set_ylim(0.0, 1.25 * found.limit)
     panel.set_xlabel("running time, h")
     panel.set_ylabel("elongation of the chain, %")
     panel.grid(alpha=0.3)
     panel.legend(frameon=False, fontsize=8, loc="lower right")
-    figure.suptitle(literal(found.case.title), fontsize=10)
+    figure.suptitle(literal(textwrap.fill(found.case.title, _LETTERS)), fontsize=10)
     return figure
 
 
