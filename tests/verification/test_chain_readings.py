@@ -206,3 +206,139 @@ def test_running_in_counts(table):
         for one in (case(), slow)
     )
     assert running == pytest.approx(plain / 3.0, rel=1e-3)
+
+
+OILED = {"lubrication": {"lasts_hours": 100.0, "dry_factor": 4.0}}
+"""100 h at 1, then dry at 4 times that, at once."""
+
+
+def test_relubrications_count_and_go_on(table):
+    """Every 150 h: 100 + 50 times 4 are 300 steady hours. 0.6 % after two of these are 0.001 % an hour.
+
+    The limit of 3 % is 3000 of them, ten intervals or 1500 h.
+    """
+    found = chain_state(
+        case(**OILED),
+        table("150,relubrication,,,,", "300,relubrication,,,,", "300,elongation_percent,0.6,,,1e-6"),
+    )
+    assert found.of("life_hours").middle == pytest.approx(1500.0, rel=1e-5)
+    assert found.of("remaining_hours").middle == pytest.approx(1200.0, rel=1e-5)
+    assert found.course[-1] > found.limit / found.posterior.quantiles[0]
+    at = np.interp(300.0, found.course_hours, found.course) * found.posterior.quantiles[2]
+    assert at == pytest.approx(0.6, rel=1e-2)
+
+
+def test_an_overdue_relubrication_happens_on_the_day_of_the_last_row(table):
+    """Once after 150 h, read after 400 h: 300 + 100 + 150 times 4 are 1000 steady hours for 1 %.
+
+    2000 are left from fresh: six intervals of 150 h with 300 each, 100 h, and 25 h dry.
+    """
+    found = chain_state(case(**OILED), table("150,relubrication,,,,", "400,elongation_percent,1.0,,,1e-6"))
+    assert found.of("remaining_hours").middle == pytest.approx(1025.0, rel=1e-5)
+
+
+def test_without_a_log_the_schedule_of_the_case_holds(table):
+    """Never relubricated: 100 h, then four times as fast. 0.7 % after 250 h is 1 % after 325 h."""
+    dry = case(**OILED, stop={"elongation_percent": 1})
+    found = chain_state(dry, table("250,elongation_percent,0.7,,,1e-6"))
+    assert found.of("life_hours").middle == pytest.approx(325.0, rel=1e-5)
+    often = case(lubrication={**OILED["lubrication"], "interval_hours": 50})
+    found = chain_state(often, table("500,elongation_percent,0.6,,,1e-6"))
+    assert found.of("life_hours").middle == pytest.approx(2500.0, rel=1e-5)
+
+
+H = "time_hours"
+
+BAD = [
+    (
+        "time_hours",
+        ["0,new,,,,", "-5,elongation_percent,1,,,"],
+        ":3: time_hours: must be a number of at least 0",
+    ),
+    (
+        "time_hours",
+        ["500,elongation_percent,0.6,,,", "400,relubrication,,,,"],
+        ":3: time_hours: must not go backw",
+    ),
+    (
+        "time_hours",
+        ["500,gauge_percent,0.75,,maybe,"],
+        ":2: result: must be go (the gauge does not fall in) or no",
+    ),
+    (H, ["500,gauge_percent,,,go,"], ":2: value: must be the mark of the gauge"),
+    (H, ["500,gauge,0.75,,go,"], ":2: quantity: must be one of new, chain_length_mm"),
+    (H, ["500,max_depth_mm,0.1,,,"], "wearsim calibrate takes readings of the teeth"),
+    (H, ["500,chain_length_mm,1280,101,,"], ":2: links: must be an even number of links"),
+    (
+        "time_hours",
+        ["500,chain_length_mm,1260,100,,"],
+        ":2: value: must not be more than 3 errors shorter than new",
+    ),
+    (H, ["500,elongation_percent,0.6,100,,"], ":2: links: must be empty for elongation_percent"),
+    (H, ["500,elongation_percent,0.6,,,0"], ":2: error: must be a number above 0"),
+    (
+        "time_hours",
+        ["500,elongation_percent,3.2,,,"],
+        ":2: value: 3.2 % says that the limit of stop.elongation",
+    ),
+    (H, ["500,gauge_percent,3,,no-go,"], ":2: value: no-go at 3 % says that the limit"),
+    (
+        "time_hours",
+        ["0,elongation_percent,0.1,,,"],
+        ":2: time_hours: must be later than 0, when the chain was new",
+    ),
+    (H, ["0,new,,,,"], "must hold at least one reading of the chain"),
+    (
+        "time_hours",
+        ["500,elongation_percent,0.6,,,", "500,new,,,,"],
+        ":3: quantity: new must be the first row",
+    ),
+    (
+        "time_hours",
+        ["500,relubrication,,,,", "600,elongation_percent,0.6,,,"],
+        "needs [lubrication] in the case",
+    ),
+    ("date", ["2026-02-30,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
+    ("date", ["500,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
+    ("distance_km", ["2026-02-03,elongation_percent,0.6,,,"], ":2: distance_km: must be a number of"),
+    ("time_hours,date", ["5,2026-02-03,elongation_percent,0.6,,,"], ":1: must tell the time in one column"),
+    ("time", ["500,elongation_percent,0.6,,,"], "column 'time_hours' is missing"),
+]
+
+
+@pytest.mark.parametrize(("time", "rows", "message"), BAD, ids=range(len(BAD)))
+def test_bad_rows_are_named(table, time, rows, message):
+    with pytest.raises(wearsim.CaseError) as caught:
+        chain_state(case(), table(*rows, head=f"{time},{CELLS}"))
+    assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(("time", "key"), [("distance_km", "km_per_hour"), ("date", "hours_per_day")])
+def test_km_and_days_need_their_key_of_service(table, time, key):
+    unknown = case().with_({"service": None})
+    rows = table("2026-01-01,new,,,,", head=f"{time},{CELLS}")
+    with pytest.raises(wearsim.CaseError, match=rf"csv:1: {time}: needs service\.{key} in the case"):
+        chain_state(unknown, rows)
+
+
+def test_days_before_the_chain_was_new_are_named(table):
+    dated = case(service={"start_date": "2026-05-01"})
+    rows = table("2026-04-30,elongation_percent,0.6,,,", head=f"date,{CELLS}")
+    with pytest.raises(wearsim.CaseError, match=r"not before service\.start_date = 2026-05-01"):
+        chain_state(dated, rows)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [({"lubricant": "drip"}, "supplied all the time"), ({"lubricant": "greased"}, "lasts_hours")],
+)
+def test_a_log_of_a_lubricant_that_is_not_renewed_is_named(table, given, message):
+    rows = table("150,relubrication,,,,", "400,elongation_percent,1.0,,,")
+    with pytest.raises(wearsim.CaseError, match=f"readings.csv: relubrication, which sets.*{message}"):
+        chain_state(case(lubrication=given), rows)
+
+
+def test_a_strand_has_no_chain_to_read(table):
+    strand = wearsim.load_case("16b-20t-oiled")
+    with pytest.raises(wearsim.CaseError, match="set kind = 'wrap'"):
+        chain_state(strand, table("500,elongation_percent,0.6,,,"))

@@ -30,7 +30,7 @@ def readings_file(
     table = readings if isinstance(readings, pd.DataFrame) else pd.DataFrame(list(readings))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / f"{_NAME}.csv"
-        _as_written(table).to_csv(file, index=False)
+        _with_whole_paths(table).to_csv(file, index=False)
         try:
             yield file
         except CaseError as error:
@@ -38,17 +38,10 @@ def readings_file(
             raise CaseError(faults) from None
 
 
-def _as_written(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the table with whole paths, and whole numbers of links, which pandas holds with a fraction."""
-    changed: dict[str, list[Any]] = {}
-    if "points_file" in table:
-        changed["points_file"] = [
-            str(Path(name).resolve()) if isinstance(name, str) and name else ""
-            for name in table["points_file"]
-        ]
-    if "links" in table:
-        changed["links"] = [
-            int(count) if isinstance(count, float) and count.is_integer() else count
-            for count in table["links"].tolist()
-        ]
-    return table.assign(**changed)
+def _with_whole_paths(table: "pd.DataFrame") -> "pd.DataFrame":
+    if "points_file" not in table:
+        return table
+    files = table["points_file"]
+    return table.assign(
+        points_file=[str(Path(name).resolve()) if isinstance(name, str) and name else "" for name in files]
+    )

@@ -83,7 +83,7 @@ def _elongation(reading: Reading, cells: Mapping[str, str], case: Case) -> Readi
     """Return a length of a chain as its elongation, every other reading as it is."""
     if reading.quantity != LENGTH or not case.drive.wear_coefficients:
         return reading
-    links, pitch = int(cells["links"]), wrap_of(case).chain.pitch
+    links, pitch = int(number(cells["links"])), wrap_of(case).chain.pitch
     value, error = elongation_over(reading.value, links, pitch), 100.0 * reading.error / (links * pitch)
     return replace(reading, quantity=ELONGATION, value=value, error=error)
 

@@ -95,7 +95,7 @@ def chain_cells(quantity: str) -> Rules:
         ),
     }
     links = (
-        lambda text: text.isascii() and text.isdigit() and int(text) > 0 and int(text) % 2 == 0,
+        lambda text: 0.0 < number(text) <= 1e5 and number(text) % 2.0 == 0.0,
         "must be an even number of links from pin to pin: inner and outer links grow unlike",
     )
     result = (
@@ -201,7 +201,7 @@ def _reading(
     error = number(cells.get("error", ""))
     low = high = value
     if quantity == LENGTH:
-        links = int(cells["links"])
+        links = int(number(cells["links"]))
         low = high = elongation_over(value, links, pitch)
         error *= 100.0 / (links * pitch)
     error = usual_error if math.isnan(error) else error
