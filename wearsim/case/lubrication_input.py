@@ -6,7 +6,14 @@ from dataclasses import dataclass
 
 from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
 from wearsim.input.case_record import CaseRecord
-from wearsim.input.schema.lubrication_tables import FADES, INTERVAL, LASTS, SCHEDULES, LubricationPhase, LubricationTable
+from wearsim.input.schema.lubrication_tables import (
+    FADES,
+    INTERVAL,
+    LASTS,
+    SCHEDULES,
+    LubricationPhase,
+    LubricationTable,
+)
 
 
 @dataclass(frozen=True)
@@ -57,6 +64,11 @@ class LubricationInput:
     minutes: float = 0.0  # of work for a relubrication
     price: float = 0.0  # of what it takes
 
+    @property
+    def steady(self) -> bool:
+        """Whether the wear coefficients stay those of the case."""
+        return self.lasts is ENDLESS and not self.dirt.excess and not self.phases
+
 
 def with_condition(data: dict[str, object]) -> None:
     """Let the lubricant name the wear condition of an input that gives no wear of its own."""
@@ -91,8 +103,8 @@ def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -
         return
     words = ("dry or contaminated", "lubricated")
     case.warnings.append(
-        f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those contacts "
-        f"are {words[wear_conditions()[condition].lubricated]}, with this lubricant they are "
+        f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
+        f"contacts are {words[wear_conditions()[condition].lubricated]}, with this lubricant they are "
         f"{words[wear_conditions()[row.wear_condition].lubricated]}: remove one of both"
     )
 
@@ -149,10 +161,13 @@ class _Reader:
         if row is None or key is None:
             return
         if row.supply == "none":
-            self._fault(key, "a relubrication needs a lubricant, not lubricant = 'dry': name one, or remove this")
+            self._fault(
+                key, "a relubrication needs a lubricant, not lubricant = 'dry': name one, or remove this"
+            )
         elif row.supply == "continuous" and key != "phase":
             self._fault(
-                key, f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one"
+                key,
+                f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one",
             )
 
     def _ages(self) -> bool:
@@ -160,7 +175,9 @@ class _Reader:
         row, given = self.row, self._given(LASTS)
         if given is not None:
             if row is not None and row.supply == "none":
-                self._fault(given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant")
+                self._fault(
+                    given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant"
+                )
             return True
         if row is not None and row.lasts is not None:
             return True
@@ -174,7 +191,9 @@ class _Reader:
             )
         fades = self._given(FADES)
         if fades is not None:
-            self._fault(fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this")
+            self._fault(
+                fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this"
+            )
         return False
 
     def _value(self, key: str, default: float, *, needed: bool = False) -> float:
@@ -250,8 +269,8 @@ class _Reader:
         if given <= 1.0 + excess:
             self._fault(
                 "when_rate_exceeds",
-                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant does not "
-                "help",
+                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant "
+                "does not help",
             )
         elif given > dry_factor * (1.0 + excess):
             self.case.warnings.append(
@@ -291,8 +310,8 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     """What the state of the lubricant takes for granted."""
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
-            "lubrication: the state of the lubricant multiplies the wear of teeth, joints and rollers alike; new "
-            "chains do not change it"
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains do "
+            "not change it"
         )
     if found.phases:
         yield (

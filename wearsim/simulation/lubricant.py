@@ -15,7 +15,7 @@ from wearsim.wear.lubricant_clock import (
 
 
 def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
-    """Return the clock of a lubricant; ``sliding_per_cycle`` is the way of joints, or of flanks without any [mm]."""
+    """Return the clock of a lubricant, whose age may count what its contacts slide in a cycle [mm]."""
     given = case.lubrication
     if given is None:
         return FRESH
@@ -33,7 +33,9 @@ def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
         return LubricantClock(law, LubricantSchedule(tuple(_of_phases(given, case.cycles_per_hour)), whole))
     if given.interval is not None:
         interval = cycles(given.interval)
-        return LubricantClock(law, LubricantSchedule((begin, LubricantEvent(interval, relubricated=True)), interval))
+        return LubricantClock(
+            law, LubricantSchedule((begin, LubricantEvent(interval, relubricated=True)), interval)
+        )
     times = (LubricantEvent(hours * case.cycles_per_hour, relubricated=True) for hours in given.at_hours)
     return LubricantClock(law, LubricantSchedule((begin, *times), threshold=given.threshold))
 
@@ -49,7 +51,8 @@ def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[Lubr
             for number in range(phase.relubrications)
         ]
         events += [
-            ((number + 0.5) / dirties, LubricantEvent(0.0, dirtied=phase.dirt.excess)) for number in range(dirties)
+            ((number + 0.5) / dirties, LubricantEvent(0.0, dirtied=phase.dirt.excess))
+            for number in range(dirties)
         ]
         for part, event in sorted(events, key=lambda entry: entry[0]):
             yield event._replace(after=begin + part * length)

@@ -1,7 +1,6 @@
-"""The state of the lubricant as a clock: cycles run, and cycles of well lubricated contacts that wear as much."""
+"""The state of the lubricant as a clock: cycles run, and lubricated ones that wear as much."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -237,8 +236,8 @@ class LubricantClock:
     def _keep(self, state: _Stretch) -> None:
         if len(self._stretches) == _MOST:
             raise ConvergenceError(
-                f"lubrication: the schedule must repeat itself, but does not within {_MOST} stretches between "
-                "events: take fewer events, or relubrications that are more complete"
+                f"lubrication: the schedule must repeat itself, but does not within {_MOST} stretches "
+                "between events: take fewer events, or relubrications that are more complete"
             )
         self._stretches.append(state)
 
@@ -305,7 +304,7 @@ class LubricantClock:
 
     @property
     def amplification(self) -> float:
-        """Greatest relative error of the cycles run for one of the lubricated ones, d(ln N)/d(ln M) = M/(N g).
+        """Greatest relative error of the cycles run for one of the lubricated ones, M/(N g).
 
         Within a stretch g does not fall, so it is greatest where one begins, at the latest in the
         mean over a round.

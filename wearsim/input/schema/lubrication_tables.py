@@ -1,5 +1,6 @@
 """How contacts are lubricated, how that ages and what dirties it: [lubrication] and [[lubrication.phase]]."""
 
+from itertools import pairwise
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
@@ -33,11 +34,11 @@ Factor = Annotated[PositiveNumber, Field(ge=1.0, le=1e6)]
 
 
 def _times(value: object) -> object:
-    entries = value if isinstance(value, list) and value else [None]
+    entries: list[Any] = value if isinstance(value, list) and value else [None]
     for entry in entries:
         if isinstance(entry, bool) or not isinstance(entry, int | float) or not 0.0 < entry < 1e12:
             raise ValueError("must be a list of numbers above 0 such as [100, 250]")
-    if any(later <= earlier for earlier, later in zip(entries, entries[1:], strict=False)):
+    if any(later <= earlier for earlier, later in pairwise(entries)):
         raise ValueError("must rise from one entry to the next")
     return tuple(float(entry) for entry in entries)
 

@@ -187,7 +187,9 @@ class GearLubricationTable(LubricationTable):
         chains = {
             "lubricant": f"{rows} lasts_hours and dry_factor",
             "environment": f"{rows} contamination_factor",
-            **dict.fromkeys(("interval_km", "at_km", "lasts_km", "fades_over_km"), "gears run no km: give hours"),
+            **dict.fromkeys(
+                ("interval_km", "at_km", "lasts_km", "fades_over_km"), "gears run no km: give hours"
+            ),
         }
         found = [(key, text) for key, text in chains.items() if getattr(self, key) is not None]
         for number, phase in enumerate(self.phase, start=1):
