@@ -89,10 +89,7 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
     clock = _clock(as_logged(case, log), contact)
     rate = limit / contact.cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    joint = drive.joint
     prior = FactorPrior(case.wear.low, case.wear.high)
-    if joint.low is not None and joint.high is not None:
-        prior = FactorPrior(joint.low / joint.coefficient, joint.high / joint.coefficient)
     posterior = factor_posterior(log.readings, expected, prior)
     factors = np.array(posterior.quantiles)
     steady = contact.cycles_per_chain / factors[::-1]
