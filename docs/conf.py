@@ -33,7 +33,7 @@ html_title = f"wearsim {release}"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
 html_css_files = ["math.css", "gallery.css", "notebooks.css", "versions.css"]
-html_js_files = ["version_switch.js"]
+html_js_files = ["version_switch.js", "scrolling.js"]
 templates_path = ["_templates"]
 html_sidebars = {
     "**": [

@@ -1,8 +1,10 @@
-"""Pages of the documentation in a real browser: the switch of versions, and roots that grow."""
+"""Pages of the documentation in a real browser: the switch of versions, roots that grow, and axe."""
 
 import io
 import runpy
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -71,3 +73,64 @@ def test_sign_of_a_root_is_as_high_as_the_fraction_under_it(page, site):
     image = Image.open(io.BytesIO(page.screenshot(clip=sign))).convert("L")
     _, top, _, bottom = image.point(lambda grey: 255 * (grey < 128)).getbbox()
     assert bottom - top >= 0.9 * fraction["height"]
+
+
+FRONT = """\
+# Front
+
+```{toctree}
+:caption: Learn
+other
+```
+
+## Wide
+
+| a table | of words |
+|---|---|
+| WORDS | WORDS |
+
+```text
+LINE
+```
+
+$$LINE$$
+
+<table><thead><tr><th></th><th>life_hours</th></tr></thead><tr><th>0</th><td>1</td></tr></table>
+"""
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """A site of two pages by the configuration, templates and styles of the real one."""
+    pytest.importorskip("furo", reason="furo is not installed")
+    folder = tmp_path_factory.mktemp("pages")
+    front = FRONT.replace("WORDS", "`" + "w" * 200 + "`").replace("LINE", "a + " * 50 + "a")
+    (folder / "index.md").write_text(front)
+    (folder / "other.md").write_text("# Other\n")
+    build = [sys.executable, "-m", "sphinx", "-q", "-W", "-c", DOCS, folder, folder / "html"]
+    subprocess.run(build, check=True)
+    return folder / "html"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [390, 1440])
+def test_axe_finds_nothing(page, pages, width, scheme):
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
+    page.set_viewport_size({"width": width, "height": 900})
+    page.emulate_media(color_scheme=scheme)
+    for name in ("index", "other", "search", "genindex"):
+        page.goto((pages / f"{name}.html").as_uri())
+        assert axe.Axe().run(page).response["violations"] == []
+
+
+def test_what_is_too_wide_scrolls_by_keys(page, pages):
+    page.set_viewport_size({"width": 390, "height": 900})
+    page.goto((pages / "index.html").as_uri())
+    places = page.locator("pre, .table-wrapper, .formula")
+    page.wait_for_selector("pre[tabindex='0']")
+    assert [place.get_attribute("tabindex") for place in places.all()] == ["0", "0", "0"]
+    page.locator("pre").focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("document.querySelector('pre').scrollLeft > 0")

@@ -50,6 +50,28 @@ def test_every_combination_of_a_grid(cli, sweep, drive):
     assert found[0][1] == pytest.approx(4.0 * found[2][1], rel=1e-4)
 
 
+@pytest.mark.parametrize(
+    ("given", "teeth"),
+    [
+        ("{from = 20, to = 28, count = 5}", [20, 22, 24, 26, 28]),
+        ('{from = 20, to = 80, count = 3, spacing = "log"}', [20, 40, 80]),
+    ],
+)
+def test_range_of_a_whole_number(cli, sweep, given, teeth):
+    done, found = lives(cli, sweep(f"[grid]\nsprocket.teeth = {given}\n"))
+    assert done.code == 0, done.err
+    counts = [inputs["sprocket.teeth"] for inputs, _ in found]
+    assert counts == teeth
+    assert all(isinstance(count, int) for count in counts)
+
+
+def test_range_between_whole_numbers_is_refused(cli, sweep):
+    done = cli("sweep", sweep("[grid]\nsprocket.teeth = {from = 20, to = 25, count = 3}\n"), "--dry-run")
+    assert (done.code, done.out) == (2, "")
+    assert "grid.sprocket.teeth: must be a valid integer" in done.err
+    assert "22.5" in done.err
+
+
 def test_keys_that_go_together_and_designs(cli, sweep):
     text = "[[zip]]\nsprocket.teeth = [20, 25]\nload.power_kW = [3.0, 4.0]\n"
     text += "[[design]]\nsprocket.nodes = 51\n[[design]]\nsprocket.nodes = 101\n"

@@ -250,7 +250,7 @@ def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
 def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
     sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
-    whole = {"duty", "fatigue", "uncertainty", "optimise"} & wrong
+    whole = {"duty", "fatigue", "lubrication", "uncertainty", "optimise"} & wrong
     for name in whole:
         sound.pop(name, None)
     for entry in error.errors():

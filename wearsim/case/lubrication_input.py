@@ -61,8 +61,7 @@ class LubricationInput:
     at_hours: tuple[float, ...] = ()  # of relubrications [h]
     threshold: float = math.inf  # factor on the wear at which contacts are relubricated
     phases: tuple[PhaseInput, ...] = ()
-    minutes: float = 0.0  # of work for a relubrication
-    price: float = 0.0  # of what it takes
+    application_cost: float | None = None  # of a relubrication, work and lubricant; None where none is given
 
     @property
     def steady(self) -> bool:
@@ -141,8 +140,7 @@ class _Reader:
             at_hours=self._times(),
             threshold=self._threshold(dirt.excess, dry_factor),
             phases=phases,
-            minutes=table.minutes_per_application or 0.0,
-            price=table.price_per_application or 0.0,
+            application_cost=self._cost(),
         )
         self._say(found)
         return found
@@ -302,6 +300,26 @@ class _Reader:
             dirt = self._dirt(phase, f"lubrication.{place}")
         return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
 
+    def _cost(self) -> float | None:
+        """Return what a relubrication costs."""
+        table = self.table
+        minutes, hourly, price = (
+            table.minutes_per_application,
+            table.labour_cost_per_hour,
+            table.price_per_application,
+        )
+        if minutes is not None and hourly is None:
+            self._fault(
+                "minutes_per_application", "the cost needs labour_cost_per_hour too: give it, or remove this"
+            )
+        if hourly is not None and minutes is None:
+            self._fault(
+                "labour_cost_per_hour", "the cost needs minutes_per_application too: give it, or remove this"
+            )
+        if minutes is None and price is None:
+            return None
+        return (minutes or 0.0) / 60.0 * (hourly or 0.0) + (price or 0.0)
+
     def _say(self, found: LubricationInput) -> None:
         self.case.assumptions += _assumptions(found)
 
@@ -310,8 +328,8 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     """What the state of the lubricant takes for granted."""
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
-            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains do "
-            "not change it"
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains "
+            "do not change it"
         )
     if found.phases:
         yield (

@@ -26,6 +26,7 @@ from wearsim.handbook.strength.command import strength
 from wearsim.handbook.synthesise.command import synthesise
 from wearsim.handbook.wave_drive.command import wave_drive
 from wearsim.study.calibrate.command import calibrate
+from wearsim.study.lubricate.command import lubricate
 from wearsim.study.maintain.command import maintain
 from wearsim.study.optimise.command import optimise
 from wearsim.study.remaining.command import remaining
@@ -36,7 +37,7 @@ from wearsim.study.uncertainty.command import uncertainty
 
 COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
     "Design": {
-        init: "wearsim init --chain 12B-1 --teeth 25 --out drive.toml",
+        init: "wearsim init --chain 12B-1 --driver 21 --driven 57 --out drive.toml",
         select: "wearsim select --power 3 --rpm 120 --ratio 2.7 --hours 15000",
         check: "wearsim check packaging-conveyor",
         loads: "wearsim loads a40-19t-rating --elongation 1",
@@ -50,6 +51,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
     },
     "Maintain": {
         maintain: "wearsim maintain packaging-conveyor",
+        lubricate: "wearsim lubricate bicycle-17t-lubricants",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
         calibrate: "wearsim calibrate drive.toml readings.csv",
     },

@@ -43,6 +43,21 @@ _COLUMNS: dict[str, dict[str, str]] = {
         "joint_typical_mm2_per_N": "typical",
         "joint_high_mm2_per_N": "high",
     },
+    "lubricants": {
+        "lubricant": "lubricant",
+        "wear_condition": "wear condition",
+        "supply": "supply",
+        "lasts_sliding_m": "s_L\nm",
+        "dry_factor": "R",
+        "contamination_removed": "removed",
+    },
+    "environments": {
+        "environment": "environment",
+        "contamination_factor": "1+C",
+        "low": "low",
+        "high": "high",
+        "ageing_factor": "ageing",
+    },
     "cases": {"name": "name", "command": "command", "title": "title"},
     "quantities": {"name": "name", "symbol": "symbol", "unit": "unit", "meaning": "meaning"},
 }

@@ -67,6 +67,20 @@ def words(field: FieldInfo) -> tuple[str, ...]:
     return tuple(found)
 
 
+def whole_number_keys(model: type[Table]) -> set[str]:
+    """Return the keys that take nothing but whole numbers, lists of tables by their plain names.
+
+    Examples
+    --------
+    >>> from wearsim.input.schema import CaseTables
+    >>> keys = whole_number_keys(CaseTables)
+    >>> "sprocket.teeth" in keys, "load.power_kW" in keys
+    (True, False)
+    """
+    types = {key.replace("[]", ""): set(parts(field.annotation)) for key, field in schema_fields(model)}
+    return {key for key, found in types.items() if int in found and not {float, str} & found}
+
+
 def parts(annotation: Any) -> Iterator[Any]:
     """Give a type and all types that it is made of."""
     yield annotation

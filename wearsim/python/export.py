@@ -139,7 +139,7 @@ def export(
     template : path, optional
         New file (.pdf, .svg or .dxf) of a go/no-go gauge of the wear limit.
     sprocket : str, optional
-        Which sprocket of a whole drive.
+        Which sprocket of a whole drive, by its name. A whole drive needs it: one call exports one wheel.
     force : bool
         Replace the files.
 
@@ -200,9 +200,9 @@ def _case(source: CaseInput | WearResult, sprocket: str | None) -> tuple[Case, W
         return found, None
     cases = {one.name: replace(one.case, title=f"{found.title}: {one.name}") for one in found.sprockets}
     if sprocket not in cases:
-        names = ", ".join(map(repr, cases))
-        text = f"must be told which sprocket, one of {names} (got {sprocket!r}): give sprocket"
-        raise CaseError([Fault(text, "", found.name)])
+        names = " or ".join(f"sprocket={name!r}" for name in cases)
+        text = "must name one wheel of the drive" + (f" (got {sprocket!r})" if sprocket else "")
+        raise CaseError([Fault(f"{text}: give {names}, one call a wheel", "sprocket", found.name)])
     return cases[sprocket], None
 
 

@@ -37,8 +37,8 @@ def check_steady_coefficient(case: Case, command: str) -> None:
     """Raise where the wear of a case runs in, or its lubricant changes."""
     if case.lubrication is not None and not case.lubrication.steady:
         message = (
-            f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or see "
-            "what relubrication does with wearsim lubricate"
+            f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or "
+            "see what relubrication does with wearsim lubricate"
         )
         raise CaseError([Fault(message, "lubrication", case.name)])
     if case.wear.running_in_factor != 1.0:

@@ -3,8 +3,13 @@
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from wearsim.case.lubrication_input import LubricationInput, RunningWay
-from wearsim.case.model import Case
+from wearsim.case.model import Case, heaviest_block
+from wearsim.contact.engagement import ContactKind, FlankContact
+from wearsim.contact.hertz import half_width
+from wearsim.mechanisms.wrap.drive import wrap_drive
 from wearsim.wear.lubricant_clock import (
     FRESH,
     LubricantClock,
@@ -57,3 +62,31 @@ def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[Lubr
         for part, event in sorted(events, key=lambda entry: entry[0]):
             yield event._replace(after=begin + part * length)
         begin += length
+
+
+def case_lubricant(case: Case) -> LubricantClock:
+    """Return the clock of the lubricant of a case, in its cycles."""
+    if case.drive.rests:
+        contact = wrap_drive(case, "the rollers must rest in gaps").contact(case)
+        return lubricant_clock(case, contact.joint_sliding_per_cycle)
+    return lubricant_clock(case, sliding_per_cycle(case, case.drive.mechanism(case).contact))
+
+
+def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
+    """Mean path that the loaded stretch of the new flank slides in a cycle of the duty [mm]."""
+    profile = contact.profile
+    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+    loaded = touch.load_per_width > 0.0
+    if not loaded.any():
+        return 0.0
+    slip, stretch = touch.slip[loaded], np.gradient(contact.arc_length)[loaded]
+    if contact.kind is ContactKind.TRAVELLING:
+        load, relative = touch.load_per_width[loaded], touch.relative_curvature[loaded]
+        slip = slip * 2.0 * half_width(load, np.maximum(relative, 1e-9), contact.modulus)
+    path = float(np.average(slip, weights=stretch))
+    blocks = case.drive.duty
+    if not blocks:
+        return path
+    # The width of the contact goes with the root of the load.
+    greatest = heaviest_block(blocks).tension
+    return path * math.fsum(block.share * math.sqrt(block.tension / greatest) for block in blocks)

@@ -1,6 +1,5 @@
 """What a case asks of the wear engine: its law, its limits, and a flank to wear."""
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
@@ -8,11 +7,11 @@ import numpy as np
 
 from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
-from wearsim.contact.hertz import half_width, peak_pressure
+from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import LimitState
-from wearsim.simulation.lubricant import lubricant_clock
+from wearsim.simulation.lubricant import lubricant_clock, sliding_per_cycle
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import RelativeLoad, WearLaw, archard, drozdov, equivalent_factor, power
 from wearsim.wear.lubricant_clock import WearClock
@@ -55,7 +54,7 @@ def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask]:
 
 def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
     changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
-    sliding = _sliding_per_cycle(case, contact) if changes else 0.0
+    sliding = sliding_per_cycle(case, contact) if changes else 0.0
     running_in = case_running_in(case.wear, sliding)
     clock = WearClock(running_in, lubricant_clock(case, sliding))
     return WearTask(
@@ -85,26 +84,6 @@ def _law(case: Case) -> WearLaw:
     ]
     equivalent = equivalent_factor(law, ContactKind.TRAVELLING, parts)
     return replace(law, coefficient=law.coefficient * equivalent)
-
-
-def _sliding_per_cycle(case: Case, contact: FlankContact) -> float:
-    """Mean path that the loaded stretch of the new flank slides in a cycle of the duty [mm]."""
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
-    loaded = touch.load_per_width > 0.0
-    if not loaded.any():
-        return 0.0
-    slip, stretch = touch.slip[loaded], np.gradient(contact.arc_length)[loaded]
-    if contact.kind is ContactKind.TRAVELLING:
-        load, relative = touch.load_per_width[loaded], touch.relative_curvature[loaded]
-        slip = slip * 2.0 * half_width(load, np.maximum(relative, 1e-9), contact.modulus)
-    path = float(np.average(slip, weights=stretch))
-    blocks = case.drive.duty
-    if not blocks:
-        return path
-    # The width of the contact goes with the root of the load.
-    greatest = heaviest_block(blocks).tension
-    return path * math.fsum(block.share * math.sqrt(block.tension / greatest) for block in blocks)
 
 
 def wear_law(wear: WearInput, coefficient: float) -> WearLaw:

@@ -93,16 +93,10 @@ class LubricationPhase(_Surroundings):
         return found
 
 
-class LubricationTable(_Surroundings):
-    """The lubricant of all contacts, how long it lasts, when it is renewed, and what dirties it."""
+class _Lubricant(Table):
+    """A lubricant, how long it lasts, and what it costs."""
 
     lubricant: str | None = None
-    interval_hours: Positive | None = None
-    interval_km: Positive | None = None
-    interval_sliding_m: Positive | None = None
-    at_hours: Times | None = None
-    at_km: Times | None = None
-    when_rate_exceeds: Annotated[PositiveNumber, Field(gt=1.0)] | None = None
     lasts_hours: NotNegative | None = None
     lasts_km: NotNegative | None = None
     lasts_sliding_m: NotNegative | None = None
@@ -114,7 +108,6 @@ class LubricationTable(_Surroundings):
     contamination_removed: Part | None = None
     minutes_per_application: NotNegative | None = None
     price_per_application: Annotated[Number, Field(ge=0.0)] | None = None
-    phase: list[LubricationPhase] = Field(default_factory=list)
 
     @field_validator("lubricant")
     @classmethod
@@ -130,7 +123,25 @@ class LubricationTable(_Surroundings):
         """Return what is wrong between the keys of this table."""
         found = super().conflicts()
         for keys in (LASTS, FADES, SCHEDULES):
-            given = [key for key in keys if getattr(self, key) not in (None, [])]
+            given = [key for key in keys if getattr(self, key, None) not in (None, [])]
             if len(given) > 1:
                 found.append((given[1], f"{given[0]} says this already: remove one of both"))
         return found
+
+
+class LubricantOption(_Lubricant):
+    """Another lubricant for the same drive: what differs from [lubrication]."""
+
+
+class LubricationTable(_Lubricant, _Surroundings):
+    """The lubricant of all contacts, when it is renewed, and what dirties it."""
+
+    interval_hours: Positive | None = None
+    interval_km: Positive | None = None
+    interval_sliding_m: Positive | None = None
+    at_hours: Times | None = None
+    at_km: Times | None = None
+    when_rate_exceeds: Annotated[PositiveNumber, Field(gt=1.0)] | None = None
+    labour_cost_per_hour: Annotated[Number, Field(ge=0.0)] | None = None
+    phase: list[LubricationPhase] = Field(default_factory=list)
+    option: list[LubricantOption] = Field(default_factory=list)

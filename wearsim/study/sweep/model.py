@@ -1,7 +1,8 @@
 """Lives over values of any input keys: grids, keys that go together, designs."""
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,10 +13,10 @@ from wearsim.errors import CaseError, Fault
 from wearsim.input.calculation_file import calculation_tables
 from wearsim.input.document import CaseSource, Document, GivenInput, read_document, retitled
 from wearsim.input.faults import validation_faults
-from wearsim.input.keys import schema_of
+from wearsim.input.keys import schema_of, whole_number_keys
 from wearsim.input.other_files import check_command
 from wearsim.input.schema import CaseTables, PlacedSprocketTable
-from wearsim.input.schema.table import Table
+from wearsim.input.schema.table import Table, without_numbers
 from wearsim.runner.design import Design, design, replaced
 from wearsim.study.sweep.keys import Range, SweepTables
 from wearsim.study.whole_drive.study_cases import kind_of
@@ -41,7 +42,9 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
     given = read_document(source, ())
     place = given.faults.file
     tables = calculation_tables(given, SweepTables)
-    axes = list(_axes(tables))
+    of_case = given.folder / tables.case if case is None else case
+    document, written = (read_document(of_case, sets) for sets in (overrides, ()))
+    axes = list(_axes(tables, whole_number_keys(schema_of(document.data))))
     keys = [key for axis in axes for key in axis.keys]
     count = int(np.prod([len(axis.rows) for axis in axes], dtype=float))
     if count > MAX_CASES:
@@ -51,8 +54,6 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
         tuple(itertools.chain.from_iterable(parts))
         for parts in itertools.product(*(axis.rows for axis in axes))
     ]
-    of_case = given.folder / tables.case if case is None else case
-    document, written = (read_document(of_case, sets) for sets in (overrides, ()))
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
@@ -106,15 +107,22 @@ def _holds(key: str, other: str) -> bool:
     return other == key or other.startswith(f"{key}.")
 
 
-def _axes(tables: SweepTables) -> Iterator[_Axis]:
+def _axes(tables: SweepTables, whole: Container[str]) -> Iterator[_Axis]:
     for key, given in tables.grid.items():
-        values = values_of(given) if isinstance(given, Range) else given
+        values: list[Any] = given if isinstance(given, list) else values_of(given)
+        if isinstance(given, Range) and without_numbers(key) in whole:
+            values = [_as_whole(value) for value in values]
         yield _Axis("grid", (key,), [(value,) for value in values])
     for number, group in enumerate(tables.zip, start=1):
         yield _Axis(f"zip.{number}", tuple(group), list(zip(*group.values(), strict=True)))
     if tables.design:
         keys = tuple(tables.design[0])
         yield _Axis("design", keys, [tuple(entry[key] for key in keys) for entry in tables.design])
+
+
+def _as_whole(value: float) -> float:
+    """Return a whole number as such, which a spacing by logarithms misses by a few last digits."""
+    return round(value) if math.isclose(value, round(value), rel_tol=1e-12) else value
 
 
 def values_of(given: Range) -> list[float]:

@@ -64,7 +64,7 @@ def load_one(
             raise click.UsageError(f"--sprocket belongs to a whole drive, but {path} is none: leave it out")
         (case,) = load_cases([path], settings, as_json)
         return case
-    cases = _titled_cases(_loaded(path, settings, as_json))
+    cases = _titled_cases(loaded_drive(path, settings, as_json))
     if sprocket not in cases:
         got = or_else if sprocket is None else f" (got {sprocket!r})"
         names = ", ".join(map(repr, cases))
@@ -86,7 +86,7 @@ def export_wheels(
     from wearsim.report.html.page_writer import page_names
 
     check_folder(out, force)
-    cases = _titled_cases(_loaded(path, settings, False))
+    cases = _titled_cases(loaded_drive(path, settings, False))
     results = lived([path], settings, False)[path].results if "worn" in states else {}
     with new_folder(out, force) as place:
         for file, (name, case) in zip(page_names(list(cases)), cases.items(), strict=True):
@@ -102,7 +102,7 @@ def loaded_teeth(
     from wearsim.report.loads_table import loads_table
     from wearsim.study.whole_drive.layout import drive_loads_json, layout_text
 
-    drive = _loaded(path, settings, as_json)
+    drive = loaded_drive(path, settings, as_json)
     teeth = {one.name: tooth_loads(one.case, elongation, phase) for one in drive.sprockets}
     if as_json:
         print_json(drive_loads_json(drive, teeth), path)
@@ -272,7 +272,8 @@ def report_sheet(
     click.echo(save_sheet(found, head, out, force))
 
 
-def _loaded(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":
+def loaded_drive(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":
+    """Return the drive of an input; as JSON its faults too."""
     (drive,) = _all_loaded([path], settings, as_json)
     return drive
 

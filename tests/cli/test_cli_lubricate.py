@@ -1,0 +1,201 @@
+"""`wearsim lubricate`: lives and costs against the interval, by hand and by brute force."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import wearsim
+from wearsim.cli.main import wearsim_command
+from wearsim.study.lubricate.runs import lubricate
+
+CASES = Path(__file__).parents[2] / "cases"
+STRAND: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 61},
+    "load": {"power_kW": 3, "speed_rpm": 100},
+    "run": {"life_tolerance": 0.1},
+    "lubrication": {
+        "lubricant": "manual",
+        "interval_hours": 40.0,
+        "lasts_hours": 50.0,
+        "fades_over_hours": 200.0,
+        "dry_factor": 5.0,
+        "price_per_application": 2.0,
+        "minutes_per_application": 10.0,
+        "labour_cost_per_hour": 30.0,
+    },
+    "maintenance": {"chain_price": 1.0, "sprocket_price": 300.0},
+}
+
+
+def study(*settings: str, tables: dict[str, Any] | None = None) -> Any:
+    return lubricate(wearsim.load_case(tables or STRAND, settings))
+
+
+def mean_factor(interval: float, lasts: float = 50.0, fades: float = 200.0, dry: float = 5.0) -> float:
+    """Mean of a ramp by hand."""
+    ramp = min(max(interval - lasts, 0.0), fades)
+    worn = ramp * (1.0 + (dry - 1.0) * 0.5 * ramp / fades)
+    return (min(interval, lasts) + worn + dry * max(interval - lasts - fades, 0.0)) / interval
+
+
+def test_costs_by_hand() -> None:
+    """2 + 10/60 x 30 = 7 a relubrication; 300 a life of so many hours of lubricated contacts."""
+    (plan,) = study().plans
+    steady = wearsim.simulate(wearsim.load_case(_without_schedule())).life.hours_run
+    for policy in plan.policies:
+        factor = mean_factor(policy.interval)
+        assert policy.wear_factor == pytest.approx(factor, rel=1e-12)
+        expected = 1000.0 * (7.0 / policy.interval + 300.0 * factor / steady)
+        assert policy.cost == pytest.approx(expected, rel=1e-3)
+
+
+def _without_schedule() -> dict[str, Any]:
+    return {**STRAND, "lubrication": {"lubricant": "manual"}}
+
+
+def test_cheapest_is_that_of_a_finer_search() -> None:
+    (plan,) = study().plans
+    steady = plan.parts[0].hours
+    at = np.geomspace(1.0, 5000.0, 20_001)
+    costs = [1000.0 * (7.0 / interval + 300.0 * mean_factor(interval) / steady) for interval in at]
+    assert plan.cheapest.interval == pytest.approx(at[int(np.argmin(costs))], rel=1e-3)
+    low, high = plan.cheap
+    near = at[np.array(costs) <= 1.05 * min(costs)]
+    assert low == pytest.approx(near[0], rel=0.03)
+    assert high == pytest.approx(near[-1], rel=0.03)
+
+
+def test_missed_relubrication_by_hand() -> None:
+    """Every 100 h: 100 h beyond the first 100 wear by the ramp from 50 to 150 h, 1 + 4 x (0.25 + 0.75)/2."""
+    (plan,) = study("lubrication.interval_hours=100").plans
+    once = 50.0 + 50.0 * (1.0 + 4.0 * 0.125)
+    more = 50.0 + 150.0 * (1.0 + 4.0 * 0.5 * 0.75) - 2.0 * once
+    assert plan.missed.lost == pytest.approx(more * 100.0 / once, rel=1e-9)
+    assert plan.missed.cost == pytest.approx(more * 300.0 / plan.parts[0].hours - 7.0, rel=1e-9)
+
+
+def test_lives_are_those_of_the_case_at_that_interval() -> None:
+    (plan,) = study().plans
+    for policy in plan.policies[::3]:
+        case = wearsim.load_case(STRAND, [f"lubrication.interval_hours={policy.interval!r}"])
+        assert policy.lives["sprocket"] == pytest.approx(wearsim.simulate(case).life.hours_run, rel=2e-2)
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "price_per_application=9",
+        "minutes_per_application=50",
+        "labour_cost_per_hour=90",
+        "dry_factor=9",
+        "lasts_hours=60",
+        "fades_over_hours=20",
+    ],
+)
+def test_key_moves_the_cheapest_interval(setting: str) -> None:
+    (plan,), (other,) = study().plans, study(f"lubrication.{setting}").plans
+    assert other.cheapest.cost != pytest.approx(plan.cheapest.cost, rel=1e-4)
+
+
+@pytest.mark.parametrize("setting", ["chain_price=5", "sprocket_price=30"])
+def test_price_of_the_parts(setting: str) -> None:
+    """A strand has no chain that wears."""
+    (plan,), (other,) = study().plans, study(f"maintenance.{setting}").plans
+    assert (other.cheapest.cost == plan.cheapest.cost) == setting.startswith("chain")
+
+
+OPTIONS: dict[str, Any] = {
+    "lubricant": "greased",
+    "lasts_hours": 80.0,
+    "fades_over_hours": 10.0,
+    "dry_factor": 20.0,
+    "price_per_application": 4.0,
+    "minutes_per_application": 60.0,
+    "completeness": 1.0,
+    "contamination_removed": 1.0,
+}
+
+
+def test_option_takes_the_place_of_the_lubricant() -> None:
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS]}}
+    first, second = study(tables=tables).plans
+    assert (first.name, second.name) == ("manual", "greased")
+    assert (second.lasts, second.fades, second.dry_factor) == pytest.approx((80.0, 10.0, 20.0))
+    alone = {**STRAND, "lubrication": {"interval_hours": 40.0, "labour_cost_per_hour": 30.0, **OPTIONS}}
+    (expected,) = study(tables=alone).plans
+    assert second.cheapest.cost == expected.cheapest.cost
+    assert (
+        study(tables=tables).cheapest.name == min((first, second), key=lambda plan: plan.cheapest.cost).name
+    )
+
+
+def run(*words: str) -> Any:
+    return CliRunner().invoke(wearsim_command, ["lubricate", *words], catch_exceptions=True)
+
+
+def test_shipped_case_answers(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = run("bicycle-17t-lubricants", "--json", "--out", str(out))
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert [one["lubricant"] for one in found["lubricants"]] == ["wet drip", "wax drip", "immersion wax"]
+    assert found["cheapest_lubricant"] == "immersion wax"
+    assert sorted(path.name for path in out.iterdir() if not path.name.startswith(".")) == [
+        "intervals.csv",
+        "lubrication.png",
+        "lubrication.svg",
+        "lubrication.txt",
+    ]
+    text = (out / "lubrication.txt").read_text("utf-8")
+    assert "Pays" in text
+    assert "nan" not in text
+
+
+def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
+    table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 100\n'
+    text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")
+    text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace(
+        "nodes = 201", "nodes = 101"
+    )
+    path = tmp_path / "drive.toml"
+    path.write_text(text + "\n[run]\nlife_tolerance = 0.1\n[mechanism]\nphases = 2\n", "utf-8")
+    done = run(str(path), "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    (first, *_) = found["policies"]
+    assert {"chain_life_hours", "motor_life_hours", "conveyor_life_hours"} <= first.keys()
+    lives = json.loads(
+        CliRunner().invoke(wearsim_command, ["life", str(path), "--json"]).stdout.splitlines()[0]
+    )
+    at_100 = next(row for row in found["policies"] if math.isclose(row["interval_hours"], 100.0))
+    assert at_100["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("tables", "words"),
+    [
+        ({"lubricant": "drip"}, "how long a lubricant lasts"),
+        (None, "how long a lubricant lasts"),
+        ({"lubricant": "manual", "lasts_hours": 9, "phase": [{"hours": 9}]}, "relubricates by itself"),
+    ],
+)
+def test_case_without_intervals_is_refused(tmp_path: Path, tables: dict[str, Any] | None, words: str) -> None:
+    case = {**STRAND, "wear": {"condition": "hardened, oiled"}, "lubrication": tables}
+    if tables is None:
+        del case["lubrication"]
+    with pytest.raises(wearsim.CaseError, match=words):
+        study(tables=case)
+
+
+def test_without_prices_no_cost_is_made_up() -> None:
+    tables = {key: value for key, value in STRAND.items() if key != "maintenance"}
+    (plan,) = study(tables=tables).plans
+    assert plan.cheapest is None
+    assert all(policy.cost is None for policy in plan.policies)

@@ -1,0 +1,313 @@
+"""[lubrication] as a user writes it: every key moves the life, or an error names it."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import wearsim
+from wearsim.catalogue.catalogues import environments, lubricants
+from wearsim.errors import CaseError
+from wearsim.input.schema.lubrication_tables import LubricantOption, LubricationPhase, LubricationTable
+
+CASES = Path(__file__).parents[2] / "cases"
+STRAND: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "16B-1"},
+    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 61},
+    "load": {"power_kW": 3, "speed_rpm": 100},
+    "service": {"km_per_hour": 10},
+    "run": {"life_tolerance": 0.1},
+    "lubrication": {
+        "lubricant": "manual",
+        "interval_hours": 30.0,
+        "lasts_hours": 12.0,
+        "fades_over_hours": 8.0,
+        "completeness": 0.9,
+        "contamination_factor": 1.5,
+    },
+}
+WRAP: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 61},
+    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
+    "mechanism": {"phases": 2},
+    "load": {"tension_N": 800, "speed_rpm": 200},
+    "run": {"life_tolerance": 0.1},
+}
+
+
+def hours(tables: dict[str, Any], *settings: str) -> float:
+    return wearsim.simulate(wearsim.load_case(tables, settings)).life.hours_run
+
+
+def faults(tables: dict[str, Any], *settings: str) -> str:
+    with pytest.raises(CaseError) as caught:
+        wearsim.load_case(tables, settings)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "interval_hours=25",
+        "lasts_hours=9",
+        "fades_over_hours=5",
+        "dry_factor=12",
+        "completeness=0.5",
+        "contamination_factor=2",
+        "ageing_factor=3",
+    ],
+)
+def test_key_moves_the_life(setting: str) -> None:
+    assert hours(STRAND, f"lubrication.{setting}") != pytest.approx(hours(STRAND), rel=1e-3)
+
+
+def _with(**changes: Any) -> dict[str, Any]:
+    table = {key: value for key, value in STRAND["lubrication"].items() if changes.get(key, 0) is not None}
+    return {**STRAND, "lubrication": {**table, **{k: v for k, v in changes.items() if v is not None}}}
+
+
+@pytest.mark.parametrize(
+    ("key", "other"),
+    [
+        ("interval_km", {"interval_hours": None, "interval_km": 300.0}),
+        ("lasts_km", {"lasts_hours": None, "lasts_km": 120.0}),
+        ("fades_over_km", {"fades_over_hours": None, "fades_over_km": 80.0}),
+    ],
+)
+def test_km_are_hours_times_their_speed(key: str, other: dict[str, Any]) -> None:
+    assert hours(_with(**other)) == pytest.approx(hours(STRAND), rel=1e-12)
+    without = {name: table for name, table in _with(**other).items() if name != "service"}
+    assert f"lubrication.{key}" in faults(without)
+    assert "service.km_per_hour" in faults(without)
+
+
+def test_relubrication_at_given_times() -> None:
+    """The first two rounds of the interval, then never again."""
+    at = hours(_with(interval_hours=None, at_hours=[30.0, 60.0]))
+    assert at == pytest.approx(hours(_with(interval_hours=None, at_km=[300.0, 600.0])), rel=1e-12)
+    assert at < hours(STRAND)
+
+
+def test_threshold_is_the_interval_after_which_it_is_reached() -> None:
+    """Twice the rate is at 1/38 of the ramp of 8 hours, after 12 hours."""
+    tables = _with(completeness=1.0, contamination_factor=None, interval_hours=None, when_rate_exceeds=2.0)
+    interval = 12.0 + 8.0 / 38.0
+    by_interval = _with(completeness=1.0, contamination_factor=None, interval_hours=interval)
+    assert hours(tables) == pytest.approx(hours(by_interval), rel=1e-9)
+
+
+def test_sliding_way_of_flanks_moves_the_life() -> None:
+    tables = _with(lasts_hours=None, lasts_sliding_m=10.0, interval_hours=None, interval_sliding_m=20.0)
+    assert hours(tables) != pytest.approx(hours(STRAND), rel=1e-3)
+    fading = _with(
+        lasts_hours=None,
+        lasts_sliding_m=10.0,
+        interval_hours=None,
+        interval_sliding_m=20.0,
+        fades_over_hours=None,
+        fades_over_sliding_m=8.0,
+    )
+    assert hours(fading) != pytest.approx(hours(tables), rel=1e-6)
+
+
+def test_phase_in_km() -> None:
+    in_km = [{"km": 200.0}, {**{key: PHASES[1][key] for key in PHASES[1] if key != "hours"}, "km": 200.0}]
+    found = [hours(_with(interval_hours=None, phase=phase)) for phase in (PHASES, in_km)]
+    assert found[1] == pytest.approx(found[0], rel=1e-12)
+
+
+PHASES: list[dict[str, Any]] = [
+    {"hours": 20.0},
+    {"hours": 20.0, "contaminations": 7, "contamination_factor": 3.0, "relubrications": 2},
+]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"hours": 70.0},
+        {"contaminations": 0},
+        {"relubrications": 5},
+        {"contamination_factor": 5.0},
+        {"ageing_factor": 20.0},
+        {"environment": "mud", "contamination_factor": None},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_key_of_a_phase_moves_the_life(change: dict[str, Any]) -> None:
+    base = _with(interval_hours=None, phase=PHASES, contamination_removed=0.5)
+    second = {key: value for key, value in {**PHASES[1], **change}.items() if value is not None}
+    changed = _with(interval_hours=None, phase=[PHASES[0], second], contamination_removed=0.5)
+    assert hours(changed) != pytest.approx(hours(base), rel=1e-4)
+
+
+def test_dirt_that_stays_moves_the_life() -> None:
+    phases = [PHASES[1], {"hours": 20.0, "relubrications": 3, "contamination_factor": 1.0}]
+    lives = [
+        hours(_with(interval_hours=None, phase=phases, contamination_removed=part)) for part in (0.2, 0.9)
+    ]
+    assert lives[0] < lives[1]
+
+
+def test_every_key_is_tried() -> None:
+    """Those of no life are prices and other lubricants, of `wearsim lubricate`."""
+    text = Path(__file__).read_text(encoding="utf-8") + Path(__file__).with_name(
+        "test_cli_lubricate.py"
+    ).read_text(encoding="utf-8")
+    for table in (LubricationTable, LubricationPhase, LubricantOption):
+        for key in table.model_fields:
+            assert any(f"{mark}{key}{end}" in text for mark in '" .' for end in '="'), key
+
+
+@pytest.mark.parametrize("name", list(lubricants()))
+def test_lubricant_sets_teeth_and_joints(name: str) -> None:
+    case = wearsim.load_case({**WRAP, "lubrication": {"lubricant": name}})
+    row = lubricants()[name]
+    by_condition = wearsim.load_case({**WRAP, "wear": {"condition": row.wear_condition}})
+    assert case.wear.coefficient == by_condition.wear.coefficient
+    assert case.drive.wear_coefficients == by_condition.drive.wear_coefficients
+    assert case.inputs["wear"]["condition"] == row.wear_condition
+
+
+@pytest.mark.parametrize("name", [name for name in environments() if name != "clean"])
+def test_environment_multiplies_the_wear(name: str) -> None:
+    clean = hours({**WRAP, "lubrication": {"lubricant": "drip", "environment": "clean"}})
+    dirty = hours({**WRAP, "lubrication": {"lubricant": "drip", "environment": name}})
+    assert dirty == pytest.approx(clean / environments()[name].factor, rel=1e-9)
+
+
+def test_own_numbers_override_each() -> None:
+    tables = {**WRAP, "lubrication": {"lubricant": "drip"}}
+    joint = wearsim.load_case(tables, ["joint.specific_wear_rate_mm2_per_N=1.3e-10"])
+    assert set(joint.drive.wear_coefficients.values()) == {1.3e-10}
+    assert joint.wear.coefficient == 5e-11
+    teeth = wearsim.load_case(tables, ["wear.specific_wear_rate_mm2_per_N=7e-11"])
+    assert teeth.wear.coefficient == 7e-11
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (["lubrication.lubricant=drip", "wear.condition=hardened, dry"], "contradicts lubrication.lubricant"),
+        (
+            ["lubrication.lubricant=dry", "wear.condition=hardened, oiled"],
+            "contradicts lubrication.lubricant",
+        ),
+        (
+            ["lubrication.lubricant=drip", "joint.specific_wear_rate_mm2_per_N=2e-8"],
+            "contradicts joint.specific_wear_rate_mm2_per_N",
+        ),
+    ],
+)
+def test_contradiction_is_warned_of_by_name(settings: list[str], words: str) -> None:
+    assert any(words in text for text in wearsim.load_case(WRAP, settings).warnings)
+
+
+@pytest.mark.parametrize(
+    ("settings", "key", "words"),
+    [
+        (["lubrication.lubricant=dripp"], "lubrication.lubricant", "did you mean 'drip'"),
+        (["lubrication.environment=dusty"], "lubrication.environment", "did you mean 'dust'"),
+        (["lubrication.interval_hours=2e6"], "lubrication.interval_hours", "within the run"),
+        (["lubrication.interval_hours=-1"], "lubrication.interval_hours", "greater than 0"),
+        (["lubrication.lasts_hours=-1"], "lubrication.lasts_hours", "0"),
+        (["lubrication.interval_km=3"], "lubrication.interval_km", "interval_hours says this already"),
+        (["lubrication.lasts_km=3"], "lubrication.lasts_km", "lasts_hours says this already"),
+        (["lubrication.at_hours=[2,1]"], "lubrication.at_hours", "must rise"),
+        (["lubrication.when_rate_exceeds=1"], "lubrication.when_rate_exceeds", "greater than 1"),
+        (["lubrication.completeness=0"], "lubrication.completeness", "greater than 0"),
+        (["lubrication.completeness=1.1"], "lubrication.completeness", "1"),
+        (["lubrication.contamination_removed=1.1"], "lubrication.contamination_removed", "1"),
+        (["lubrication.dry_factor=0.5"], "lubrication.dry_factor", "1"),
+        (
+            ["lubrication.minutes_per_application=3"],
+            "lubrication.minutes_per_application",
+            "labour_cost_per_hour",
+        ),
+        (
+            ["lubrication.labour_cost_per_hour=3"],
+            "lubrication.labour_cost_per_hour",
+            "minutes_per_application",
+        ),
+        (
+            ["lubrication.environment=clean"],
+            "lubrication.contamination_factor",
+            "a clean environment has none",
+        ),
+    ],
+)
+def test_bad_input_is_named(settings: list[str], key: str, words: str) -> None:
+    text = faults(STRAND, *settings)
+    assert key in text
+    assert words in text
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ({"lubricant": "dry", "interval_hours": 10}, "interval_hours", "needs a lubricant"),
+        ({"lubricant": "dry", "lasts_hours": 10}, "lasts_hours", "no lubricant that lasts"),
+        ({"lubricant": "drip", "interval_hours": 10}, "interval_hours", "supplied all the time"),
+        ({"lubricant": "manual", "interval_hours": 10}, "lasts_hours", "nothing is known about how long"),
+        ({"lasts_hours": 10, "interval_hours": 10}, "dry_factor", "needed where a lubricant ages"),
+        ({"lubricant": "manual", "fades_over_hours": 10}, "fades_over_hours", "needs lasts_hours"),
+        (
+            {"lubricant": "drip", "phase": [{"hours": 1, "km": 2}]},
+            "phase.1.hours",
+            "exactly one of hours and km",
+        ),
+        (
+            {"lubricant": "drip", "phase": [{"hours": 1, "contaminations": 2}]},
+            "phase.1.contaminations",
+            "dirt",
+        ),
+        ({"lubricant": "dry", "phase": [{"hours": 1, "relubrications": 2}]}, "phase", "needs a lubricant"),
+        (
+            {"lubricant": "manual", "lasts_hours": 9, "environment": "wet", "when_rate_exceeds": 3},
+            "when_rate_exceeds",
+            "dirt alone",
+        ),
+    ],
+)
+def test_contradictory_table_is_named(table: dict[str, Any], key: str, words: str) -> None:
+    text = faults({**STRAND, "lubrication": table})
+    assert f"lubrication.{key}" in text
+    assert words in text
+
+
+def test_threshold_that_is_never_reached_is_warned_of() -> None:
+    case = wearsim.load_case(_with(interval_hours=None, when_rate_exceeds=60.0))
+    assert any("never reached" in text for text in case.warnings)
+
+
+def test_gears_take_their_own_numbers_only() -> None:
+    case = CASES / "fzg-c14-16t-mild.toml"
+    for setting, words in (("lubricant=drip", "those of chains"), ("interval_km=3", "gears run no km")):
+        with pytest.raises(CaseError, match=words):
+            wearsim.load_case(case, [f"lubrication.{setting}"])
+
+
+def test_lubricants_and_environments_are_listed() -> None:
+    from click.testing import CliRunner
+
+    from wearsim.cli.main import wearsim_command
+
+    for table, names in (("lubricants", lubricants()), ("environments", environments())):
+        text = CliRunner().invoke(wearsim_command, ["list", table]).output
+        assert all(name in text for name in names)
+        assert max(map(len, text.splitlines())) <= 100
+        rows = json.loads(CliRunner().invoke(wearsim_command, ["list", table, "--json"]).output)
+        assert len(rows) == len(names)
+        assert all(row["source"] for row in rows)
+
+
+def test_maintain_refuses_a_lubricant_that_changes() -> None:
+    from wearsim.study.maintain.model import maintain
+
+    case = wearsim.load_case({**WRAP, "lubrication": {"lubricant": "drip", "environment": "dust"}})
+    with pytest.raises(CaseError, match="wearsim lubricate"):
+        maintain(case)

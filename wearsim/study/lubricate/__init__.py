@@ -1,0 +1,1 @@
+"""When to lubricate again, and which lubricant pays."""

@@ -1,0 +1,59 @@
+"""``wearsim lubricate``: when to lubricate again, and what that costs."""
+
+from pathlib import Path
+
+import click
+
+from wearsim.command.colours import show
+from wearsim.command.complete import CasePath
+from wearsim.command.options import (
+    common_options,
+    error_json,
+    load_cases,
+    overrides,
+    print_json,
+    warn,
+    working,
+)
+from wearsim.errors import WearsimError
+
+
+@click.command(short_help="When to lubricate again: hours, cost, lubricants.")
+@click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for table, text and picture.")
+@click.option("--force", is_flag=True, help="Replace what --out names.")
+@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@overrides
+@common_options
+def lubricate(case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]) -> None:
+    """Compare intervals between relubrications of CASE: lives of its parts, and cost per 1000 h.
+
+    How long the lubricant lasts, its price and the minutes of work stand in [lubrication],
+    other lubricants in [[lubrication.option]], prices of chain and sprockets in [maintenance].
+    """
+    from wearsim.files import check_folder
+    from wearsim.study.whole_drive.command import is_drive, loaded_drive
+
+    loaded = (
+        loaded_drive(case, settings, as_json) if is_drive(case) else load_cases([case], settings, as_json)[0]
+    )
+    from wearsim.study.lubricate.runs import lubricate as compare_intervals
+    from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, save_lubrication
+
+    if out is not None:
+        check_folder(out, force)
+    try:
+        with working(f"wearing {loaded.title}") as report_progress:
+            study = compare_intervals(loaded, report_progress)
+    except WearsimError as error:
+        if as_json:
+            click.echo(error_json(case.stem, error))
+        raise
+    if out is not None:
+        save_lubrication(study, out, force)
+    if as_json:
+        print_json(lubrication_json(study), case, study.warnings)
+    else:
+        show(lubrication_text(study))
+    if out is not None:
+        warn(f"written to {out}")

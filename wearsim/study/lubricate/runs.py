@@ -1,0 +1,107 @@
+"""The runs behind a study of lubrication: one for each lubricant."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from wearsim.case.load_case import load_case
+from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
+from wearsim.input.changes import changed
+from wearsim.input.document import GivenInput, is_whole_drive
+from wearsim.mechanisms.wrap.drive import WrapDrive
+from wearsim.result import Life, LowerBound
+from wearsim.simulation import simulate
+from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
+from wearsim.study.whole_drive.keys import DriveCase, load_drive
+from wearsim.study.whole_drive.maintenance import part_lives
+from wearsim.study.whole_drive.model import CHAIN, drive_life
+
+SPROCKET = "sprocket"
+
+
+def lubricate(
+    case: Case | DriveCase, progress: Callable[[float], None] = lambda part: None
+) -> LubricationStudy:
+    """Return life and cost against the interval, for the lubricant of a case and for its options."""
+    given = case.given
+    if given is None:
+        text = "must be studied as a whole: this is one sprocket of a drive, give the drive"
+        raise CaseError([Fault(text, "", case.name)])
+    cases = [case, *_options(given)]
+    for one in cases:
+        check_ages(_first(one))
+    drives = []
+    for number, one in enumerate(cases):
+
+        def report(part: float, number: int = number) -> None:
+            progress((number + part) / len(cases))
+
+        drives.append(_run(one, report))
+    service = _first(case).inputs.get("service", {})
+    return lubrication_study(drives, service.get("km_per_hour"), case.title)
+
+
+def _options(given: GivenInput) -> Iterator[Case | DriveCase]:
+    """Give the same case with each of its other lubricants."""
+    table = given.tables.get("lubrication", {})
+    options = table.get("option", []) if isinstance(table, Mapping) else []
+    for option in options:
+        changes: dict[str, Any] = {f"lubrication.{key}": value for key, value in option.items()}
+        if "lubricant" in option:
+            # What the lubricant before lasts and wears is not that of another.
+            own = ("lasts_hours", "lasts_km", "lasts_sliding_m", "fades_over_hours", "fades_over_km")
+            own = (*own, "fades_over_sliding_m", "dry_factor", "completeness", "contamination_removed")
+            changes = {f"lubrication.{key}": None for key in own if key in table} | changes
+        other = changed(given, changes)
+        yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
+
+
+def _first(case: Case | DriveCase) -> Case:
+    return case if isinstance(case, Case) else case.driver.case
+
+
+def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
+    if isinstance(case, DriveCase):
+        return _run_drive(case, progress)
+    result = simulate(case, progress)
+    lives: dict[str, Life | LowerBound] = dict(result.parts) or {SPROCKET: result.life}
+    lives = {name: life for name, life in lives.items() if name in (CHAIN, SPROCKET)} or {
+        SPROCKET: result.life
+    }
+    prices = case.inputs.get("maintenance", {})
+    return LubricatedDrive(
+        case,
+        lives,
+        {name: _band(case, name) for name in lives},
+        {name: prices.get(f"{name}_price") for name in lives},
+        result.assumptions,
+        result.warnings,
+    )
+
+
+def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
+    found = drive_life(drive, None, progress)
+    lives = part_lives(found)
+    cases = {one.name: one.case for one in drive.sprockets}
+    first = drive.driver.case
+    prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
+    return LubricatedDrive(
+        first,
+        lives,
+        {name: _band(cases.get(name, first), name) for name in lives},
+        {
+            **{name: prices.get(name) for name in lives},
+            CHAIN: first.inputs.get("maintenance", {}).get("chain_price"),
+        },
+        drive.assumptions,
+        found.warnings,
+    )
+
+
+def _band(case: Case, part: str) -> tuple[float, float]:
+    """Return the coefficients at the ends of the band of a part, over that of the case."""
+    if part == CHAIN and isinstance(case.drive, WrapDrive):
+        joint = case.drive.joint
+        if joint.low is not None and joint.high is not None:
+            return joint.low / joint.coefficient, joint.high / joint.coefficient
+    return case.wear.low, case.wear.high

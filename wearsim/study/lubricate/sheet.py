@@ -1,0 +1,178 @@
+"""Intervals of relubrication side by side: text, JSON, CSV and a picture."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from wearsim._version import ANSWER_HEAD
+from wearsim.files import new_folder
+from wearsim.quantities import grouped
+from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.study.lubricate.model import (
+    LubricantPlan,
+    LubricationStudy,
+    MissedRelubrication,
+    RelubricationPolicy,
+)
+
+_AT_THE_EDGE = (
+    ". The lubricant gives out there, and what it lasts scatters: take a shorter one than the cheapest"
+)
+
+
+def policy_rows(study: LubricationStudy) -> list[dict[str, Any]]:
+    """Return a row for every lubricant and interval, in the units of the columns."""
+    return [
+        {
+            "lubricant": plan.name,
+            "interval_hours": policy.interval,
+            "interval_km": None if study.km_per_hour is None else policy.interval * study.km_per_hour,
+            "mean_wear_factor": policy.wear_factor,
+            **_lives(plan, policy),
+            "relubrications_per_1000_h": 1000.0 / policy.interval,
+            "cost_per_1000_h": policy.cost,
+            "cost_low_per_1000_h": policy.cost_low,
+            "cost_high_per_1000_h": policy.cost_high,
+        }
+        for plan in study.plans
+        for policy in plan.policies
+    ]
+
+
+def _lives(plan: LubricantPlan, policy: RelubricationPolicy) -> dict[str, Any]:
+    columns = {}
+    for part in plan.parts:
+        for end, lives in (("", policy.lives), ("_low", policy.lives_low), ("_high", policy.lives_high)):
+            columns[f"{part.name}_life{end}_hours"] = lives[part.name]
+        columns[f"{part.name}_life_reached"] = part.reached
+    return columns
+
+
+def lubrication_json(study: LubricationStudy) -> dict[str, Any]:
+    """Return the study as ``wearsim lubricate --json`` prints it."""
+    best = study.cheapest
+    return {
+        **ANSWER_HEAD,
+        "case": study.case,
+        "title": study.title,
+        "lubricants": [_plan_json(plan) for plan in study.plans],
+        "policies": policy_rows(study),
+        "cheapest_lubricant": None if best is None else best.name,
+        "assumptions": list(study.assumptions),
+        "warnings": list(study.warnings),
+    }
+
+
+def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
+    low, high = plan.cheap or (None, None)
+    return {
+        "lubricant": plan.name,
+        "lasts_hours": plan.lasts,
+        "fades_over_hours": plan.fades,
+        "dry_factor": plan.dry_factor,
+        "own_interval_hours": None if plan.own is None else plan.own.interval,
+        "cheapest_interval_hours": None if plan.cheapest is None else plan.cheapest.interval,
+        "cheapest_cost_per_1000_h": None if plan.cheapest is None else plan.cheapest.cost,
+        "cheap_from_hours": low,
+        "cheap_to_hours": high,
+        "missed_interval_hours": plan.missed.interval,
+        "missed_lost_hours": plan.missed.lost,
+        "missed_cost": plan.missed.cost,
+    }
+
+
+def lubrication_text(study: LubricationStudy) -> str:
+    """Return the study as ``wearsim lubricate`` prints it."""
+    lines = [study.title]
+    for plan in study.plans:
+        lines += ["", *_plan_lines(study, plan)]
+    lines.append("")
+    best = study.cheapest
+    if best is not None and len(study.plans) > 1:
+        lines.append(row("Pays", f"{_named(best)}, {_advice(study, best)}"))
+    lines.append(row("Assumes", numbered_assumptions(study.assumptions)))
+    lines.append(row("Warnings", "; ".join(study.warnings) or "none"))
+    return "\n".join(lines)
+
+
+def _named(plan: LubricantPlan) -> str:
+    return plan.name or "the lubricant of the case"
+
+
+def _plan_lines(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
+    way = f" ({grouped(plan.lasts * study.km_per_hour)} km)" if study.km_per_hour else ""
+    fades = f" and fades over {grouped(plan.fades)} h" if plan.fades > 0.0 else ""
+    yield row(
+        "Lubricant",
+        f"{_named(plan)}: lasts {grouped(plan.lasts)} h{way}{fades}; dry contacts wear {plan.dry_factor:g} "
+        "times as fast",
+    )
+    head = ["interval", *(part.name for part in plan.parts), "wear factor", "cost per 1000 h"]
+    cells = [[*_cells(study, plan, policy)] for policy in plan.policies]
+    widths = [max(map(len, column)) for column in zip(head, *cells, strict=True)]
+    for line in (head, *cells):
+        yield "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
+    if plan.cheapest is not None:
+        yield row("Cheapest", _advice(study, plan))
+    elif not all(part.reached for part in plan.parts):
+        yield row("Cheapest", "not known: the life of a part is not reached (raise run.horizon_hours)")
+    else:
+        yield row("Cheapest", f"not known without {_missing(plan)}")
+    yield row("Missed", _missed(study, plan.missed))
+
+
+def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
+    lost = f"{grouped(missed.lost)} h" if missed.lost > 0.0 else "nothing"
+    cost = ""
+    if missed.cost is not None:
+        cost = f", which {'costs' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
+    every = _interval(study, missed.interval)
+    return f"one relubrication left out of those every {every} takes {lost} of the life of every part{cost}"
+
+
+def _missing(plan: LubricantPlan) -> str:
+    """Return the keys that a cost needs."""
+    keys = [f"a price of {part.name}" for part in plan.parts if part.price is None]
+    return ", ".join([*keys, *([] if plan.priced else ["price_per_application or minutes_per_application"])])
+
+
+def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:
+    best, cheap = plan.cheapest, plan.cheap
+    assert best is not None and cheap is not None and best.cost is not None
+    low, high = (_interval(study, end) for end in cheap)
+    band = (
+        f" ({grouped(best.cost_low)} to {grouped(best.cost_high)})"
+        if best.cost_low and best.cost_high
+        else ""
+    )
+    return (
+        f"every {_interval(study, best.interval)}, {grouped(best.cost)}{band} per 1000 h; from {low} to "
+        f"{high} it costs at most 5 % more{_AT_THE_EDGE if plan.at_the_edge else ''}"
+    )
+
+
+def _interval(study: LubricationStudy, interval: float) -> str:
+    way = f" ({grouped(interval * study.km_per_hour)} km)" if study.km_per_hour else ""
+    return f"{grouped(interval)} h{way}"
+
+
+def _cells(study: LubricationStudy, plan: LubricantPlan, policy: RelubricationPolicy) -> Iterator[str]:
+    mark = " *" if policy is plan.own or (plan.own and policy.interval == plan.own.interval) else ""
+    yield _interval(study, policy.interval) + mark
+    for part in plan.parts:
+        yield f"{'' if part.reached else '> '}{grouped(policy.lives[part.name])} h"
+    yield f"{policy.wear_factor:.3g}"
+    yield "-" if policy.cost is None else grouped(policy.cost)
+
+
+def save_lubrication(study: LubricationStudy, folder: Path, force: bool) -> None:
+    """Write table and picture into a folder, all of it or nothing."""
+    import pandas as pd
+
+    from wearsim.report.figures import save_figure
+    from wearsim.study.lubricate.figure import lubrication_figure
+
+    with new_folder(folder, force) as place:
+        pd.DataFrame(policy_rows(study)).to_csv(place / "intervals.csv", index=False)
+        (place / "lubrication.txt").write_text(lubrication_text(study) + "\n", encoding="utf-8")
+        save_figure(lubrication_figure(study), place, "lubrication")
