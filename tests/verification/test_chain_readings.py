@@ -406,3 +406,9 @@ def test_calibrate_refuses_gauges_alone():
         wearsim.calibrate(case(), [{**rows[0], "result": "yes"}])
     with pytest.raises(wearsim.CaseError, match=r"readings:2: gauge_percent needs a chain that wraps"):
         wearsim.calibrate(wearsim.load_case("16b-20t-oiled"), rows)
+
+
+def test_a_case_without_a_band_is_believed():
+    """A factor that is known to be 1 stays 1, whatever is read."""
+    found = factor_posterior([reading(1.5, 0.1)], [1.0], FactorPrior(1.0, 1.0))
+    assert found.quantiles == pytest.approx([1.0] * 5, abs=1e-4)

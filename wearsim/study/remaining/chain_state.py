@@ -81,11 +81,16 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
         text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
         raise CaseError([Fault(text, "mechanism.kind", case.name)])
     drive = wrap_of(case)
-    log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
     limit = 100.0 * drive.joint.elongation_limit
+    log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
     _check_within(log, limit)
     check_relubrications(case, log)
-    contact, per_hour = drive.contact(case), case.cycles_per_hour
+    return _state(case, log, limit)
+
+
+def _state(case: Case, log: ChainLog, limit: float) -> ChainState:
+    """Return what a log says: the clock of the wear as it ran, then as it goes on."""
+    contact, per_hour = wrap_of(case).contact(case), case.cycles_per_hour
     clock = _clock(as_logged(case, log), contact)
     rate = limit / contact.cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
@@ -98,12 +103,6 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
     lives = tuple((going_on.running_cycles(steady) / per_hour).tolist())
     now = rate * clock.steady_cycles(log.today * per_hour) * factors
     hours = np.linspace(0.0, _BEYOND * max(lives[-1], log.today), _POINTS)
-    quantiles = (
-        *_left(case, log, lives),
-        Quantiles("elongation_percent", tuple(now.tolist())),
-        Quantiles("life_hours", lives),
-        Quantiles("coefficient_factor", posterior.quantiles),
-    )
     return ChainState(
         case=case,
         log=log,
@@ -112,7 +111,12 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
         course_hours=hours,
         course=rate * np.array([going_on.steady_cycles(float(one) * per_hour) for one in hours]),
         posterior=posterior,
-        quantiles=quantiles,
+        quantiles=(
+            *_left(case, log, lives),
+            Quantiles("elongation_percent", tuple(now.tolist())),
+            Quantiles("life_hours", lives),
+            Quantiles("coefficient_factor", posterior.quantiles),
+        ),
         assumptions=(*_assumptions(log, prior), *case.assumptions),
         warnings=(*_warnings(log, posterior, prior, lives), *case.warnings),
     )

@@ -15,6 +15,7 @@ LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """Probabilities of the quantiles that are told: ends of 90 and 50 %, and the middle."""
 
 _NORMAL_95 = 1.6448536269514722
+_NO_BAND = 1e-6
 _FAR = 8.0
 """Standard deviations of the prior, and of a measured factor's logarithm, that the grid reaches out."""
 
@@ -40,8 +41,8 @@ class FactorPrior:
 
     @property
     def sigma(self) -> float:
-        """Standard deviation of its logarithm."""
-        return 0.5 * math.log(self.high / self.low) / _NORMAL_95
+        """Standard deviation of its logarithm; not 0, where the case has no band."""
+        return max(0.5 * math.log(self.high / self.low) / _NORMAL_95, _NO_BAND)
 
 
 @dataclass(frozen=True)
