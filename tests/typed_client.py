@@ -53,6 +53,8 @@ def main() -> None:
     plan = assert_type(wearsim.maintain(case, {"replace_at_percent": [3]}), wearsim.MaintenanceResult)
     assert_type(plan.policies, pd.DataFrame)
     left = assert_type(wearsim.remaining(case, 1000, elongation_percent=1), wearsim.RemainingResult)
+    rows = [{"time_hours": 100, "quantity": "elongation_percent", "value": 0.5}]
+    assert_type(wearsim.remaining(case, readings=rows), wearsim.ChainReadingsResult)
     assert_type(left.remaining, wearsim.Life | wearsim.LowerBound)
     wheel = assert_type(wearsim.export(result, state="new"), wearsim.ExportResult)
     assert_type(wheel.content("svg"), bytes)

@@ -9,6 +9,7 @@ _PUBLIC = {
     "CalibrationResult": "wearsim.python.calibrate",
     "Case": "wearsim.case.model",
     "CaseError": "wearsim.errors",
+    "ChainReadingsResult": "wearsim.python.chain_readings",
     "CheckResult": "wearsim.python.check",
     "ContactError": "wearsim.errors",
     "ConvergenceError": "wearsim.errors",
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
     from wearsim.python.calibrate import CalibrationResult, calibrate
+    from wearsim.python.chain_readings import ChainReadingsResult
     from wearsim.python.check import CheckResult, check
     from wearsim.python.export import ExportResult, export
     from wearsim.python.loads import LoadsResult, loads
@@ -72,6 +74,7 @@ __all__ = [
     "CalibrationResult",
     "Case",
     "CaseError",
+    "ChainReadingsResult",
     "CheckResult",
     "ContactError",
     "ConvergenceError",

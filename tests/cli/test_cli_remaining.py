@@ -1,5 +1,6 @@
 """``wearsim remaining``: one reading, one answer."""
 
+import csv
 import json
 
 import pytest
@@ -51,3 +52,124 @@ def test_a_reading_beyond_the_limit_is_bad_input(cli, drive):
     assert done.code == 2
     assert json.loads(done.out)["error"]["kind"] == "CaseError"
     assert "where the limit is reached" in done.err
+
+
+WRAP = """\
+format_version = 1
+title = "Wrapped test drive"
+[chain]
+designation = "ANSI 40"
+[sprocket]
+teeth = 19
+profile = "ansi_b29"
+nodes = 51
+[drive]
+mate_teeth = 57
+links = 120
+[mechanism]
+kind = "wrap"
+phases = 2
+[joint]
+specific_wear_rate_mm2_per_N = 1.5e-8
+[load]
+power_kW = 4.6
+speed_rpm = 1000
+[wear]
+specific_wear_rate_mm2_per_N = 1e-9
+[service]
+hours_per_day = 8
+km_per_hour = 30
+[lubrication]
+lasts_hours = 100
+dry_factor = 4
+"""
+ROWS = """\
+date,quantity,value,links,result,error
+2026-01-01,new,,,,
+2026-02-02,gauge_percent,0.75,,go,
+2026-03-01,relubrication,,,,
+2026-04-01,chain_length_mm,1283,100,,0.5
+"""
+
+
+@pytest.fixture
+def chain(tmp_path):
+    """A case of a chain, and its readings."""
+    case, rows = tmp_path / "chain.toml", tmp_path / "rows.csv"
+    case.write_text(WRAP)
+    rows.write_text(ROWS)
+    return case, rows
+
+
+def test_text_of_a_table_tells_what_the_json_holds(cli, chain):
+    done = cli("remaining", *chain)
+    found = json.loads(cli("remaining", *chain, "--json").out)
+    assert done.code == 0, done.err
+    assert max(map(len, done.out.splitlines())) <= 100
+    text = " ".join(done.out.split())
+    assert text.startswith("Wrapped test drive Remaining ")
+    assert "1 measured, 1 by a gauge" in text
+    assert "1 times, every 472 h" in text
+    rows = {row["quantity"]: row for row in found["intervals"]}
+    assert list(rows) == [
+        *("remaining_hours", "remaining_km", "end_date"),
+        *("elongation_percent", "life_hours", "coefficient_factor"),
+    ]
+    for name, row in rows.items():
+        values = [row[f"p{share}"] for share in ("05", "25", "50", "75", "95")]
+        assert values == sorted(values), name
+    left = rows["remaining_hours"]
+    ends = [found[f"remaining_hours{end}"] for end in ("_low", "", "_high")]
+    assert ends == [left["p05"], left["p50"], left["p95"]]
+    assert f"Until {rows['end_date']['p50']} " in text
+    assert found["reading_hours"] == 90 * 8
+    assert [row["reading_row"] for row in found["readings"]] == [3, 5]
+    assert found["readings"][1]["elongation_percent"] == pytest.approx(100 * (1283 / 1270 - 1))
+
+
+def test_folder_of_a_table(cli, chain, tmp_path):
+    out = tmp_path / "out"
+    assert cli("remaining", *chain, "--out", out).code == 0
+    names = [".wearsim", "intervals.csv", "readings.csv", "readings.png", "readings.svg", "summary.md"]
+    assert sorted(path.name for path in out.iterdir()) == names
+    found = json.loads(cli("remaining", *chain, "--json").out)
+    with (out / "intervals.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["quantity"] for row in rows] == [row["quantity"] for row in found["intervals"]]
+    assert float(rows[0]["p50"]) == pytest.approx(found["remaining_hours"], rel=1e-12)
+    assert cli("remaining", *chain, "--out", out).code == 2
+    assert cli("remaining", *chain, "--out", out, "--force").code == 0
+
+
+def test_error_of_rows_that_state_none_is_the_option(cli, chain):
+    case, rows = chain
+    rows.write_text("time_hours,quantity,value\n500,elongation_percent,0.6\n")
+    found = json.loads(cli("remaining", case, rows, "--reading-error-percent", "0.02", "--json").out)
+    assert found["readings"][0]["error"] == 0.02
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [(("--hours", "100"), "leave out --hours"), (("--elongation", "1"), "leave out --hours")],
+)
+def test_a_table_goes_without_single_readings(cli, chain, options, message):
+    done = cli("remaining", *chain, *options)
+    assert done.code == 2
+    assert message in done.err
+
+
+def test_a_bad_table_is_bad_input(cli, chain):
+    case, rows = chain
+    rows.write_text(ROWS + "2026-03-15,gauge_percent,0.75,,perhaps,\n")
+    done = cli("remaining", case, rows, "--json")
+    assert done.code == 2
+    assert "rows.csv:6: result: must be go (the gauge does not fall in) or no-go" in done.err
+    assert "rows.csv:6: date: must not go backwards: 2026-03-15 comes after 2026-04-01" in done.err
+    error = json.loads(done.out)["error"]
+    assert (error["line"], error["key"]) == (6, "result")
+
+
+def test_pictures_are_of_tables(cli, drive, tmp_path):
+    done = cli("remaining", drive(), *READING, "--out", tmp_path / "out")
+    assert done.code == 2
+    assert "--out needs READINGS" in done.err

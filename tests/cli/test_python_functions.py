@@ -285,6 +285,37 @@ def test_remaining(answer, wrap, arguments, options):
     assert is_shown(found, "parts")
 
 
+ROWS = [
+    {"time_hours": 100, "quantity": "chain_length_mm", "value": 1277, "links": 100, "error": 0.5},
+    {"time_hours": 200, "quantity": "gauge_percent", "value": 0.75, "result": "no-go"},
+]
+
+
+def test_remaining_of_a_table(answer, wrap, tmp_path):
+    import pandas as pd
+
+    file = tmp_path / "rows.csv"
+    file.write_text(
+        "time_hours,quantity,value,links,result,error\n"
+        "100,chain_length_mm,1277,100,,0.5\n200,gauge_percent,0.75,,no-go,\n"
+    )
+    expected = answer("remaining", wrap, file)
+    for readings in (file, ROWS, pd.DataFrame(ROWS)):
+        found = wearsim.remaining(wearsim.load_case(wrap), readings=readings)
+        assert found.summary() == expected
+    assert found.intervals["p50"][0] == expected["remaining_hours"]
+    assert is_shown(found, "intervals", "readings")
+    assert is_drawn(found.plot())
+    wide = wearsim.remaining(wrap, readings=ROWS, error=0.2)
+    assert list(wide.readings["error"])[1] == 0.2
+    with pytest.raises(TypeError, match="without others"):
+        wearsim.remaining(wrap, 100, readings=ROWS)
+    with pytest.raises(wearsim.CaseError, match="readings:3: result: must be go"):
+        wearsim.remaining(wrap, readings=[ROWS[0], {**ROWS[1], "result": "maybe"}])
+    with pytest.raises(TypeError, match="hours and one reading"):
+        wearsim.remaining(wrap, depth=0.1)
+
+
 def test_error_of_a_reading_is_usually_that_of_the_command(answer, wrap, drive):
     depth = wearsim.remaining(drive(critical_depth_mm=0.2), 100, depth=0.1)
     assert depth.summary() == answer(

@@ -36,6 +36,7 @@ from wearsim.study.calibrate.sheet import readings_table, values_table
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
+from wearsim.study.remaining.dated_rows import TIMES
 from wearsim.study.select.model import select
 from wearsim.study.select.requirements import DriveRequirements
 from wearsim.study.select.sheet import drive_columns
@@ -163,7 +164,10 @@ def study_columns():
     found = calibrate(cases / "16b-20t-oiled.toml", readings)
     answer = SensitivityAnswer(None, 1.0, [effect], {scatter.key: 1.0}, ())
     yield from (*COLUMNS, *sensitivity_table(answer))
-    yield from (*REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
+    yield from (*TIMES, *REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
+    rows = [{"distance_km": 1500, "quantity": "elongation_percent", "value": 0.2}]
+    state = wearsim.remaining(wearsim.load_case("bicycle-17t-road"), readings=rows)
+    yield from (*state.intervals, *state.readings)
     measures = {"life_hours": 1.0, "mass_kg": 1.0}
     one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "", "")
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})

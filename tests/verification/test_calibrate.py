@@ -64,7 +64,7 @@ def once(monkeypatch):
         return known[key]
 
     monkeypatch.setattr(blend, "simulate", simulate)
-    monkeypatch.setattr(calibrations, "read_readings", lambda rows: rows)
+    monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: rows)
 
 
 def readings(rows, scans=(), kind=None):

@@ -1,19 +1,18 @@
 """Coefficients and hours left from what was measured in service."""
 
-import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
-from wearsim.errors import Allowed, CaseError, Range, check_ranges
+from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.python.answer import DrawnAnswer, table_of
 from wearsim.python.case_input import CaseInput, given_input
+from wearsim.python.readings_file import readings_file
 from wearsim.quantities import grouped
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
@@ -22,9 +21,6 @@ from wearsim.study.calibrate.sheet import calibration_json, calibration_text, re
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
-
-_NAME = "readings"
-"""What faults call readings that are in no file."""
 
 _ALLOWED: dict[str, Allowed] = {
     "register": ("turn", "free", "none"),
@@ -129,8 +125,9 @@ def calibrate(
     case : Case, path or mapping
         One sprocket or a gear pair.
     readings : path, pandas.DataFrame or sequence of mapping
-        Columns ``time_hours``, ``quantity``, ``value``, ``error`` and those that a quantity needs; paths
-        in them are relative to the file, else to the working directory.
+        Columns ``quantity``, ``value``, ``error``, one of ``time_hours``, ``distance_km`` and ``date``,
+        and those that a quantity needs; paths in them are relative to the file, else to the working
+        directory.
     fit : sequence of str
         Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``.
     register : str
@@ -156,26 +153,5 @@ def calibrate(
     given_options = {"register": register, "cutoff": cutoff, "confidence": confidence}
     check_ranges("calibrate", given_options, _ALLOWED)
     options = CalibrationOptions(tuple(fit), register, cutoff, confidence)
-    given = given_input(case)
-    if isinstance(readings, str | PathLike):
-        return CalibrationResult(fitted(given, Path(readings), (), options))
-    import pandas as pd
-
-    table = readings if isinstance(readings, pd.DataFrame) else pd.DataFrame(list(readings))
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"{_NAME}.csv"
-        _with_whole_paths(table).to_csv(file, index=False)
-        try:
-            return CalibrationResult(fitted(given, file, (), options))
-        except CaseError as error:
-            faults = [replace(one, file=one.file.replace(str(file), _NAME)) for one in error.faults]
-            raise CaseError(faults) from None
-
-
-def _with_whole_paths(table: "pd.DataFrame") -> "pd.DataFrame":
-    if "points_file" not in table:
-        return table
-    files = table["points_file"]
-    return table.assign(
-        points_file=[str(Path(name).resolve()) if isinstance(name, str) and name else "" for name in files]
-    )
+    with readings_file(readings) as file:
+        return CalibrationResult(fitted(given_input(case), file, (), options))

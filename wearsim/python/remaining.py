@@ -1,15 +1,20 @@
-"""What a reading in service leaves of a life."""
+"""What readings in service leave of a life."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded_case
+from wearsim.python.chain_readings import ChainReadingsResult
+from wearsim.python.readings_file import readings_file
 from wearsim.python.study_run import Progress, silent
 from wearsim.report.answer import hours as in_hours
 from wearsim.result import Life, LowerBound
+from wearsim.study.remaining.chain_state import chain_state
 from wearsim.study.remaining.model import (
     DEPTH,
     ELONGATION,
@@ -107,6 +112,7 @@ class RemainingResult(Answer):
         return remaining_json(self.found, self.case.inputs)
 
 
+@overload
 def remaining(
     case: CaseInput,
     hours: float,
@@ -116,38 +122,66 @@ def remaining(
     elongation_percent: float | None = None,
     error: float | None = None,
     progress: Progress = silent,
-) -> RemainingResult:
-    """Return the hours that are left after one reading in service.
+) -> RemainingResult: ...
 
-    The reading takes the place of the wear coefficient of the case: life times coefficient is constant.
-    Give one of depth, over_pins and elongation_percent. `calibrate` takes several readings.
+
+@overload
+def remaining(
+    case: CaseInput,
+    *,
+    readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]]",
+    error: float | None = None,
+) -> ChainReadingsResult: ...
+
+
+def remaining(
+    case: CaseInput,
+    hours: float | None = None,
+    *,
+    depth: float | None = None,
+    over_pins: float | None = None,
+    elongation_percent: float | None = None,
+    readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]] | None" = None,
+    error: float | None = None,
+    progress: Progress = silent,
+) -> RemainingResult | ChainReadingsResult:
+    """Return the hours that are left after readings in service.
+
+    One reading takes the place of the wear coefficient of the case: life times coefficient is constant.
+    Give hours and one of depth, over_pins and elongation_percent. Or give readings, all of one chain,
+    for intervals of 50 and 90 %. `calibrate` takes several readings of the teeth too.
 
     Parameters
     ----------
     case : Case, path or mapping
         One sprocket or a gear pair.
-    hours : float
-        Running hours of the part that was measured, since it was new [h].
+    hours : float, optional
+        Running hours of the part that was measured, since it was new [h]; of one reading.
     depth : float, optional
         Worn off a tooth at its deepest point [mm].
     over_pins : float, optional
         How much less the measurement over pins is than when new [mm].
     elongation_percent : float, optional
         Of the chain [%].
+    readings : path, pandas.DataFrame or sequence of mapping, optional
+        Rows of a chain: ``quantity``, ``value``, one of ``time_hours``, ``distance_km`` and ``date``,
+        and ``links``, ``result`` and ``error`` where a row needs them.
     error : float, optional
-        Of the reading, to either side [mm, of an elongation %]; 0.02 mm or 0.05 % without it.
+        Of the reading, to either side [mm, of an elongation %]; 0.02 mm or 0.05 % without it. Of
+        readings that state none the standard deviation [%].
     progress : callable, optional
         Told how much is done, from 0 to 1.
 
     Returns
     -------
-    RemainingResult
-        ``remaining``, ``remaining_low``, ``remaining_high``, ``life`` and ``coefficient``.
+    RemainingResult or ChainReadingsResult
+        ``remaining``, ``remaining_low``, ``remaining_high``, ``life`` and ``coefficient``; of a table
+        of readings ``intervals`` and ``readings``.
 
     Raises
     ------
     TypeError
-        None or several of the readings are given.
+        None or several of the readings are given, or one without hours.
     GeometryError
         Hours, reading or error are not above 0.
     CaseError
@@ -172,13 +206,36 @@ def remaining(
     >>> left = wearsim.remaining(case, 0.5 * life, depth=0.2)
     >>> round(left.coefficient / 5e-11, 6), left.remaining.hours
     (2.0, 0.0)
+
+    A chain that is read well to have half of its allowance left has as many hours left as it has run.
+
+    >>> wrapped = case.with_({"sprocket.profile": "iso606", "mechanism.kind": "wrap",
+    ...     "drive": {"mate_teeth": 40, "links": 120, "slack_tension_N": 10}, "stop.elongation_percent": 1})
+    >>> rows = [{"time_hours": 100, "quantity": "elongation_percent", "value": 0.5, "error": 1e-5}]
+    >>> round(wearsim.remaining(wrapped, readings=rows).summary()["remaining_hours"], 2)
+    100.0
     """
+    if readings is not None:
+        alone = {
+            "hours": hours,
+            "depth": depth,
+            "over_pins": over_pins,
+            "elongation_percent": elongation_percent,
+        }
+        if any(value is not None for value in alone.values()):
+            raise TypeError("remaining: readings hold hours and values, must be given without others")
+        check_ranges("remaining", {"error": error}, {"error": _ABOVE_0})
+        with readings_file(readings) as file:
+            state = chain_state(loaded_case(case, "remaining"), file, _USUAL if error is None else error)
+        return ChainReadingsResult(state)
+    if hours is None:
+        raise TypeError("remaining: must be given hours and one reading, or readings")
     given = {"depth": depth, "over_pins": over_pins, "elongation_percent": elongation_percent}
-    readings = [(name, value) for name, value in given.items() if value is not None]
-    if len(readings) != 1:
+    values = [(name, value) for name, value in given.items() if value is not None]
+    if len(values) != 1:
         raise TypeError("remaining: must be given one of depth, over_pins and elongation_percent")
     check_ranges("remaining", {"hours": hours, **given, "error": error}, _ALLOWED)
-    ((name, value),) = readings
+    ((name, value),) = values
     quantity, usual_error = _READINGS[name]
     reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
     found = loaded_case(case, "remaining")
@@ -195,5 +252,12 @@ _ALLOWED: dict[str, Allowed] = {
     "error": _ABOVE_0,
 }
 
-_READINGS = {"depth": (DEPTH, 0.02), "over_pins": (OVER_PINS, 0.02), "elongation_percent": (ELONGATION, 0.05)}
+_USUAL = 0.05
+"""Error of an elongation [%]."""
+
+_READINGS = {
+    "depth": (DEPTH, 0.02),
+    "over_pins": (OVER_PINS, 0.02),
+    "elongation_percent": (ELONGATION, _USUAL),
+}
 """What each argument reads, and its usual error."""

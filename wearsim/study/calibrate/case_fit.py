@@ -27,7 +27,8 @@ from wearsim.study.calibrate.measured_profiles import ProfileObservation, observ
 from wearsim.study.calibrate.observations import Observation, PredictedState
 from wearsim.study.calibrate.parameters import JOINT, FitParameters, shape_values
 from wearsim.study.calibrate.reading_checks import reading_faults
-from wearsim.study.calibrate.readings import ELONGATION, PROFILE, Reading
+from wearsim.study.calibrate.readings import PROFILE, Reading
+from wearsim.study.remaining.chain_readings import GAUGE
 
 _FOREVER = 1e15
 """Horizon of the runs [h]: the limit must be reached, as all times are scaled."""
@@ -60,14 +61,14 @@ class CaseFit:
     ) -> None:
         self.tables = tables
         self.case, self.readings, self.options, self.file = case, readings, options, file
-        chain = any(reading.quantity == ELONGATION for reading in readings)
+        chain = any(reading.of_chain for reading in readings)
         joint, rate, self.chain_hours = _joints(case)
         self.parameters = FitParameters(
             predictions=PredictedHistories(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
             coefficient=case.wear.coefficient,
             joint=joint,
             elongation_rate=rate,
-            teeth=any(reading.quantity != ELONGATION for reading in readings),
+            teeth=any(not reading.of_chain for reading in readings),
             chain=chain,
             shapes={key: shape_values(case)[key] for key in options.shapes},
             last=self._last(teeth=True),
@@ -76,10 +77,12 @@ class CaseFit:
         self.settled = True
         self.observations = self._observed(None)
         self.freedom = sum(one.freedom for one in self.observations) - self.parameters.size
+        gauges = any(reading.quantity == GAUGE for reading in readings)
         if self.freedom < 0:
             text = (
                 f"must hold at least as many independent values as are fitted, {self.parameters.size}, "
                 f"but holds {self.freedom + self.parameters.size}: measure more, or fit less"
+                + (" (a gauge fixes no value, but wearsim remaining takes it alone)" if gauges else "")
             )
             raise CaseError([Fault(text, "", file)])
 
@@ -118,7 +121,7 @@ class CaseFit:
         found, faults = [], []
         for reading in self.readings:
             wrong = []
-            if new is not None and reading.quantity != ELONGATION:
+            if new is not None and not reading.of_chain:
                 wrong = reading_faults(reading, new)
             try:
                 if not wrong:
@@ -176,9 +179,7 @@ class CaseFit:
 
     def _last(self, teeth: bool) -> float:
         """Hours of the last reading of the teeth or of the chain [h]."""
-        return max(
-            (one.hours for one in self.readings if (one.quantity != ELONGATION) == teeth), default=math.nan
-        )
+        return max((one.hours for one in self.readings if one.of_chain != teeth), default=math.nan)
 
     def _restated(
         self, point_of: Callable[[Vector], Vector], bounds: tuple[Vector, Vector]

@@ -12,7 +12,8 @@ from scipy.stats import norm
 from wearsim.report.text_lines import literal
 from wearsim.study.calibrate.calibration import Calibration
 from wearsim.study.calibrate.observations import ReadingResidual
-from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE
+from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE
+from wearsim.study.remaining.chain_readings import ELONGATION, GAUGE
 
 _AXES = {
     DEEPEST: "depth at the deepest point, mm",
@@ -20,6 +21,7 @@ _AXES = {
     OVER_PINS: "less over pins, mm",
     ELONGATION: "elongation of the chain, %",
     PROFILE: "profile behind the new one, mm",
+    GAUGE: "mark of a gauge, %",
 }
 
 
@@ -40,7 +42,8 @@ def _readings(found: Calibration) -> Figure:
         for index, (label, line) in enumerate(_lines(shown)):
             x = [one.arc_length if along else one.hours for one in line]
             _line(panel, x, line, f"C{index}", label)
-        panel.set_title("points: measured, lines: fitted", fontsize=8, loc="left")
+        read = "marks of gauges, go below and no-go above" if name == GAUGE else "measured"
+        panel.set_title(f"points: {read}, lines: fitted", fontsize=8, loc="left")
         panel.set_xlabel("along the new flank, mm" if along else "running time, h")
         panel.set_ylabel(_AXES[name])
         if not along:
@@ -84,8 +87,10 @@ def _line(panel: Axes, x: list[float], line: list[ReadingResidual], colour: str,
 def _residuals(found: Calibration) -> Figure:
     figure = Figure(figsize=(7.5, 7.0), layout="constrained")
     over, against = figure.subplots(2)
+    # Which side of a mark a gauge saw has no residual that is normal by chance.
+    measured = [one for one in found.shown if one.quantity != GAUGE]
     for index, name in enumerate(_AXES):
-        some = [one for one in found.shown if one.quantity == name]
+        some = [one for one in measured if one.quantity == name]
         if some:
             x, y = [one.hours for one in some], [one.residual for one in some]
             over.plot(x, y, "o", color=f"C{index}", markersize=4, label=_AXES[name].split(",")[0])
@@ -94,7 +99,7 @@ def _residuals(found: Calibration) -> Figure:
     over.set_xlabel("running time, h")
     over.set_ylabel("(fit - measured) / error")
     over.legend(frameon=False, fontsize=8)
-    ordered = np.sort([one.residual for one in found.shown])
+    ordered = np.sort([one.residual for one in measured])
     chance = norm.ppf((np.arange(ordered.size) + 0.5) / ordered.size)
     greatest = max(2.0, math.ceil(float(np.abs([*chance, *ordered]).max())))
     against.plot(chance, ordered, "o", color="0.3", markersize=4)

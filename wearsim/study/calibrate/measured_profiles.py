@@ -9,9 +9,16 @@ import numpy as np
 from wearsim.geometry.measured.registration import UNSEEN, Freedom, RegisteredProfile, register
 from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
 from wearsim.geometry.profile_points import Vector
-from wearsim.study.calibrate.observations import GaugeReading, Observation, PredictedState, ReadingResidual
+from wearsim.study.calibrate.observations import (
+    GaugeReading,
+    GoNoGoReading,
+    Observation,
+    PredictedState,
+    ReadingResidual,
+)
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import PROFILE, Reading
+from wearsim.study.remaining.chain_readings import GAUGE
 
 
 def observation(
@@ -23,7 +30,7 @@ def observation(
 ) -> Observation:
     """Return a reading as something that a state can be held against."""
     if reading.quantity != PROFILE:
-        return GaugeReading(reading)
+        return GoNoGoReading(reading) if reading.quantity == GAUGE else GaugeReading(reading)
     assert new is not None
     expected = None if state is None else _recess(reading, state)
     registered = register(new.nominal, reading.x, reading.y, freedom, expected)

@@ -29,7 +29,7 @@ def calibrate(
     document = read_document(source, overrides)
     case = load_case(source, overrides)
     check_steady_coefficient(case, "calibrate")
-    readings = read_readings(measurements)
+    readings = read_readings(measurements, case)
     check_readings(case, readings, options, str(measurements))
     tables = plain_document(document, case).data
     return CaseFit(case, tables, readings, options, str(measurements)).calibration()

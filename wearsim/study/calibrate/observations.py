@@ -8,7 +8,9 @@ import numpy as np
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.calibrate.history_interpolation import WeightedHistory
 from wearsim.study.calibrate.predicted_history import PredictedHistory
-from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, POINT, Reading
+from wearsim.study.calibrate.readings import DEEPEST, POINT, Reading
+from wearsim.study.remaining.chain_readings import ELONGATION, side_of_mark
+from wearsim.study.remaining.posterior import log_probability
 
 
 @dataclass(frozen=True)
@@ -107,5 +109,49 @@ class GaugeReading:
                 predicted,
                 reading.error,
                 (predicted - reading.value) / reading.error,
+            )
+        ]
+
+
+@dataclass(frozen=True, eq=False)
+class GoNoGoReading:
+    """A side of the mark of a gauge: its probability takes the place of a density.
+
+    The square of the residual is -2 ln of it, so that the sum of squares stays -2 ln of the likelihood
+    but for a constant.
+    """
+
+    reading: Reading  # the reading
+
+    @property
+    def freedom(self) -> int:
+        """None: a side of a mark fixes no value."""
+        return 0
+
+    @property
+    def left_out(self) -> int:
+        """No points."""
+        return 0
+
+    def residuals(self, state: PredictedState) -> Vector:
+        """Return the residual, not negative."""
+        reading = self.reading
+        predicted = np.array([state.elongation_rate * reading.hours])
+        side = side_of_mark(reading.row, reading.hours, reading.value, reading.result, reading.error)
+        return np.sqrt(-2.0 * log_probability(side, predicted))
+
+    def shown(self, state: PredictedState) -> list[ReadingResidual]:
+        """Return the mark beside the prediction."""
+        reading, predicted = self.reading, state.elongation_rate * self.reading.hours
+        return [
+            ReadingResidual(
+                reading.row,
+                reading.hours,
+                reading.quantity,
+                reading.arc_length,
+                reading.value,
+                predicted,
+                reading.error,
+                float(self.residuals(state)[0]),
             )
         ]

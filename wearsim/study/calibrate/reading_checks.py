@@ -7,7 +7,8 @@ from wearsim.errors import CaseError, Fault
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
 from wearsim.study.calibrate.predicted_history import PredictedHistory
-from wearsim.study.calibrate.readings import DEEPEST, ELONGATION, OVER_PINS, POINT, PROFILE, Reading
+from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE, Reading
+from wearsim.study.remaining.chain_readings import LENGTH
 from wearsim.study.remaining.model import ambiguous_reading
 
 _NONE, _FAR = 3.0, 5.0
@@ -28,7 +29,7 @@ def check_readings(case: Case, readings: Sequence[Reading], options: Calibration
             faults.append(Fault(text, key, "--fit"))
         elif key not in shape_values(case):
             faults.append(Fault("must be a key of the case", key, "--fit"))
-    if options.shapes and all(reading.quantity == ELONGATION for reading in readings):
+    if options.shapes and all(reading.of_chain for reading in readings):
         faults.append(Fault("needs readings of the teeth", options.shapes[0], "--fit"))
     if faults:
         raise CaseError(faults)
@@ -36,9 +37,9 @@ def check_readings(case: Case, readings: Sequence[Reading], options: Calibration
 
 def _not_known(case: Case, reading: Reading) -> Iterator[str]:
     wrap, name = case.drive.rests, reading.quantity
-    if name in (ELONGATION, OVER_PINS) and not wrap:
+    if (reading.of_chain or name in (LENGTH, OVER_PINS)) and not wrap:
         yield f"{name} needs a chain that wraps the sprocket: set kind = 'wrap'"
-    if name in (ELONGATION, OVER_PINS) and reading.gap_kind is not None:
+    if (reading.of_chain or name == OVER_PINS) and reading.gap_kind is not None:
         yield f"gap_kind must be empty for {name}"
     if name == PROFILE and case.inputs["mechanism"]["kind"] == "prescribed":
         yield "a table of loads has no flank to lay a profile on: give depths"

@@ -1,29 +1,38 @@
 """What was measured in service, checked to the cell."""
 
-import csv
-import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.csv_tables import header_faults, read_columns
+from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
+from wearsim.simulation.wrap_life import wrap_of
+from wearsim.study.remaining.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over
+from wearsim.study.remaining.dated_rows import (
+    HOURS,
+    DatedRows,
+    ServiceTime,
+    number,
+    read_dated_rows,
+    service_time,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
 
 DEEPEST, POINT, OVER_PINS = "max_depth_mm", "depth_mm", "over_pins_mm"
-ELONGATION, PROFILE = "elongation_percent", "profile"
-QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE)
+PROFILE = "profile"
+QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE, LENGTH, GAUGE)
 
-REQUIRED = ("time_hours", "quantity", "error")
-OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file")
+REQUIRED = ("quantity", "error")
+OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file", "links", "result")
 _LEAST_POINTS = 11
 _LEAST_HOURS, _MAX_HOURS = 1e-6, 1e9
 _LEAST_ERROR, _MAX_VALUE = 1e-9, 1e6
@@ -42,58 +51,50 @@ class Reading:
     gap_kind: int | None  # number of the gap that was measured, from 1; None where it is not told
     x: Vector  # points of a profile [mm]; none for other quantities
     y: Vector  # points of a profile [mm]; none for other quantities
+    result: str = ""  # of a gauge: `go` or `no-go`
+
+    @property
+    def of_chain(self) -> bool:
+        """Whether it is of the chain, not of the teeth."""
+        return self.quantity in (ELONGATION, GAUGE)
 
 
-def read_readings(path: Path) -> tuple[Reading, ...]:
-    """Read a table of measurements."""
-    table = _table(path)
-    faults = [*_bad_cells(table, _common(), path)]
-    for quantity, rows in table.groupby("quantity"):
+def read_readings(path: Path, case: Case) -> tuple[Reading, ...]:
+    """Read a table of measurements; [service] of the case turns km and days into hours."""
+    rows = read_dated_rows(path, REQUIRED, OPTIONAL)
+    time = service_time(rows, case.inputs)
+    table = _table(rows)
+    faults = [*_bad_cells(table, _common(time), path)]
+    for quantity, some in table.groupby("quantity"):
         if quantity in QUANTITIES:
-            faults += _bad_cells(rows, _of_quantity(str(quantity)), path)
+            faults += _bad_cells(some, _of_quantity(str(quantity)), path)
     points = {
         row: _points(cells["points_file"], int(str(row)), path, faults) for row, cells in table.iterrows()
     }
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
-    found = [_reading(int(str(row)), cells, points[row]) for row, cells in table.iterrows()]
+    found = [_reading(int(str(row)), cells, time, points[row]) for row, cells in table.iterrows()]
     if not found:
         raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
-    return tuple(found)
+    return tuple(_elongation(one, cells, case) for one, (_, cells) in zip(found, rows.rows, strict=True))
 
 
-def _table(path: Path) -> "pd.DataFrame":
-    """Read the cells as text, each row by its line in the file."""
+def _elongation(reading: Reading, cells: Mapping[str, str], case: Case) -> Reading:
+    """Return a length of a chain as its elongation, every other reading as it is."""
+    if reading.quantity != LENGTH or not case.drive.wear_coefficients:
+        return reading
+    links, pitch = int(number(cells["links"])), wrap_of(case).chain.pitch
+    value, error = elongation_over(reading.value, links, pitch), 100.0 * reading.error / (links * pitch)
+    return replace(reading, quantity=ELONGATION, value=value, error=error)
+
+
+def _table(rows: DatedRows) -> "pd.DataFrame":
+    """Return the cells, each row by its line in the file."""
     import pandas as pd
 
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
-            lines = [
-                (reader.line_num, [cell.strip() for cell in line])
-                for line in reader
-                if line and not line[0].startswith("#")
-            ]
-    except (OSError, ValueError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
-    head, names = lines[0] if lines else (1, [])
-    if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
-        text = "cells must be separated by commas, with points in numbers: export it as such"
-        raise CaseError([Fault(text, "", str(path), head)])
-    faults = [Fault(text, "", str(path), head) for text in header_faults(names, REQUIRED, OPTIONAL)]
-    rows = [(number, cells) for number, cells in lines[1:] if any(cells)]
-    faults += [
-        Fault(f"needs {len(names)} values, has {len(cells)}", "", str(path), number)
-        for number, cells in rows
-        if len(cells) != len(names)
-    ]
-    if faults:
-        raise CaseError(faults)
-    table = pd.DataFrame(
-        [cells for _, cells in rows], columns=names, index=[number for number, _ in rows], dtype=str
-    )
-    return table.reindex(columns=[*REQUIRED, *OPTIONAL], fill_value="")
+    columns = [rows.time, *REQUIRED, *OPTIONAL]
+    cells = [[cells.get(name, "") for name in columns] for _, cells in rows.rows]
+    return pd.DataFrame(cells, columns=columns, index=[line for line, _ in rows.rows], dtype=str)
 
 
 def _bad_cells(table: "pd.DataFrame", schema: Any, path: Path) -> list[Fault]:
@@ -120,16 +121,17 @@ def _columns(rules: Mapping[str, tuple[Holds, str]]) -> Any:
     )
 
 
-def _common() -> Any:
+def _common(time: ServiceTime) -> Any:
     words = ", ".join(QUANTITIES)
+    hours = f"must be a number above 0, from {_LEAST_HOURS:g} to {_MAX_HOURS:g} h"
     return _columns(
         {
-            "time_hours": (
-                lambda text: _LEAST_HOURS <= _number(text) <= _MAX_HOURS,
-                f"must be a number above 0, from {_LEAST_HOURS:g} to {_MAX_HOURS:g} h",
+            time.column: (
+                lambda text: _LEAST_HOURS <= time.hours(text) <= _MAX_HOURS,
+                hours if time.column == HOURS else f"must be {time.must}, later than the part was new",
             ),
             "error": (
-                lambda text: _LEAST_ERROR <= _number(text) <= _MAX_VALUE,
+                lambda text: _LEAST_ERROR <= number(text) <= _MAX_VALUE,
                 "must be a number above 0, the standard deviation of the value, from "
                 f"{_LEAST_ERROR:g} to {_MAX_VALUE:g}",
             ),
@@ -144,43 +146,34 @@ def _common() -> Any:
 
 def _of_quantity(quantity: str) -> Any:
     empty = (lambda text: text == "", f"must be empty for {quantity}")
-    profile = quantity == PROFILE
+    profile, of_chain = quantity == PROFILE, chain_cells(quantity)
+    value = (lambda text: abs(number(text)) <= _MAX_VALUE, f"must be a number of at most {_MAX_VALUE:g}")
     return _columns(
         {
-            "value": empty
-            if profile
-            else (
-                lambda text: abs(_number(text)) <= _MAX_VALUE,
-                f"must be a number of at most {_MAX_VALUE:g}",
-            ),
+            "value": of_chain["value"] if profile or quantity in (LENGTH, GAUGE) else value,
             "points_file": (bool, "must name a file with x_mm and y_mm") if profile else empty,
-            "arc_length_mm": (lambda text: _number(text) >= 0.0, "must be a number of at least 0")
+            "arc_length_mm": (lambda text: number(text) >= 0.0, "must be a number of at least 0")
             if quantity == POINT
             else empty,
+            "links": of_chain["links"],
+            "result": of_chain["result"],
         }
     )
 
 
-def _number(text: str) -> float:
-    """Read a number; nan for anything else, also what only Python takes for one."""
-    try:
-        return float(text) if "_" not in text else math.nan
-    except ValueError:
-        return math.nan
-
-
-def _reading(row: int, cells: Any, points: tuple[Vector, Vector]) -> Reading:
+def _reading(row: int, cells: Any, time: ServiceTime, points: tuple[Vector, Vector]) -> Reading:
     x, y = points
     return Reading(
         row=row,
-        hours=float(cells["time_hours"]),
+        hours=time.hours(cells[time.column]),
         quantity=cells["quantity"],
-        value=_number(cells["value"]),
+        value=number(cells["value"]),
         error=float(cells["error"]),
-        arc_length=_number(cells["arc_length_mm"]),
+        arc_length=number(cells["arc_length_mm"]),
         gap_kind=int(cells["gap_kind"]) if cells["gap_kind"] else None,
         x=x,
         y=y,
+        result=cells["result"],
     )
 
 

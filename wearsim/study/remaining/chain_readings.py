@@ -1,0 +1,241 @@
+"""Dated readings of a chain as people have them: lengths, percent, gauges that fall in or not."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wearsim.errors import CaseError, Fault
+from wearsim.study.remaining.dated_rows import (
+    DATE,
+    DatedRows,
+    ServiceTime,
+    number,
+    read_dated_rows,
+    service_time,
+)
+
+LENGTH, ELONGATION, GAUGE = "chain_length_mm", "elongation_percent", "gauge_percent"
+NEW, RELUBRICATION = "new", "relubrication"
+READINGS = (LENGTH, ELONGATION, GAUGE)
+_WORDS = (NEW, *READINGS, RELUBRICATION)
+GO, NO_GO = "go", "no-go"
+
+_OF_TEETH = ("max_depth_mm", "depth_mm", "over_pins_mm", "profile")
+
+_MOST_PERCENT = 10.0
+_MOST_HOURS = 1e9
+_BELOW_NEW = 3.0
+"""Errors by which a reading may lie below 0."""
+
+Holds = Callable[[str], bool]
+Rules = Mapping[str, tuple[Holds, str]]
+
+
+@dataclass(frozen=True)
+class ChainReading:
+    """What a row says about the elongation of the chain."""
+
+    line: int  # in its file
+    hours: float  # running time since the chain was new [h]
+    quantity: str  # one of `READINGS`
+    # low, high: ends between which the gauge saw the elongation [%]; alike where it was measured
+    low: float
+    high: float
+    error: float  # standard deviation [%]
+
+    @property
+    def measured(self) -> bool:
+        """Whether there is a value, not only a side of a mark."""
+        return self.low == self.high
+
+    @property
+    def mark(self) -> float:
+        """The value, or the mark of the gauge [%]."""
+        return self.low if math.isfinite(self.low) else self.high
+
+
+@dataclass(frozen=True)
+class ChainLog:
+    """What was read and done since a chain was new."""
+
+    file: str
+    time: ServiceTime
+    readings: tuple[ChainReading, ...]
+    relubricated: tuple[float, ...]  # running time [h]
+    today: float  # running time of the last row [h]
+
+
+def elongation_over(length: float, links: int, pitch: float) -> float:
+    """Return the elongation of a chain from its length, pin to pin over an even number of links [%].
+
+    Examples
+    --------
+    100 links of 12.7 mm are 1270 mm long when new:
+
+    >>> round(elongation_over(1276.35, 100, 12.7), 9)
+    0.5
+    """
+    return 100.0 * (length / (links * pitch) - 1.0)
+
+
+def chain_cells(quantity: str) -> Rules:
+    """Return what the cells of a quantity must be, by their columns."""
+    empty = (lambda text: text == "", f"must be empty for {quantity}")
+    value = {
+        LENGTH: (lambda text: 0.0 < number(text) <= 1e6, "must be a length in mm, above 0 and at most 1e6"),
+        GAUGE: (
+            lambda text: 0.0 < number(text) <= _MOST_PERCENT,
+            f"must be the mark of the gauge, above 0 and at most {_MOST_PERCENT:g} %",
+        ),
+        ELONGATION: (
+            lambda text: abs(number(text)) <= _MOST_PERCENT,
+            f"must be a number of at most {_MOST_PERCENT:g}",
+        ),
+    }
+    links = (
+        lambda text: 0.0 < number(text) <= 1e5 and number(text) % 2.0 == 0.0,
+        "must be an even number of links from pin to pin: inner and outer links grow unlike",
+    )
+    result = (
+        lambda text: text in (GO, NO_GO),
+        f"must be {GO} (the gauge does not fall in) or {NO_GO} (it falls in)",
+    )
+    return {
+        "value": value.get(quantity, empty),
+        "links": links if quantity == LENGTH else empty,
+        "result": result if quantity == GAUGE else empty,
+    }
+
+
+def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_error: float) -> ChainLog:
+    """Read a table of readings and relubrications of one chain.
+
+    Parameters
+    ----------
+    path : Path
+        CSV file.
+    inputs : mapping
+        Of the case, whose [service] turns km and days into hours.
+    pitch : float
+        Of the new chain [mm].
+    usual_error : float
+        Standard deviation of a reading that states none [%].
+
+    Raises
+    ------
+    CaseError
+        What is wrong with the table, every cell of it in one pass.
+    """
+    table = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result"))
+    time = service_time(table, inputs)
+    faults = [*_bad_cells(table, time), *_backwards(table, time)]
+    if faults:
+        raise CaseError(faults)
+    rows = [(line, time.hours(cells[table.time]), cells) for line, cells in table.rows]
+    readings = tuple(
+        _reading(line, hours, cells, pitch, usual_error)
+        for line, hours, cells in rows
+        if cells["quantity"] in READINGS
+    )
+    if not readings:
+        text = f"must hold at least one reading of the chain: {', '.join(READINGS)}"
+        raise CaseError([Fault(text, "quantity", table.file)])
+    log = ChainLog(
+        file=table.file,
+        time=time,
+        readings=readings,
+        relubricated=tuple(hours for _, hours, cells in rows if cells["quantity"] == RELUBRICATION),
+        today=rows[-1][1],
+    )
+    _check_times(log)
+    return log
+
+
+def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
+    """Give every cell that cannot be."""
+    rules: Rules = {
+        table.time: (lambda text: 0.0 <= time.hours(text) <= _MOST_HOURS, f"must be {time.must}"),
+        "quantity": (lambda text: text in _WORDS, f"must be one of {', '.join(_WORDS)}"),
+        "error": (
+            lambda text: text == "" or 0.0 < number(text) <= 1e6,
+            "must be a number above 0, the standard deviation of the value in its unit, or empty",
+        ),
+    }
+    for line, cells in table.rows:
+        more = chain_cells(cells["quantity"]) if cells["quantity"] in _WORDS else {}
+        for name, (holds, must) in {**rules, **more}.items():
+            text = cells.get(name, "")
+            if not holds(text):
+                yield Fault(f"{must} (got {text!r}){_hint(name, text, time)}", name, table.file, line)
+
+
+def _hint(name: str, text: str, time: ServiceTime) -> str:
+    if name == DATE and time.start is not None and time.hours(text) < 0.0:
+        return f", not before service.start_date = {time.start}, when the chain was new"
+    if name == "quantity" and text in _OF_TEETH:
+        return ": wearsim calibrate takes readings of the teeth"
+    return ""
+
+
+def _backwards(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
+    """Give every row that comes before the one above it, and a chain that is new twice."""
+    last, above = 0.0, ""
+    for number_of_row, (line, cells) in enumerate(table.rows):
+        text = cells[table.time]
+        hours = time.hours(text)
+        if hours < last:
+            message = f"must not go backwards: {text} comes after {above}; sort the rows, one chain a file"
+            yield Fault(message, table.time, table.file, line)
+        if cells["quantity"] == NEW and (number_of_row or hours > 0.0):
+            message = f"{NEW} must be the first row, at time 0: begin a file for each chain"
+            yield Fault(message, "quantity", table.file, line)
+        last, above = (hours, text) if hours >= last else (last, above)
+
+
+def _reading(
+    line: int, hours: float, cells: Mapping[str, str], pitch: float, usual_error: float
+) -> ChainReading:
+    quantity, value = cells["quantity"], number(cells["value"])
+    error = number(cells.get("error", ""))
+    low = high = value
+    if quantity == LENGTH:
+        links = int(number(cells["links"]))
+        low = high = elongation_over(value, links, pitch)
+        error *= 100.0 / (links * pitch)
+    error = usual_error if math.isnan(error) else error
+    if quantity == GAUGE:
+        return side_of_mark(line, hours, value, cells["result"], error)
+    return ChainReading(line, hours, quantity, low, high, error)
+
+
+def side_of_mark(line: int, hours: float, mark: float, result: str, error: float) -> ChainReading:
+    """Return what a gauge says that fell in (no-go) or did not (go).
+
+    Examples
+    --------
+    >>> side_of_mark(2, 100.0, 0.75, "no-go", 0.05).high
+    inf
+    """
+    low, high = (-math.inf, mark) if result == GO else (mark, math.inf)
+    return ChainReading(line, hours, GAUGE, low, high, error)
+
+
+def _check_times(log: ChainLog) -> None:
+    """Raise for readings of a new chain, and for those of a chain shorter than new."""
+    faults = []
+    for one in log.readings:
+        if not one.hours > 0.0:
+            text = f"must be later than 0, when the chain was new: give that time in a first row {NEW!r}" + (
+                " or as service.start_date" if log.time.column == DATE else ""
+            )
+            faults.append(Fault(text, log.time.column, log.file, one.line))
+        if one.measured and one.low < -_BELOW_NEW * one.error:
+            text = (
+                f"must not be more than {_BELOW_NEW:g} errors shorter than new, is {one.low:.3g} % with an "
+                f"error of {one.error:.2g} %: check value, links and chain.pitch_mm"
+            )
+            faults.append(Fault(text, "value", log.file, one.line))
+    if faults:
+        raise CaseError(faults)

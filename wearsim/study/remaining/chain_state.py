@@ -1,0 +1,208 @@
+"""The present state of a chain, and what is left of its life, from all that was read."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+import numpy as np
+
+from wearsim.case.model import Case
+from wearsim.errors import CaseError, Fault
+from wearsim.geometry.profile_points import Vector
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
+from wearsim.study.remaining.dated_rows import day_after
+from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
+from wearsim.study.remaining.relubrications import as_before, as_logged, check_relubrications, mean_interval
+from wearsim.wear.lubricant_clock import WearClock
+
+_BEYOND, _POINTS = 1.1, 400
+"""Part of the latest end of the life up to which the elongation is told, and at how many times."""
+
+
+@dataclass(frozen=True)
+class Quantiles:
+    """A quantity that is told with its intervals."""
+
+    name: str  # column or key
+    values: tuple[float | str, ...]  # at `LEVELS`; days as text, empty where no calendar goes so far
+
+    @property
+    def middle(self) -> float | str:
+        """The median."""
+        return self.values[len(LEVELS) // 2]
+
+
+@dataclass(frozen=True, eq=False)
+class ChainState:
+    """What readings say about a chain."""
+
+    case: Case
+    log: ChainLog
+    limit: float  # elongation at which its life ends [%]
+    expected: tuple[float, ...]  # elongation at each reading with the case's own coefficient [%]
+    course_hours: Vector  # from new to beyond the latest end of the life [h]
+    course: Vector  # elongation then with the case's own coefficient [%]
+    posterior: FactorPosterior  # of the coefficient over the case's
+    quantiles: tuple[Quantiles, ...]  # of everything that is told
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    def of(self, name: str) -> Quantiles:
+        """Return the quantiles of a quantity."""
+        return next(one for one in self.quantiles if one.name == name)
+
+
+def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState:
+    """Return the state of a chain from a table of dated readings.
+
+    The elongation is the case's own rate times the running time times one factor on the coefficient.
+    Its distribution is the band of the case, as 90 % of a log-normal one, times the likelihood of
+    all readings (Bayes' theorem); life is inverse to the factor.
+
+    Parameters
+    ----------
+    case : Case
+        With a chain that wraps its sprocket.
+    path : Path
+        CSV file of readings.
+    usual_error : float
+        Standard deviation of a reading that states none [%].
+
+    Raises
+    ------
+    CaseError
+        What is wrong with case or readings, or a reading beyond the limit.
+    """
+    if not case.drive.wear_coefficients:
+        text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
+        raise CaseError([Fault(text, "mechanism.kind", case.name)])
+    drive = wrap_of(case)
+    limit = 100.0 * drive.joint.elongation_limit
+    log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
+    _check_within(log, limit)
+    check_relubrications(case, log)
+    return _state(case, log, limit)
+
+
+def _state(case: Case, log: ChainLog, limit: float) -> ChainState:
+    """Return what a log says: the clock of the wear as it ran, then as it goes on."""
+    contact, per_hour = wrap_of(case).contact(case), case.cycles_per_hour
+    clock = _clock(as_logged(case, log), contact)
+    rate = limit / contact.cycles_per_chain
+    expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
+    prior = FactorPrior(case.wear.low, case.wear.high)
+    posterior = factor_posterior(log.readings, expected, prior)
+    factors = np.array(posterior.quantiles)
+    steady = contact.cycles_per_chain / factors[::-1]
+    # As no state of the lubricant wears less than fresh, no life has more hours than these.
+    going_on = _clock(as_before(case, log, float(steady[-1]) / per_hour), contact)
+    lives = tuple((going_on.running_cycles(steady) / per_hour).tolist())
+    now = rate * clock.steady_cycles(log.today * per_hour) * factors
+    hours = np.linspace(0.0, _BEYOND * max(lives[-1], log.today), _POINTS)
+    return ChainState(
+        case=case,
+        log=log,
+        limit=limit,
+        expected=expected,
+        course_hours=hours,
+        course=rate * np.array([going_on.steady_cycles(float(one) * per_hour) for one in hours]),
+        posterior=posterior,
+        quantiles=(
+            *_left(case, log, lives),
+            Quantiles("elongation_percent", tuple(now.tolist())),
+            Quantiles("life_hours", lives),
+            Quantiles("coefficient_factor", posterior.quantiles),
+        ),
+        assumptions=(*_assumptions(log, prior), *case.assumptions),
+        warnings=(*_warnings(log, posterior, prior, lives), *case.warnings),
+    )
+
+
+def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
+    """Give what is left from the last row on, in the measures that the case knows."""
+    left = tuple(max(one - log.today, 0.0) for one in lives)
+    service = case.inputs.get("service") or {}
+    yield Quantiles("remaining_hours", left)
+    if "km_per_hour" in service:
+        yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
+    start = date.fromisoformat(service["start_date"]) if "start_date" in service else log.time.start
+    if start is not None:
+        ends = [log.today + one for one in left]
+        each = service["hours_per_day"]
+        yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
+
+
+def _check_within(log: ChainLog, limit: float) -> None:
+    """Raise where a reading says that the limit is reached."""
+    faults = []
+    for one in log.readings:
+        beyond = one.low >= limit if not one.measured else one.low > limit
+        if beyond:
+            what = f"{NO_GO} at {one.low:g} %" if not one.measured else f"{one.low:.4g} %"
+            text = (
+                f"{what} says that the limit of stop.elongation_percent = {limit:g} is reached and no hours "
+                "are left: replace the chain, or raise the limit"
+            )
+            faults.append(Fault(text, "value", log.file, one.line))
+    if faults:
+        raise CaseError(faults)
+
+
+def _clock(case: Case, contact: WrapContact) -> WearClock:
+    """Return the clock of the wear of a case."""
+    *_, clock = wrap_problem(case, contact)
+    return clock
+
+
+def _assumptions(log: ChainLog, prior: FactorPrior) -> Iterator[str]:
+    if log.relubricated:
+        yield (
+            f"the load stays as it was, and the chain is relubricated every {mean_interval(log):.4g} h as "
+            "before, in place of what [lubrication] says"
+        )
+    else:
+        yield "load and lubrication stay as they were"
+    yield (
+        f"before any reading it is {prior.low:.3g} to {prior.high:.3g} times the case's (90 % of a "
+        "log-normal distribution, the band of the case)"
+    )
+    yield "errors of the readings are normal, independent and as stated; intervals hold no error of the model"
+    yield "of a gauge only the side of its mark is known"
+
+
+def _warnings(
+    log: ChainLog, posterior: FactorPosterior, prior: FactorPrior, lives: tuple[float, ...]
+) -> Iterator[str]:
+    factor = posterior.quantiles[len(LEVELS) // 2]
+    if not prior.low <= factor <= prior.high:
+        yield (
+            f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its band of "
+            f"{prior.low:.3g} to {prior.high:.3g}: check the readings and the load"
+        )
+    if posterior.scale > 1.0:
+        yield (
+            f"the readings are {posterior.scale:.2g} times as far from one line as their errors say: check "
+            "them, the load and the lubrication; their errors are taken as so much larger"
+        )
+    yield from _contradictions(log)
+    if lives[0] <= log.today:
+        yield "the limit may be reached already: measure again, with a smaller error"
+
+
+def _contradictions(log: ChainLog) -> Iterator[str]:
+    """Give gauges that fell in and later did not, at a mark that is no smaller."""
+    fell: ChainReading | None = None
+    for one in log.readings:
+        if one.measured:
+            continue
+        if math.isinf(one.high) and (fell is None or one.low >= fell.low):
+            fell = one
+        elif fell is not None and one.high <= fell.low:
+            yield (
+                f"line {one.line}: go at {one.high:g} % contradicts no-go at {fell.low:g} % in line "
+                f"{fell.line}: chains do not become shorter"
+            )
