@@ -114,6 +114,7 @@ LUBRICATED = {
     "completeness": 0.9,
     "contamination_factor": 1.5,
 }
+QUARTZ = {"abrasive_hardness_HV": 1100.0, "surface_hardness_HV": 700.0}
 PHASES = [
     {"hours": 20.0, "contaminations": 7, "contamination_factor": 3.0, "relubrications": 2},
     {"km": 200.0, "relubrications": 3},
@@ -163,6 +164,18 @@ BASES = {
         STRAND, chain={"pitch_mm": 25.4, "roller_diameter_mm": 15.88, "inner_width_mm": 17.02}
     ),
     "lubricated": edited(STRAND, wear=None, stop=None, lubrication=LUBRICATED, service={"km_per_hour": 10}),
+    "abraded": edited(STRAND, wear=None, stop=None, lubrication={**LUBRICATED, **QUARTZ}),
+    "abraded programme": edited(
+        STRAND,
+        wear=None,
+        stop=None,
+        service={"km_per_hour": 10},
+        lubrication={
+            **AGEING,
+            "surface_hardness_HV": 700.0,
+            "phase": [{**PHASES[0], "abrasive_hardness_HV": 1100.0}, PHASES[1]],
+        },
+    ),
     "by km": edited(
         STRAND,
         wear=None,
@@ -498,6 +511,15 @@ CHANGES |= {
     "lubrication.completeness": [("lubricated", 0.5), ("lubricated", 1.1, "lubrication.completeness")],
     "lubrication.contamination_factor": [("lubricated", 2.0)],
     "lubrication.ageing_factor": [("lubricated", 3.0)],
+    "lubrication.abrasive_hardness_HV": [
+        ("abraded", 500.0),
+        ("lubricated", 500.0, "lubrication.abrasive_hardness_HV"),
+    ],
+    "lubrication.surface_hardness_HV": [
+        ("abraded", 1000.0),
+        ("lubricated", 500.0, "lubrication.surface_hardness_HV"),
+    ],
+    "lubrication.phase.abrasive_hardness_HV": [("abraded programme", 500.0)],
     "lubrication.contamination_removed": [("programme", 0.2)],
     "lubrication.phase.hours": [("programme", 30.0), ("programme", -1.0, "lubrication.phase.1.hours")],
     "lubrication.phase.km": [("km programme", 150.0), ("programme", 20.0, "lubrication.phase.1.hours")],

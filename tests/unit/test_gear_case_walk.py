@@ -130,6 +130,9 @@ BASES = {
     "rigid": edited(("mechanism.load_sharing", "rigid")),
     "running in": edited(("wear.running_in_factor", 3.0), ("wear.running_in_distance_mm", 3000.0)),
     "lubricated": edited(lubrication=LUBRICATED),
+    "abraded": edited(
+        lubrication={**LUBRICATED, "abrasive_hardness_HV": 1100.0, "surface_hardness_HV": 700.0}
+    ),
     "by way": edited(lubrication={**WAYS, "dry_factor": 20.0}),
     "programme": edited(lubrication={**AGEING, "phase": PHASES}),
     "at times": edited(lubrication={**AGEING, "at_hours": [4.5, 5.0]}),
@@ -283,6 +286,15 @@ CHANGES |= {
         "completeness": [("lubricated", 0.5)],
         "contamination_factor": [("lubricated", 2.0)],
         "ageing_factor": [("lubricated", 3.0)],
+        "abrasive_hardness_HV": [("abraded", 500.0)],
+        "surface_hardness_HV": [("abraded", 1000.0)],
+        "phase.abrasive_hardness_HV": [
+            (
+                "programme",
+                [{**PHASES[0], "abrasive_hardness_HV": 9.0}],
+                "lubrication.phase.1.abrasive_hardness_HV",
+            )
+        ],
         "contamination_removed": [("programme", 0.2)],
         "phase.hours": [("programme", [{"hours": 7.0}])],
         "phase.contamination_factor": [("programme", [{**PHASES[0], "contamination_factor": 4.0}])],

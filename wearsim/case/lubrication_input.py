@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
+from wearsim.contact.abrasion import abrasion_share
 from wearsim.input.case_record import CaseRecord
 from wearsim.input.schema.lubrication_tables import (
     FADES,
@@ -290,13 +291,29 @@ class _Reader:
                     self.case.take(f"{place}.{key}", value, why)
                 else:
                     self.case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
-        return Dirt((given["contamination_factor"] or row.factor) - 1.0, given["ageing_factor"] or row.ageing)
+        excess = (given["contamination_factor"] or row.factor) - 1.0
+        ageing = given["ageing_factor"] or row.ageing
+        return Dirt(self._abrasion(table, place) * excess, ageing)
+
+    def _abrasion(self, table: LubricationTable | LubricationPhase, place: str) -> float:
+        """Return which part of what dirt adds its hardness leaves: all or none."""
+        hardness, surface = table.abrasive_hardness_HV, self.table.surface_hardness_HV
+        if hardness is None or surface is None:
+            return 1.0
+        share = abrasion_share(hardness, surface)
+        scratches = "scratches" if share else "does not scratch"
+        self.case.assumptions.append(
+            f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV, as it must be 1.2 "
+            "times as hard (Hutchings); teeth, pins and bushes have one hardness"
+        )
+        return share
 
     def _phase(self, number: int, phase: LubricationPhase, dirt: Dirt) -> PhaseInput:
         key = "km" if phase.hours is None else "hours"
         place = f"phase.{number}"
         hours = self._hours(f"{place}.{key}", phase.hours or phase.km or 0.0)
-        if any((phase.environment, phase.contamination_factor, phase.ageing_factor)):
+        own = (phase.environment, phase.contamination_factor, phase.ageing_factor, phase.abrasive_hardness_HV)
+        if any(own):
             dirt = self._dirt(phase, f"lubrication.{place}")
         return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
 

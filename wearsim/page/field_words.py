@@ -3,6 +3,7 @@
 from wearsim.report.key_words import key_words
 
 _LABELS = {
+    "abrasive_hardness_HV": "Hardness of the dirt",
     "ageing_factor": "Ageing of the lubricant in dirt, times",
     "applies_to": "Factor acts on",
     "at_hours": "Relubricated at these hours",

@@ -252,9 +252,19 @@ class LubricantClock:
         return state._replace(age=age, dirt=max(dirt, held, event.dirtied), held=held, ageing=ageing)
 
     def steady_cycles(self, cycles: float) -> float:
-        """Return M, the cycles of well lubricated contacts that wear as much as ``cycles`` run.
+        """Return the cycles of well lubricated contacts that wear as much.
 
         Equation physics.md (O2).
+
+        Parameters
+        ----------
+        cycles : float
+            N, cycles run.
+
+        Returns
+        -------
+        float
+            M.
         """
         rounds, rest, stretch = self._place(cycles)
         worn = stretch.worn + self.law.worn(
@@ -271,9 +281,19 @@ class LubricantClock:
         return rounds, rest, self._stretches[at]
 
     def running_cycles(self, constant: Vector) -> Vector:
-        """Return the cycles run after which as much has worn as in so many of well lubricated contacts.
+        """Return the cycles run after which as much has worn.
 
         Equation physics.md (O2), solved for N in the stretch in which it lies.
+
+        Parameters
+        ----------
+        constant : numpy.ndarray
+            M, cycles of well lubricated contacts.
+
+        Returns
+        -------
+        numpy.ndarray
+            N.
         """
         steady = np.asarray(constant, dtype=float)
         return np.array([self._run_for(float(worn)) for worn in steady.flat]).reshape(steady.shape)

@@ -30,6 +30,7 @@ SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
 """Keys of which at most one says when contacts are relubricated."""
 
 Part = Annotated[Number, Field(ge=0.0, le=1.0)]
+Hardness = Annotated[PositiveNumber, Field(le=10_000.0)]
 Factor = Annotated[PositiveNumber, Field(ge=1.0, le=1e6)]
 
 
@@ -53,6 +54,7 @@ class _Surroundings(Table):
     environment: str | None = None
     contamination_factor: Factor | None = None
     ageing_factor: Factor | None = None
+    abrasive_hardness_HV: Hardness | None = None
 
     @field_validator("environment")
     @classmethod
@@ -142,6 +144,22 @@ class LubricationTable(_Lubricant, _Surroundings):
     at_hours: Times | None = None
     at_km: Times | None = None
     when_rate_exceeds: Annotated[PositiveNumber, Field(gt=1.0)] | None = None
+    surface_hardness_HV: Hardness | None = None
     labour_cost_per_hour: Annotated[Number, Field(ge=0.0)] | None = None
     phase: list[LubricationPhase] = Field(default_factory=list)
     option: list[LubricantOption] = Field(default_factory=list)
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = super().conflicts()
+        phases = ((f"phase.{i}.", phase) for i, phase in enumerate(self.phase, start=1))
+        given = [
+            f"{place}abrasive_hardness_HV"
+            for place, table in (("", self), *phases)
+            if table.abrasive_hardness_HV is not None
+        ]
+        if given and self.surface_hardness_HV is None:
+            found.append((given[0], "abrasion depends on its ratio to surface_hardness_HV: give that too"))
+        if self.surface_hardness_HV is not None and not given:
+            found.append(("surface_hardness_HV", "needs abrasive_hardness_HV too: give it, or remove this"))
+        return found

@@ -17,7 +17,7 @@ from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.study.remaining.relubrications import as_before, as_logged, check_relubrications, mean_interval
-from wearsim.wear.lubricant_clock import WearClock
+from wearsim.wear.wear_clock import WearClock
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""
