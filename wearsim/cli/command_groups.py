@@ -26,6 +26,7 @@ from wearsim.handbook.strength.command import strength
 from wearsim.handbook.synthesise.command import synthesise
 from wearsim.handbook.wave_drive.command import wave_drive
 from wearsim.study.calibrate.command import calibrate
+from wearsim.study.judge.command import judge
 from wearsim.study.maintain.command import maintain
 from wearsim.study.optimise.command import optimise
 from wearsim.study.remaining.command import remaining
@@ -52,6 +53,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         maintain: "wearsim maintain packaging-conveyor",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
         calibrate: "wearsim calibrate drive.toml readings.csv",
+        judge: "wearsim judge readings.csv --out reports/laws",
     },
     "Studies": {
         sweep: "wearsim sweep teeth-and-tension",

@@ -1,0 +1,115 @@
+"""How readings scatter about a law, and what a law says of each one before it is read.
+
+The logarithm of a reading is that of the law, plus the state of its series, plus an error of its
+own. The state is normal with standard deviation `sd_series` where the exposure is the smallest of
+all; it stays ("factor"), or wanders with variance `sd_walk`^2 per unit of ln(exposure) ("walk").
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import log_ndtr, ndtr
+
+from wearsim.geometry.profile_points import Vector
+from wearsim.study.judge.wear_series import WearSeries
+
+_LN_2PI = float(np.log(2.0 * np.pi))
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """Standard deviations of ln(wear), each of shape (k, 1)."""
+
+    series: Vector  # of the factor of a series
+    walk: Vector  # of its wandering while the exposure grows by a factor e
+    reading: Vector  # of one reading, besides the error of the gauge
+
+
+@dataclass(frozen=True, eq=False)
+class Forecasts:
+    """Normal distributions of ln(wear) of every reading, shape (k, n), and the likelihood of the fitted ones."""
+
+    mean: Vector  # given the earlier fitted readings of the series
+    variance: Vector
+    log_likelihood: Vector  # shape (k,)
+
+
+def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
+    """Return what k sets of parameters say of each reading, given the fitted ones before it in its series.
+
+    A scalar Kalman filter along each series: exact, but after a censored reading the state is taken
+    as the normal distribution of the same mean and variance.
+
+    Parameters
+    ----------
+    ln_law : numpy.ndarray
+        Logarithm of the law, shape (k, n).
+    scatter : Scatter
+        About the law.
+    data : WearSeries
+        The readings.
+
+    Returns
+    -------
+    Forecasts
+        Of all readings.
+    """
+    ln_wear, ln_exposure = np.log(data.wear), np.log(data.exposure)
+    own = scatter.reading**2 + (data.error * np.exp(-ln_law)) ** 2
+    mean, variance = np.empty_like(ln_law), np.empty_like(ln_law)
+    count = len(data.names), len(ln_law)
+    state, spread = np.zeros(count[::-1]), np.broadcast_to(scatter.series**2, count[::-1]).copy()
+    at = np.full(count[0], ln_exposure.min())
+    total = np.zeros(count[1])
+    for slot in data.slots.T:
+        alive = np.flatnonzero(slot >= 0)
+        rows = slot[alive]
+        z, p = state[:, alive], spread[:, alive] + scatter.walk**2 * (ln_exposure[rows] - at[alive])
+        at[alive] = ln_exposure[rows]
+        mean[:, rows], variance[:, rows] = ln_law[:, rows] + z, p + own[:, rows]
+        off, size = ln_wear[rows] - mean[:, rows], variance[:, rows]
+        sign, used = data.censored[rows], data.fitted[rows]
+        density, moved, left = _read(off, size, sign)
+        total += np.where(used, density, 0.0).sum(axis=1)
+        gain = np.where(used, p / size, 0.0)
+        state[:, alive] = z + gain * moved
+        spread[:, alive] = p - gain * p + gain**2 * left
+    return Forecasts(mean, variance, total)
+
+
+def _read(off: Vector, size: Vector, sign: Vector) -> tuple[Vector, Vector, Vector]:
+    """Return log likelihood of readings, and mean and variance of ln(wear) about its forecast after them."""
+    exact = -0.5 * (_LN_2PI + np.log(size) + off**2 / size)
+    if not sign.any():
+        return exact, off, np.zeros_like(off)
+    root = np.sqrt(size)
+    t = np.clip(-sign * off / root, -30.0, 30.0)
+    beyond = log_ndtr(t)
+    ratio = np.exp(-0.5 * (_LN_2PI + t**2) - beyond)
+    cut = sign != 0
+    moved = np.where(cut, sign * root * ratio, off)
+    left = np.where(cut, size * (1.0 - ratio * (t + ratio)), 0.0)
+    return np.where(cut, beyond, exact), moved, np.maximum(left, 0.0)
+
+
+def log_scores(found: Forecasts, data: WearSeries) -> Vector:
+    """Return the log of the mean density of ln(wear), or probability where censored, shape (n,)."""
+    density, _, _ = _read(np.log(data.wear) - found.mean, found.variance, data.censored)
+    most = density.max(axis=0)
+    return np.asarray(most + np.log(np.exp(density - most).mean(axis=0)))
+
+
+def probabilities(found: Forecasts, ln_wear: Vector) -> Vector:
+    """Return how likely less wear than that is, shape (n,)."""
+    return np.asarray(ndtr((ln_wear - found.mean) / np.sqrt(found.variance)).mean(axis=0))
+
+
+def quantiles(found: Forecasts, share: float) -> Vector:
+    """Return the wear of which a share is below, shape (n,), by bisection."""
+    half = 10.0 * np.sqrt(found.variance)
+    low, high = (found.mean - half).min(axis=0), (found.mean + half).max(axis=0)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        below = probabilities(found, middle) < share
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.exp(0.5 * (low + high))

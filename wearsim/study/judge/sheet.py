@@ -1,0 +1,142 @@
+"""What is shown of a judgement: text, JSON and tables."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from wearsim._version import ANSWER_HEAD
+from wearsim.command.study_files import plain
+from wearsim.files import new_folder
+from wearsim.report.text_lines import row
+from wearsim.study.judge.model import JudgedLaw, Judgement
+
+ASSUMPTIONS = (
+    "wear is log-normal about a law: a factor that stays with the series or wanders (walk), and one for "
+    "each reading",
+    "constants are fitted by sequential Monte Carlo, and their uncertainty is in the bands",
+    "before any reading each constant is expected within the range of docs/judge.md (95 %)",
+)
+
+
+def judgement_text(found: Judgement) -> str:
+    """Return the answer as ``wearsim judge`` prints it."""
+    data, best = found.data, found.best
+    held = int(data.held_out.sum())
+    rows = [
+        ("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
+        ("Best law", f"{best.law}: {best.formula}; scatter: {best.scatter}"),
+        ("Not told apart", ", ".join(found.ties[1:]) or "none"),
+        ("Constants", "; ".join(_constant(one) for one in best.constants)),
+        ("Verdict", verdict(found)),
+    ]
+    return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
+
+
+def verdict(found: Judgement) -> str:
+    """Return in words whether the best law is good enough."""
+    if found.objections:
+        return f"no law is good enough: with {found.best.law} " + "; ".join(found.objections)
+    return f"{found.best.law} is good enough: its bands hold what they should"
+
+
+def _constant(one: Any) -> str:
+    return f"{one.name} = {one.middle:.3g} ({one.low:.3g} to {one.high:.3g})"
+
+
+_HEAD = ("law", "scatter", "score", "behind", "+-", "in 50 %", "in 90 %", "error")
+
+
+def _table(found: Judgement) -> list[str]:
+    cells = [_HEAD, *(_cells(one) for one in found.laws)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    lines = []
+    for line in cells:
+        words = [f"{cell:<{width}}" for cell, width in zip(line[:2], widths[:2], strict=True)]
+        numbers = [f"{cell:>{width}}" for cell, width in zip(line[2:], widths[2:], strict=True)]
+        lines.append("  " + "  ".join([*words, *numbers]))
+    return lines
+
+
+def _cells(one: JudgedLaw) -> tuple[str, ...]:
+    error = "" if math.isnan(one.behind_error) else f"{one.behind_error:.2f}"
+    shares = (_percent(one.coverage_50), _percent(one.coverage_90), _percent(one.median_error))
+    return one.law, one.scatter, f"{one.score:.2f}", f"{one.behind:.2f}", error, *shares
+
+
+def _percent(share: float) -> str:
+    return "" if math.isnan(share) else f"{100 * share:.0f} %"
+
+
+def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
+    """Return the answer as ``wearsim judge --json`` prints it."""
+    data = found.data
+    return {
+        **ANSWER_HEAD,
+        "data": source.name,
+        "readings": data.wear.size,
+        "series_count": len(data.names),
+        "held_out_readings": int(data.held_out.sum()),
+        "wear_unit": data.wear_unit,
+        "exposure_unit": data.exposure_unit,
+        "best": found.best.law,
+        "ties": list(found.ties),
+        "good_enough": not found.objections,
+        "objections": list(found.objections),
+        "laws": [_law(one) for one in found.laws],
+        "assumptions": list(ASSUMPTIONS),
+    }
+
+
+def _law(one: JudgedLaw) -> dict[str, Any]:
+    numbers = {name: plain(getattr(one, name)) for name in _NUMBERS}
+    constants = [vars(constant) for constant in one.constants]
+    return {"law": one.law, "formula": one.formula, "scatter": one.scatter, **numbers, "constants": constants}
+
+
+_NUMBERS = ("score", "behind", "behind_error", "coverage_50", "coverage_90", "median_error")
+
+
+def laws_table(found: Judgement) -> pd.DataFrame:
+    """Return a row for each law and kind of scatter."""
+    return pd.DataFrame(
+        {"law": one.law, "scatter": one.scatter, **{name: getattr(one, name) for name in _NUMBERS}, "tied": one.tied}
+        for one in found.laws
+    )
+
+
+def constants_table(found: Judgement) -> pd.DataFrame:
+    """Return the constants of all laws."""
+    return pd.DataFrame(
+        {"law": one.law, "scatter": one.scatter, **vars(constant)} for one in found.laws for constant in one.constants
+    )
+
+
+def forecasts_table(found: Judgement) -> pd.DataFrame:
+    """Return every reading beside what the best law says of it."""
+    data = found.data
+    bands = dict(zip(("p05", "p25", "p50", "p75", "p95"), found.best.bands, strict=True))
+    return pd.DataFrame(
+        {
+            "series": [data.names[index] for index in data.series],
+            "exposure": data.exposure * data.longest,
+            "wear": data.wear,
+            "held_out": data.held_out.astype(int),
+            **bands,
+        }
+    )
+
+
+def save_judgement(found: Judgement, source: Path, folder: Path, force: bool) -> None:
+    """Write tables and the picture, all of it or nothing."""
+    from wearsim.report.figures import save_figure
+    from wearsim.study.judge.figure import judgement_figure
+
+    with new_folder(folder, force) as place:
+        laws_table(found).to_csv(place / "laws.csv", index=False)
+        constants_table(found).to_csv(place / "constants.csv", index=False)
+        forecasts_table(found).to_csv(place / "forecasts.csv", index=False)
+        summary = f"```\n{judgement_text(found)}\n```\n"
+        (place / "summary.md").write_text(summary, encoding="utf-8")
+        save_figure(judgement_figure(found, source.stem), place, "judgement")
