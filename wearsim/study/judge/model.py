@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.laws import LawParameter, WearLaw, laws_for, ln_shape
@@ -30,6 +31,9 @@ _SD = {
 }
 _LEVEL_SD = 1.5
 _ENDS_SD = 1.96
+_LEAST_SERIES = 3
+_NO_DIFFERENCE = 0.05
+"""Of scores, which is about that of other draws."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +55,9 @@ class JudgedLaw:
     scatter: str  # factor or walk
     constants: tuple[FittedConstant, ...]
     score: float  # mean log density of ln(wear) of held-out readings
-    series_scores: Vector  # the same of each series that has any
-    behind: float  # mean over series of how much the best one's score is higher
-    behind_error: float  # standard error of that, nan with one series
+    unit_scores: Vector  # the same of each series that has any; with fewer than 3, of each reading
+    behind: float  # how much higher the best one's score is
+    behind_error: float  # standard error of that, paired over the units; inf with one
     coverage_50: float  # part of the held-out readings in their band, nan where all are censored
     coverage_90: float
     median_error: float  # median of |ln(forecast/reading)|, held out; nan where all are censored
@@ -62,7 +66,7 @@ class JudgedLaw:
     @property
     def tied(self) -> bool:
         """Whether the readings do not tell it from the best one."""
-        return self.behind <= (0.0 if math.isnan(self.behind_error) else self.behind_error)
+        return self.behind <= max(self.behind_error, _NO_DIFFERENCE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +92,7 @@ class Judgement:
         found = []
         if NO_LAW in self.ties:
             found.append("it foretells no better than wear that neither grows nor depends on the load")
-        count = len(self.best.series_scores)
+        count = len(self.best.unit_scores)
         for share, held in ((0.5, self.best.coverage_50), (0.9, self.best.coverage_90)):
             if abs(held - share) > 2.0 * math.sqrt(share * (1.0 - share) / count):
                 found.append(f"its band of {100 * share:g} % holds {100 * held:.0f} %")
@@ -139,16 +143,17 @@ def _ranked(found: list[JudgedLaw]) -> list[JudgedLaw]:
     best = ordered[0]
     ranked = []
     for one in ordered:
-        off = best.series_scores - one.series_scores
-        error = float(off.std(ddof=1) / math.sqrt(off.size)) if off.size > 1 else math.nan
-        ranked.append(_with_rank(one, float(off.mean()), error))
+        off = best.unit_scores - one.unit_scores
+        error = float(off.std(ddof=1) / math.sqrt(off.size)) if off.size > 1 else math.inf
+        ranked.append(replace(one, behind=float(off.mean()), behind_error=error))
     return ranked
 
 
-def _with_rank(one: JudgedLaw, behind: float, error: float) -> JudgedLaw:
-    from dataclasses import replace
-
-    return replace(one, behind=behind, behind_error=error)
+def _units(data: WearSeries) -> list[NDArray[np.intp]]:
+    """Return the held-out readings of each series, or each reading where fewer than 3 series have any."""
+    held = np.flatnonzero(data.held_out)
+    by_series = [held[data.series[held] == one] for one in np.unique(data.series[held])]
+    return by_series if len(by_series) >= _LEAST_SERIES else list(held[:, None])
 
 
 class _Candidate:
@@ -187,7 +192,7 @@ class _Candidate:
         rows = draws(lambda some: self.forecasts(some).log_likelihood, self.middle, self.sd, particles)
         found = self.forecasts(rows)
         scores = log_scores(found, data)
-        series = np.unique(data.series[held])
+        units = np.array([scores[unit].mean() for unit in _units(data)])
         read = held & (data.censored == 0)
         place = probabilities(found, np.log(data.wear))[read]
         bands = np.array([quantiles(found, share) for share in (0.05, 0.25, 0.5, 0.75, 0.95)])
@@ -197,10 +202,10 @@ class _Candidate:
             formula=self.law.formula,
             scatter=self.scatter,
             constants=tuple(self.constants(rows)),
-            score=float(np.mean([scores[held & (data.series == one)].mean() for one in series])),
-            series_scores=np.array([scores[held & (data.series == one)].mean() for one in series]),
-            behind=math.nan,
-            behind_error=math.nan,
+            score=float(units.mean()),
+            unit_scores=units,
+            behind=0.0,
+            behind_error=0.0,
             coverage_50=_part(np.abs(place - 0.5) <= 0.25),
             coverage_90=_part(np.abs(place - 0.5) <= 0.45),
             median_error=float(np.median(off)) if off.size else math.nan,

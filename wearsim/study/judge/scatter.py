@@ -54,27 +54,30 @@ def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
     Forecasts
         Of all readings.
     """
-    ln_wear, ln_exposure = np.log(data.wear), np.log(data.exposure)
-    own = scatter.reading**2 + (data.error * np.exp(-ln_law)) ** 2
-    mean, variance = np.empty_like(ln_law), np.empty_like(ln_law)
-    count = len(data.names), len(ln_law)
-    state, spread = np.zeros(count[::-1]), np.broadcast_to(scatter.series**2, count[::-1]).copy()
-    at = np.full(count[0], ln_exposure.min())
-    total = np.zeros(count[1])
+    ln_wear, ln_exposure = (np.log(column)[:, None] for column in (data.wear, data.exposure))
+    # Readings run down, so that those of a step stand together in memory.
+    law = np.ascontiguousarray(ln_law.T)
+    own = scatter.reading.T**2 + (data.error[:, None] * np.exp(-law)) ** 2
+    mean, variance = np.empty_like(law), np.empty_like(law)
+    shape = len(data.names), law.shape[1]
+    state, spread = np.zeros(shape), np.broadcast_to(scatter.series.T**2, shape).copy()
+    at = np.full((shape[0], 1), ln_exposure.min())
+    total = np.zeros(shape[1])
     for slot in data.slots.T:
         alive = np.flatnonzero(slot >= 0)
         rows = slot[alive]
-        z, p = state[:, alive], spread[:, alive] + scatter.walk**2 * (ln_exposure[rows] - at[alive])
+        z, p = state[alive], spread[alive] + scatter.walk.T**2 * (ln_exposure[rows] - at[alive])
         at[alive] = ln_exposure[rows]
-        mean[:, rows], variance[:, rows] = ln_law[:, rows] + z, p + own[:, rows]
-        off, size = ln_wear[rows] - mean[:, rows], variance[:, rows]
-        sign, used = data.censored[rows], data.fitted[rows]
-        density, moved, left = _read(off, size, sign)
-        total += np.where(used, density, 0.0).sum(axis=1)
-        gain = np.where(used, p / size, 0.0)
-        state[:, alive] = z + gain * moved
-        spread[:, alive] = p - gain * p + gain**2 * left
-    return Forecasts(mean, variance, total)
+        mean[rows], variance[rows] = law[rows] + z, p + own[rows]
+        used = data.fitted[rows, None]
+        if used.any():
+            size = variance[rows]
+            density, moved, left = _read(ln_wear[rows] - mean[rows], size, data.censored[rows, None])
+            total += np.where(used, density, 0.0).sum(axis=0)
+            gain = np.where(used, p / size, 0.0)
+            z, p = z + gain * moved, p - gain * p + gain**2 * left
+        state[alive], spread[alive] = z, p
+    return Forecasts(mean.T, variance.T, total)
 
 
 def _read(off: Vector, size: Vector, sign: Vector) -> tuple[Vector, Vector, Vector]:
@@ -106,9 +109,9 @@ def probabilities(found: Forecasts, ln_wear: Vector) -> Vector:
 
 def quantiles(found: Forecasts, share: float) -> Vector:
     """Return the wear of which a share is below, shape (n,), by bisection."""
-    half = 10.0 * np.sqrt(found.variance)
+    half = 5.0 * np.sqrt(found.variance)
     low, high = (found.mean - half).min(axis=0), (found.mean + half).max(axis=0)
-    for _ in range(60):
+    for _ in range(26):
         middle = 0.5 * (low + high)
         below = probabilities(found, middle) < share
         low, high = np.where(below, middle, low), np.where(below, high, middle)

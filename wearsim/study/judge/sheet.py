@@ -45,7 +45,7 @@ def _constant(one: Any) -> str:
     return f"{one.name} = {one.middle:.3g} ({one.low:.3g} to {one.high:.3g})"
 
 
-_HEAD = ("law", "scatter", "score", "behind", "+-", "in 50 %", "in 90 %", "error")
+_HEAD = ("law", "scatter", "score", "behind", "+-", "in 50 %", "in 90 %", "off by")
 
 
 def _table(found: Judgement) -> list[str]:
@@ -60,9 +60,13 @@ def _table(found: Judgement) -> list[str]:
 
 
 def _cells(one: JudgedLaw) -> tuple[str, ...]:
-    error = "" if math.isnan(one.behind_error) else f"{one.behind_error:.2f}"
-    shares = (_percent(one.coverage_50), _percent(one.coverage_90), _percent(one.median_error))
+    error = f"{one.behind_error:.2f}" if math.isfinite(one.behind_error) else "?"
+    shares = (_percent(one.coverage_50), _percent(one.coverage_90), _factor(one.median_error))
     return one.law, one.scatter, f"{one.score:.2f}", f"{one.behind:.2f}", error, *shares
+
+
+def _factor(ln_error: float) -> str:
+    return "" if math.isnan(ln_error) else f"{math.exp(ln_error):.2f}"
 
 
 def _percent(share: float) -> str:
