@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 HEAD = HERE / "laws_head.md"
 TESTS = HERE.parent / "tests" / "laws" / "test_sets.py"
 
-SUMMARY = ("set", "fitted to; judged by", "take", "good enough")
+SUMMARY = ("set", "fitted to; judged by", "take", "good enough", "off by")
 COLUMNS = ("law", "scatter", "behind the best", "in 50 %", "in 90 %", "off by", "")
 
 table = runpy.run_path(str(HERE / "measured_page.py"))["table"]
@@ -68,10 +68,10 @@ def page(rows: Iterable[Row]) -> str:
     written, summary, parts = texts(), [], []
     for place, _, row in sorted(rows, key=lambda entry: entry[1]):
         heading, text = written[place.split("::")[1].split("[")[0]]
-        verdict = "yes" if row["good"] else "**no**"
-        summary.append([heading, row["split"], row["take"], verdict])
         laws = better_scatter(row["laws"])
         taken = next(law for law in laws if law["law"] == row["take"])
+        verdict = "yes" if row["good"] else "**no**"
+        summary.append([heading, row["split"], row["take"], verdict, f"{math.exp(taken['median_error']):.1f}"])
         lines = table(COLUMNS, map(cells, laws))
         scale = f"Constants of *{row['take']}*, {taken['scatter']}: {constants(taken)}."
         part = f"## {heading}\n\nFitted to {row['split'].replace('; ', '; judged by ')}.\n\n{text}\n\n{lines}\n\n{scale}"

@@ -14,10 +14,9 @@ def constant(found, law, name):
 def test_metal_later(series_of, judged):
     """V1: metal specimens, later readings
 
-    12 specimens whose wear slows down from the first reading on. Only the law of powers holds, with
-    cycles to 0.19 and load to 0.65; whether the load has a power of its own makes no difference
-    here, as each specimen stays under its own. Archard's law and an exponential running-in are worlds
-    behind: running-in that never ends is no running-in that ends.
+    12 specimens whose wear slows down from the first reading on. Only a power of the cycles, 0.19,
+    holds; that of the load, 0.65, makes no difference here, as each specimen stays under its own.
+    Archard's law and an exponential running-in are far behind: the wear never settles to a rate.
 
     Specimens wander. With a factor that stays, the band of 90 % holds too few readings; with one
     that wanders it holds what it should, within what 12 specimens can tell. That is where the bands
@@ -25,7 +24,7 @@ def test_metal_later(series_of, judged):
     """
     data = series_of("metal", lambda one: one.exposure > 50)
     split = "readings up to 50 cycles; those at 100, 200 and 500"
-    found = judged(split, data, "powers", True, behind=("Archard", "running-in", "offset", "none"))
+    found = judged(split, data, "cycle power", True, behind=("Archard", "running-in", "offset", "none"))
     assert found.best.scatter == "walk"
     assert constant(found, "powers", "exposure_exponent") == pytest.approx(0.19, abs=0.01)
     assert constant(found, "powers", "load_exponent") == pytest.approx(0.65, abs=0.02)
@@ -36,9 +35,9 @@ def test_metal_later(series_of, judged):
 def test_metal_load(series_of, judged):
     """V1: metal specimens, another load
 
-    The middle load is foretold by the other two, for specimens of which nothing is known. The law
-    of powers again. A long running-in with a power of the load comes near enough not to be told
-    apart, at 500 times the cycles of its length: a fit, not a law.
+    The middle load is foretold by the other two, for specimens of which nothing is known: the powers of
+    load and cycles again. A running-in with a power of the load and a scatter that makes up for its
+    shape is not told apart.
     """
     data = series_of("metal", lambda one: one.load == 50)
     judged("10 and 100 g; 50 g", data, "powers", True, behind=("Archard", "load power", "none"))
@@ -52,15 +51,15 @@ def test_commuter_later(series_of, judged):
     slows down. Archard is as good as any law; the chains' faster end (salt, winter) has no law here.
     """
     data = series_of("commuter", lambda one: one.exposure > 3250, lambda one: one.series != "Miche")
-    judged("Shimano and KMC up to 3250 km; beyond", data, "Archard", True, behind=("none",))
+    judged("Shimano and KMC up to 3250 km; their later readings", data, "Archard", True, behind=("none",))
 
 
 def test_commuter_rain(series_of, judged):
     """V2: a chain in the rain
 
     The last two readings of the third chain, one stretch without rain noted and one with. A factor
-    of the environment is the best law, and the only one that finds the stretch without growth;
-    it is about 3, anything from 1 to 5. Two readings of one chain: the verdict is weak.
+    of the environment is the best law; it is about 3, anything from 0.8 to 5. But two readings of one
+    chain tell hardly anything apart, and Archard's law is the simplest of those left.
     """
     data = series_of(
         "commuter",
@@ -68,7 +67,8 @@ def test_commuter_rain(series_of, judged):
         lambda one: one.series == "Miche" or one.exposure <= 3250,
     )
     split = "early readings and the first rain; the rest of Miche"
-    found = judged(split, data, "environment", True, behind=("none",))
+    found = judged(split, data, "Archard", True, behind=("none",))
+    assert found.best.law == "environment"
     assert constant(found, "environment", "environment_1") == pytest.approx(3.0, abs=0.6)
 
 
@@ -95,11 +95,11 @@ def test_pins_later(series_of, judged):
     """V7: pins of plastic, later readings
 
     8 tests of three materials, each judged as a series of its own (the material without drift of
-    the gauge only). A running-in that ends, an offset and a power near 0.6 foretell the later depth
-    alike, off by about a tenth, if the factor of the pin may wander; Archard does not.
+    the gauge only). A power near 0.6 and a running-in that ends foretell the later depth nearly alike,
+    off by about a tenth, if the factor of the pin may wander; Archard does not.
     """
     data = series_of("pins", lambda one: one.exposure > 200)
-    judged("depths up to 200 m; beyond", data, "cycle power", True, behind=("Archard", "none"))
+    judged("depths up to 200 m; those beyond", data, "cycle power", True, behind=("Archard", "none"))
 
 
 def test_pins_load(series_of, judged):
@@ -111,7 +111,7 @@ def test_pins_load(series_of, judged):
     differ by as much.
     """
     data = series_of("pins", lambda one: one.load > 90, lambda one: "15PTFE" not in one.series)
-    judged("59.8 N; 98.1 N", data, "running-in", True, behind=("Archard", "none"))
+    judged("59.8 N; 98.1 N", data, "cycle power", True, behind=("Archard", "none"))
 
 
 def test_composite_later(series_of, judged):
@@ -130,11 +130,11 @@ def test_composite_load(series_of, judged):
     """V8: plastic with carbon fibres, another load
 
     Specimens at 30 N foretold from others at 10 and 20 N. The four contents of nanotubes differ by a
-    factor of 3, which the laws do not know of; the load drowns in it. Bands are honest and wide, half
-    of the readings off by a factor of 1.7, and several laws are not told apart.
+    factor of 3, which the laws do not know of; the load drowns in it. Bands hold and are wide, half of
+    the readings are off by a factor of 1.4 to 1.7, and most laws are not told apart.
     """
     data = series_of("composite", lambda one: one.load == 30)
-    judged("10 and 20 N; 30 N", data, "cycle power", True, behind=("none",))
+    judged("10 and 20 N; 30 N", data, "Archard", True, behind=("none",))
 
 
 def test_twin_disc(series_of, judged):

@@ -14,7 +14,7 @@ from wearsim.errors import WearsimError
 @click.option(
     "--particles",
     type=click.IntRange(100, 20_000),
-    default=600,
+    default=1000,
     show_default=True,
     metavar="N",
     help="Draws of the constants of each law.",

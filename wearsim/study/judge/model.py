@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.laws import LawParameter, WearLaw, laws_for, ln_shape
@@ -20,7 +21,7 @@ from wearsim.study.judge.scatter import (
 )
 from wearsim.study.judge.wear_series import WearSeries
 
-PARTICLES = 600
+PARTICLES = 1000
 SCATTERS = ("factor", "walk")
 NO_LAW = "none"
 
@@ -32,8 +33,12 @@ _SD = {
 _LEVEL_SD = 1.5
 _ENDS_SD = 1.96
 _LEAST_SERIES = 3
+_ONE_SIGMA = 0.8413447
 _NO_DIFFERENCE = 0.05
-"""Of scores, which is about that of other draws."""
+"""Of scores: a density higher by a twentieth is nothing to choose by."""
+
+_BATCHES = 8
+"""Of draws, whose scores differ by chance."""
 
 
 @dataclass(frozen=True)
@@ -53,11 +58,14 @@ class JudgedLaw:
     law: str
     formula: str
     scatter: str  # factor or walk
-    constants: tuple[FittedConstant, ...]
+    constants: tuple[FittedConstant, ...]  # of the law
+    deviations: tuple[FittedConstant, ...]  # standard deviations of the scatter of ln(wear)
     score: float  # mean log density of ln(wear) of held-out readings
     unit_scores: Vector  # the same of each series that has any; with fewer than 3, of each reading
     behind: float  # how much higher the best one's score is
-    behind_error: float  # standard error of that, paired over the units; inf with one
+    # standard error of that: paired over the units, by Student's t, and of the draws; inf with one unit
+    behind_error: float
+    draw_error: float  # of the score, by batches of draws
     coverage_50: float  # part of the held-out readings in their band, nan where all are censored
     coverage_90: float
     median_error: float  # median of |ln(forecast/reading)|, held out; nan where all are censored
@@ -87,22 +95,27 @@ class Judgement:
         return tuple(dict.fromkeys(one.law for one in self.laws if one.tied))
 
     @property
+    def simplest(self) -> JudgedLaw:
+        """The law with the fewest constants among those not told apart, of these the best one."""
+        return min((one for one in self.laws if one.tied), key=lambda one: len(one.constants))
+
+    @property
     def objections(self) -> tuple[str, ...]:
-        """Why the best law is not good enough; empty where it is."""
-        found = []
+        """Why the simplest law is not good enough; empty where it is."""
+        found, taken = [], self.simplest
         if NO_LAW in self.ties:
-            found.append("it foretells no better than wear that neither grows nor depends on the load")
-        count = len(self.best.unit_scores)
-        for share, held in ((0.5, self.best.coverage_50), (0.9, self.best.coverage_90)):
+            found.append("no law foretells better than that wear neither grows nor depends on the load")
+        count = len(taken.unit_scores)
+        for share, held in ((0.5, taken.coverage_50), (0.9, taken.coverage_90)):
             if abs(held - share) > 2.0 * math.sqrt(share * (1.0 - share) / count):
-                found.append(f"its band of {100 * share:g} % holds {100 * held:.0f} %")
+                found.append(f"the band of {100 * share:g} % of {taken.law} holds {100 * held:.0f} %")
         return tuple(found)
 
 
 def judge_series(
     data: WearSeries,
     particles: int = PARTICLES,
-    wanted: Callable[[WearLaw], bool] = lambda law: True,
+    wanted: Callable[[str, str], bool] = lambda law, scatter: True,
     progress: Callable[[float], None] = lambda part: None,
 ) -> Judgement:
     """Return how every law that applies foretells the readings held out, fitted to the others.
@@ -114,7 +127,7 @@ def judge_series(
     particles : int
         Draws of the parameters.
     wanted : callable
-        Whether to try a law.
+        Whether to try a law with a kind of scatter, both by name.
     progress : callable
         Takes the part that is done.
 
@@ -123,9 +136,10 @@ def judge_series(
     Judgement
         The laws, ordered by score.
     """
-    laws = [law for law in laws_for(data) if wanted(law)]
     scatters = SCATTERS if _has_walk(data) else SCATTERS[:1]
-    pairs = [(law, scatter) for law in laws for scatter in scatters]
+    pairs = [
+        (law, scatter) for law in laws_for(data) for scatter in scatters if wanted(law.name, scatter)
+    ]
     found = []
     for number, (law, scatter) in enumerate(pairs, start=1):
         found.append(_Candidate(law, scatter, data).judged(particles))
@@ -144,7 +158,10 @@ def _ranked(found: list[JudgedLaw]) -> list[JudgedLaw]:
     ranked = []
     for one in ordered:
         off = best.unit_scores - one.unit_scores
-        error = float(off.std(ddof=1) / math.sqrt(off.size)) if off.size > 1 else math.inf
+        error = math.inf
+        if off.size > 1:
+            error = float(stdtrit(off.size - 1, _ONE_SIGMA) * off.std(ddof=1) / math.sqrt(off.size))
+            error = math.hypot(error, one.draw_error, best.draw_error) if one is not best else 0.0
         ranked.append(replace(one, behind=float(off.mean()), behind_error=error))
     return ranked
 
@@ -192,7 +209,10 @@ class _Candidate:
         rows = draws(lambda some: self.forecasts(some).log_likelihood, self.middle, self.sd, particles)
         found = self.forecasts(rows)
         scores = log_scores(found, data)
-        units = np.array([scores[unit].mean() for unit in _units(data)])
+        constants = self.constants(rows)
+        batches = [_of_batch(found, part) for part in np.array_split(np.arange(len(rows)), _BATCHES)]
+        apart = [self.unit_scores(log_scores(batch, data)).mean() for batch in batches]
+        units = self.unit_scores(scores)
         read = held & (data.censored == 0)
         place = probabilities(found, np.log(data.wear))[read]
         bands = np.array([quantiles(found, share) for share in (0.05, 0.25, 0.5, 0.75, 0.95)])
@@ -201,25 +221,34 @@ class _Candidate:
             law=self.law.name,
             formula=self.law.formula,
             scatter=self.scatter,
-            constants=tuple(self.constants(rows)),
+            constants=constants[: len(self.law.parameters)],
+            deviations=constants[len(self.law.parameters) :],
             score=float(units.mean()),
             unit_scores=units,
             behind=0.0,
             behind_error=0.0,
+            draw_error=float(np.std(apart, ddof=1) / math.sqrt(_BATCHES)),
             coverage_50=_part(np.abs(place - 0.5) <= 0.25),
             coverage_90=_part(np.abs(place - 0.5) <= 0.45),
             median_error=float(np.median(off)) if off.size else math.nan,
             bands=bands,
         )
 
-    def constants(self, rows: Vector) -> list[FittedConstant]:
-        """Return the constants in the units of the readings."""
-        values = self.values(rows)
-        return [
-            FittedConstant(one.name, *map(float, scale * np.quantile(values[one.name], (0.05, 0.5, 0.95))))
-            for one in self.parameters
-            for scale in [self.data.longest if one.of_exposure else 1.0]
-        ]
+    def unit_scores(self, scores: Vector) -> Vector:
+        """Return the mean score of each unit that is held out."""
+        return np.array([scores[unit].mean() for unit in _units(self.data)])
+
+    def constants(self, rows: Vector) -> tuple[FittedConstant, ...]:
+        """Return the constants of law and scatter in the units of the readings."""
+        found = []
+        for one, value in zip(self.parameters, self.values(rows).values(), strict=True):
+            points = np.quantile(value, (0.05, 0.5, 0.95)) * (self.data.longest if one.of_exposure else 1.0)
+            found.append(FittedConstant(one.name, *map(float, points)))
+        return tuple(found)
+
+
+def _of_batch(found: Forecasts, part: NDArray[np.intp]) -> Forecasts:
+    return Forecasts(found.mean[part], found.variance[part], found.log_likelihood[part])
 
 
 def _moved(one: LawParameter, value: float) -> float:

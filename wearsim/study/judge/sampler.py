@@ -6,8 +6,13 @@ import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 
-_MOVES = 6
-_LAST_MOVES = 12
+_TAKEN, _LAST_TAKEN = 1.5, 6.0
+"""Steps that a particle takes on average at each power, and at the last one."""
+
+_MOST_STEPS = 100
+_WANTED = 0.25
+"""Part of the steps that should be taken."""
+
 _HALF_LEFT = 0.5
 _SEED = 20
 
@@ -42,7 +47,7 @@ def draws(log_likelihood: Callable[[Vector], Vector], middle: Vector, sd: Vector
     """
     random = np.random.default_rng(_SEED)
     at = middle + sd * random.standard_normal((count, middle.size))
-    known, power = log_likelihood(at), 0.0
+    known, power, scale = log_likelihood(at), 0.0, 2.0 / np.sqrt(middle.size)
     while power < 1.0:
         step = _step(known, 1.0 - power)
         power = power + step if power + step < 1.0 else 1.0
@@ -50,8 +55,11 @@ def draws(log_likelihood: Callable[[Vector], Vector], middle: Vector, sd: Vector
         place = (random.random() + np.arange(count)) / count
         chosen = np.minimum(np.searchsorted(np.cumsum(weight) / weight.sum(), place), count - 1)
         at, known = at[chosen], known[chosen]
-        moves = _MOVES if power < 1.0 else _LAST_MOVES
-        at, known = _moved(log_likelihood, (at, known), (middle, sd), power, moves, random)
+        wanted, left = _LAST_TAKEN if power == 1.0 else _TAKEN, _MOST_STEPS
+        while wanted > 0.0 and left:
+            at, known, taken = _moved(log_likelihood, (at, known), (middle, sd), power, scale, random)
+            scale *= float(np.exp(taken - _WANTED))
+            wanted, left = wanted - taken, left - 1
     return at
 
 
@@ -79,22 +87,16 @@ def _moved(
     particles: tuple[Vector, Vector],
     expected: tuple[Vector, Vector],
     power: float,
-    moves: int,
+    scale: float,
     random: np.random.Generator,
-) -> tuple[Vector, Vector]:
-    """Return particles after steps of the size of their own scatter."""
+) -> tuple[Vector, Vector, float]:
+    """Return particles after a step along the way between two others, and what part of them took it."""
     (at, known), (middle, sd) = particles, expected
-    size = at.shape[1]
-    spread = np.atleast_2d(np.cov(at, rowvar=False)) + 1e-12 * np.diag(sd**2)
-    root = np.linalg.cholesky(spread)
-    scale = 2.0 / np.sqrt(size)
-    before = -0.5 * (((at - middle) / sd) ** 2).sum(axis=1)
-    for _ in range(moves):
-        tried = at + scale * random.standard_normal(at.shape) @ root.T
-        likely, prior = log_likelihood(tried), -0.5 * (((tried - middle) / sd) ** 2).sum(axis=1)
-        gained = power * (likely - known) + prior - before
-        taken = np.log(random.random(known.size)) < gained
-        at = np.where(taken[:, None], tried, at)
-        known, before = np.where(taken, likely, known), np.where(taken, prior, before)
-        scale *= float(np.exp(taken.mean() - 0.25))
-    return at, known
+    first, second = random.permutation(len(at)), random.permutation(len(at))
+    jitter = 1e-3 * sd * random.standard_normal(at.shape)
+    tried = at + scale * (at[first] - at[second]) / np.sqrt(2.0) + jitter
+    likely = log_likelihood(tried)
+    prior = -0.5 * (((tried - middle) / sd) ** 2 - ((at - middle) / sd) ** 2).sum(axis=1)
+    taken = np.log(random.random(known.size)) < power * (likely - known) + prior
+    at, known = np.where(taken[:, None], tried, at), np.where(taken, likely, known)
+    return at, known, float(taken.mean())

@@ -10,7 +10,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.report.text_lines import row
-from wearsim.study.judge.model import JudgedLaw, Judgement
+from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
 ASSUMPTIONS = (
     "wear is log-normal about a law: a factor that stays with the series or wanders (walk), and one for "
@@ -22,13 +22,15 @@ ASSUMPTIONS = (
 
 def judgement_text(found: Judgement) -> str:
     """Return the answer as ``wearsim judge`` prints it."""
-    data, best = found.data, found.best
+    data, constants = found.data, found.simplest.constants
     held = int(data.held_out.sum())
     rows = [
         ("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
-        ("Best law", f"{best.law}: {best.formula}; scatter: {best.scatter}"),
-        ("Not told apart", ", ".join(found.ties[1:]) or "none"),
-        ("Constants", "; ".join(_constant(one) for one in best.constants)),
+        ("Best law", _described(found.best)),
+        ("No different", ", ".join(found.ties[1:]) or "none: the readings tell all others apart"),
+        ("Take", f"{_described(found.simplest)}, the simplest of them"),
+        *([("Constants", "; ".join(map(_constant, constants)))] if constants else []),
+        ("Scatter", "; ".join(map(_constant, found.simplest.deviations)) + ", of ln(wear)"),
         ("Verdict", verdict(found)),
     ]
     return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
@@ -37,11 +39,18 @@ def judgement_text(found: Judgement) -> str:
 def verdict(found: Judgement) -> str:
     """Return in words whether the best law is good enough."""
     if found.objections:
-        return f"no law is good enough: with {found.best.law} " + "; ".join(found.objections)
-    return f"{found.best.law} is good enough: its bands hold what they should"
+        return "no law is good enough: " + "; ".join(found.objections)
+    return f"{found.simplest.law} is good enough: its bands hold what they should"
 
 
-def _constant(one: Any) -> str:
+def _described(one: JudgedLaw) -> str:
+    return f"{one.law}, wear = {one.formula}, with {_SCATTERS[one.scatter]}"
+
+
+_SCATTERS = {"factor": "a factor of each series that stays", "walk": "a factor of each series that wanders"}
+
+
+def _constant(one: FittedConstant) -> str:
     return f"{one.name} = {one.middle:.3g} ({one.low:.3g} to {one.high:.3g})"
 
 
@@ -86,6 +95,7 @@ def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
         "exposure_unit": data.exposure_unit,
         "best": found.best.law,
         "ties": list(found.ties),
+        "take": found.simplest.law,
         "good_enough": not found.objections,
         "objections": list(found.objections),
         "laws": [_law(one) for one in found.laws],
@@ -95,8 +105,9 @@ def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
 
 def _law(one: JudgedLaw) -> dict[str, Any]:
     numbers = {name: plain(getattr(one, name)) for name in _NUMBERS}
-    constants = [vars(constant) for constant in one.constants]
-    return {"law": one.law, "formula": one.formula, "scatter": one.scatter, **numbers, "constants": constants}
+    constants = [vars(constant) for constant in (*one.constants, *one.deviations)]
+    names = {"law": one.law, "formula": one.formula, "scatter": one.scatter}
+    return {**names, **numbers, "tied": one.tied, "constants": constants}
 
 
 _NUMBERS = ("score", "behind", "behind_error", "coverage_50", "coverage_90", "median_error")
@@ -113,7 +124,7 @@ def laws_table(found: Judgement) -> pd.DataFrame:
 def constants_table(found: Judgement) -> pd.DataFrame:
     """Return the constants of all laws."""
     return pd.DataFrame(
-        {"law": one.law, "scatter": one.scatter, **vars(constant)} for one in found.laws for constant in one.constants
+        {"law": one.law, "scatter": one.scatter, **vars(constant)} for one in found.laws for constant in (*one.constants, *one.deviations)
     )
 
 
