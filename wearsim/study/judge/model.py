@@ -14,9 +14,9 @@ from wearsim.study.judge.sampler import draws
 from wearsim.study.judge.scatter import (
     Forecasts,
     Scatter,
+    drawn_again,
     forecasts,
     log_scores,
-    probabilities,
     quantiles,
 )
 from wearsim.study.judge.wear_series import WearSeries
@@ -68,6 +68,8 @@ class JudgedLaw:
     draw_error: float  # of the score, by batches of draws
     coverage_50: float  # part of the held-out readings in their band, nan where all are censored
     coverage_90: float
+    # the same in 95 % of the readings that the law itself would give: lower and upper end of both
+    by_chance: tuple[tuple[float, float], tuple[float, float]]
     median_error: float  # median of |ln(forecast/reading)|, held out; nan where all are censored
     bands: Vector  # wear at 5, 25, 50, 75 and 95 % of every reading, shape (5, n)
 
@@ -105,10 +107,13 @@ class Judgement:
         found, taken = [], self.simplest
         if NO_LAW in self.ties:
             found.append("no law foretells better than that wear neither grows nor depends on the load")
-        count = len(taken.unit_scores)
-        for share, held in ((0.5, taken.coverage_50), (0.9, taken.coverage_90)):
-            if abs(held - share) > 2.0 * math.sqrt(share * (1.0 - share) / count):
-                found.append(f"the band of {100 * share:g} % of {taken.law} holds {100 * held:.0f} %")
+        coverages = zip((50, 90), (taken.coverage_50, taken.coverage_90), taken.by_chance, strict=True)
+        for share, held, (low, high) in coverages:
+            if held < low or held > high:
+                found.append(
+                    f"the band of {share} % of {taken.law} holds {100 * held:.0f} %, by chance "
+                    f"{100 * low:.0f} to {100 * high:.0f} %"
+                )
         return tuple(found)
 
 
@@ -205,18 +210,18 @@ class _Candidate:
 
     def judged(self, particles: int) -> JudgedLaw:
         """Return the law fitted and scored."""
-        data, held = self.data, self.data.held_out
+        data = self.data
         rows = draws(lambda some: self.forecasts(some).log_likelihood, self.middle, self.sd, particles)
         found = self.forecasts(rows)
-        scores = log_scores(found, data)
-        constants = self.constants(rows)
-        batches = [_of_batch(found, part) for part in np.array_split(np.arange(len(rows)), _BATCHES)]
-        apart = [self.unit_scores(log_scores(batch, data)).mean() for batch in batches]
-        units = self.unit_scores(scores)
-        read = held & (data.censored == 0)
-        place = probabilities(found, np.log(data.wear))[read]
+        batches = [_of_batch(found, part) for part in np.array_split(np.arange(particles), _BATCHES)]
+        apart = [self.unit_scores(batch).mean() for batch in batches]
+        units, constants = self.unit_scores(found), self.constants(rows)
         bands = np.array([quantiles(found, share) for share in (0.05, 0.25, 0.5, 0.75, 0.95)])
-        off = np.abs(np.log(bands[2] / data.wear))[read]
+        read = data.held_out & (data.censored == 0)
+        ln_wear, again, ends = np.log(data.wear), drawn_again(found, data), np.log(bands)
+        coverages = [_inside(ln_wear[read], ends[[i, -1 - i]][:, read]) for i in (1, 0)]
+        chances = [_by_chance(again[:, read], ends[[i, -1 - i]][:, read]) for i in (1, 0)]
+        off = np.abs(ends[2] - ln_wear)[read]
         return JudgedLaw(
             law=self.law.name,
             formula=self.law.formula,
@@ -228,14 +233,16 @@ class _Candidate:
             behind=0.0,
             behind_error=0.0,
             draw_error=float(np.std(apart, ddof=1) / math.sqrt(_BATCHES)),
-            coverage_50=_part(np.abs(place - 0.5) <= 0.25),
-            coverage_90=_part(np.abs(place - 0.5) <= 0.45),
+            coverage_50=float(coverages[0]),
+            coverage_90=float(coverages[1]),
+            by_chance=(chances[0], chances[1]),
             median_error=float(np.median(off)) if off.size else math.nan,
             bands=bands,
         )
 
-    def unit_scores(self, scores: Vector) -> Vector:
+    def unit_scores(self, found: Forecasts) -> Vector:
         """Return the mean score of each unit that is held out."""
+        scores = log_scores(found, self.data)
         return np.array([scores[unit].mean() for unit in _units(self.data)])
 
     def constants(self, rows: Vector) -> tuple[FittedConstant, ...]:
@@ -248,12 +255,23 @@ class _Candidate:
 
 
 def _of_batch(found: Forecasts, part: NDArray[np.intp]) -> Forecasts:
-    return Forecasts(found.mean[part], found.variance[part], found.log_likelihood[part])
+    return Forecasts(
+        found.mean[part], found.variance[part], found.shared[part], found.log_likelihood[part]
+    )
 
 
 def _moved(one: LawParameter, value: float) -> float:
     return math.log(value) if one.log else value
 
 
-def _part(inside: Vector) -> float:
-    return float(inside.mean()) if inside.size else math.nan
+def _inside(ln_wear: Vector, band: Vector) -> Vector:
+    """Return what part of readings of shape (..., n) lies in their bands, nan of none."""
+    if not ln_wear.shape[-1]:
+        return np.array(math.nan)
+    return np.asarray(((band[0] <= ln_wear) & (ln_wear <= band[1])).mean(axis=-1))
+
+
+def _by_chance(again: Vector, band: Vector) -> tuple[float, float]:
+    """Return between what the part in the bands lies in 95 of 100 sets that the law would give."""
+    low, high = np.nanquantile(_inside(again, band), (0.025, 0.975)) if again.size else (0.0, 1.0)
+    return float(low), float(high)

@@ -13,6 +13,7 @@ from scipy.special import log_ndtr, ndtr
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.wear_series import WearSeries
 
+_SEED = 21
 _LN_2PI = float(np.log(2.0 * np.pi))
 
 
@@ -31,6 +32,7 @@ class Forecasts:
 
     mean: Vector  # given the earlier fitted readings of the series
     variance: Vector
+    shared: Vector  # part of the variance that readings of a series have in common
     log_likelihood: Vector  # shape (k,)
 
 
@@ -57,8 +59,10 @@ def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
     ln_wear, ln_exposure = (np.log(column)[:, None] for column in (data.wear, data.exposure))
     # Readings run down, so that those of a step stand together in memory.
     law = np.ascontiguousarray(ln_law.T)
-    own = scatter.reading.T**2 + (data.error[:, None] * np.exp(-law)) ** 2
-    mean, variance = np.empty_like(law), np.empty_like(law)
+    own = np.broadcast_to(scatter.reading.T**2, law.shape)
+    if data.error.any():
+        own = own + (data.error[:, None] * np.exp(-law)) ** 2
+    mean, shared = np.empty_like(law), np.empty_like(law)
     shape = len(data.names), law.shape[1]
     state, spread = np.zeros(shape), np.broadcast_to(scatter.series.T**2, shape).copy()
     at = np.full((shape[0], 1), ln_exposure.min())
@@ -68,16 +72,16 @@ def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
         rows = slot[alive]
         z, p = state[alive], spread[alive] + scatter.walk.T**2 * (ln_exposure[rows] - at[alive])
         at[alive] = ln_exposure[rows]
-        mean[rows], variance[rows] = law[rows] + z, p + own[rows]
+        mean[rows], shared[rows] = law[rows] + z, p
         used = data.fitted[rows, None]
         if used.any():
-            size = variance[rows]
+            size = p + own[rows]
             density, moved, left = _read(ln_wear[rows] - mean[rows], size, data.censored[rows, None])
             total += np.where(used, density, 0.0).sum(axis=0)
             gain = np.where(used, p / size, 0.0)
             z, p = z + gain * moved, p - gain * p + gain**2 * left
         state[alive], spread[alive] = z, p
-    return Forecasts(mean.T, variance.T, total)
+    return Forecasts(mean.T, (shared + own).T, shared.T, total)
 
 
 def _read(off: Vector, size: Vector, sign: Vector) -> tuple[Vector, Vector, Vector]:
@@ -105,6 +109,15 @@ def log_scores(found: Forecasts, data: WearSeries) -> Vector:
 def probabilities(found: Forecasts, ln_wear: Vector) -> Vector:
     """Return how likely less wear than that is, shape (n,)."""
     return np.asarray(ndtr((ln_wear - found.mean) / np.sqrt(found.variance)).mean(axis=0))
+
+
+def drawn_again(found: Forecasts, data: WearSeries) -> Vector:
+    """Return readings of ln(wear) as the law would give them, shape (k, n), the same ones every time."""
+    random = np.random.default_rng(_SEED)
+    count = len(found.mean)
+    series = random.standard_normal((count, len(data.names)))[:, data.series]
+    own = random.standard_normal(found.mean.shape) * np.sqrt(found.variance - found.shared)
+    return np.asarray(found.mean + np.sqrt(found.shared) * series + own)
 
 
 def quantiles(found: Forecasts, share: float) -> Vector:
