@@ -53,7 +53,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         maintain: "wearsim maintain packaging-conveyor",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
         calibrate: "wearsim calibrate drive.toml readings.csv",
-        judge: "wearsim judge readings.csv --out reports/laws",
+        judge: "wearsim judge readings.csv",
     },
     "Studies": {
         sweep: "wearsim sweep teeth-and-tension",

@@ -163,17 +163,17 @@ def laws_for(data: WearSeries) -> list[WearLaw]:
     clocks = [
         ("", "s", steady, _steady, _always),
         ("cycle power", "s^b", (_EXPONENT,), _power, _grows),
-        ("running-in", "s + (f - 1) s_r (1 - exp(-s/s_r))", _RUN_IN, _running_in, _has_history),
-        ("offset", "s_0 + s", (_OFFSET,), _offset, _has_history),
+        ("running-in", "(s + (f - 1) s_r (1 - exp(-s/s_r)))", _RUN_IN, _running_in, _has_history),
+        ("offset", "(s_0 + s)", (_OFFSET,), _offset, _has_history),
         ("lubricant age", "int 1 + (R - 1) F((a - s_L)/w) ds", _AGE, _lubricant_age, _noted),
         ("environment", "int phi ds", factors, _environment, _several_environments),
     ]
     laws = [WearLaw("none", "k", (), _always, _nothing, None)]
     for name, formula, parameters, clock, applies in clocks:
-        laws.append(WearLaw(name or "Archard", f"k P ({formula})", parameters, applies, clock))
+        laws.append(WearLaw(name or "Archard", f"k P {formula}", parameters, applies, clock))
         with_load = (*parameters, _LOAD_EXPONENT)
         both = "powers" if clock is _power else f"{name}, load power".removeprefix(", ")
-        laws.append(WearLaw(both, f"k P^a ({formula})", with_load, _with_load(applies), clock, True))
+        laws.append(WearLaw(both, f"k P^a {formula}", with_load, _with_load(applies), clock, True))
     laws += [
         WearLaw("T-gamma", "k, mild to severe by T gamma/A", (), _has_t_gamma, _t_gamma, None),
         WearLaw("p v", "k P s, times c beyond a p v", _PV, _has_speed, _pv),

@@ -43,7 +43,7 @@ def read_series(path: Path) -> WearSeries:
     """
     lines = _lines(path)
     line, head = lines[0] if lines else (1, [])
-    faults = [_fault(f"{text}: name the columns as documented", path, line) for text in _head_faults(head)]
+    faults = [_fault(text, path, line) for text in _head_faults(head)]
     if faults:
         raise CaseError(faults)
     exposure, wear = (next(name for name in names if name in head) for names in (EXPOSURES, WEARS))
@@ -85,13 +85,16 @@ def _fault(message: str, path: Path, line: int = 0) -> Fault:
 
 def _head_faults(head: list[str]) -> list[str]:
     if len(head) == 1 and any(mark in head[0] for mark in ";\t"):
-        return ["cells must be separated by commas, with points in numbers"]
+        return ["cells must be separated by commas, with points in numbers: export it as such"]
     found = header_faults(head, ("series",), COLUMNS[1:])
     for names, what in ((EXPOSURES, "exposure"), (WEARS, "wear")):
         given = [name for name in names if name in head]
         if len(given) != 1:
             listed = ", ".join(names)
-            found.append(f"must have exactly one column of {what} ({listed}), has {', '.join(given) or 'none'}")
+            found.append(
+                f"must have exactly one column of {what} ({listed}), has "
+                f"{', '.join(given) or 'none'}: name it"
+            )
     return found
 
 
@@ -156,14 +159,14 @@ def _set_faults(readings: list[WearReading], stated: bool) -> list[str]:
     if not readings:
         return ["must hold at least one reading below its header: write them"]
     fitted = sum(not one.held_out and not one.censored for one in readings)
-    held = len([one for one in readings if one.held_out])
-    hint = "set held_out" if stated else "add a column held_out, or later readings"
+    held = sum(one.held_out for one in readings)
+    hint = "change held_out" if stated else "add later readings of a series, or a column held_out"
     found = []
     if not held:
         found.append(f"must hold readings to judge by, has none held out: {hint}")
     if fitted < _LEAST_FITTED:
         found.append(
             f"must hold at least {_LEAST_FITTED} readings to fit, neither censored nor held out "
-            f"(has {fitted}): {hint}"
+            f"(has {fitted}): add some"
         )
     return found

@@ -27,7 +27,7 @@ def judgement_text(found: Judgement) -> str:
     rows = [
         ("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
         ("Best law", _described(found.best)),
-        ("No different", ", ".join(found.ties[1:]) or "none: the readings tell all others apart"),
+        ("As good", ", ".join(found.ties[1:]) or "none: the readings tell it from all others"),
         ("Take", f"{_described(found.simplest)}, the simplest of them"),
         *([("Constants", "; ".join(map(_constant, constants)))] if constants else []),
         ("Scatter", "; ".join(map(_constant, found.simplest.deviations)) + ", of ln(wear)"),
