@@ -60,7 +60,9 @@ def better_scatter(laws: Iterable[Mapping[str, Any]]) -> list[Mapping[str, Any]]
 
 def constants(law: Mapping[str, Any]) -> str:
     """The constants of a law with their 90 % intervals."""
-    return ", ".join(f"`{name}` {mid:.2g} ({low:.2g} to {high:.2g})" for name, low, mid, high in law["constants"])
+    return ", ".join(
+        f"`{name}` {mid:.2g} ({low:.2g} to {high:.2g})" for name, low, mid, high in law["constants"]
+    )
 
 
 def page(rows: Iterable[Row]) -> str:
@@ -71,10 +73,12 @@ def page(rows: Iterable[Row]) -> str:
         laws = better_scatter(row["laws"])
         taken = next(law for law in laws if law["law"] == row["take"])
         verdict = "yes" if row["good"] else "**no**"
-        summary.append([heading, row["split"], row["take"], verdict, f"{math.exp(taken['median_error']):.1f}"])
+        summary.append(
+            [heading, row["split"], row["take"], verdict, f"{math.exp(taken['median_error']):.1f}"]
+        )
         lines = table(COLUMNS, map(cells, laws))
         scale = f"Constants of *{row['take']}*, {taken['scatter']}: {constants(taken)}."
-        part = f"## {heading}\n\nFitted to {row['split'].replace('; ', '; judged by ')}.\n\n{text}\n\n{lines}\n\n{scale}"
-        parts.append(part)
+        split = f"Fitted to {row['split'].replace('; ', '; judged by ')}."
+        parts.append("\n\n".join([f"## {heading}", split, text, lines, scale]))
     head = HEAD.read_text(encoding="utf-8").rstrip("\n")
     return head.replace("SUMMARY", table(SUMMARY, summary)) + "\n\n" + "\n\n".join(parts) + "\n"

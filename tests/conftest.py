@@ -27,9 +27,7 @@ def pytest_addoption(parser):
         help="write docs/measured.md to FILE from the rows of tests/validation",
     )
     parser.addoption(
-        "--laws-page",
-        metavar="FILE",
-        help="write docs/laws.md to FILE from the tables of tests/laws",
+        "--laws-page", metavar="FILE", help="write docs/laws.md to FILE from the tables of tests/laws"
     )
 
 

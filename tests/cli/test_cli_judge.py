@@ -7,6 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from wearsim.study.judge.laws import laws_for
+from wearsim.study.judge.series_file import COLUMNS
+from wearsim.study.judge.wear_series import WearReading, wear_series
+
 SHIPPED = Path(__file__).parents[2] / "cases" / "studies" / "metal-wear.csv"
 
 
@@ -22,7 +26,9 @@ def table(tmp_path):
     return write
 
 
-STRAIGHT = [f"{name},{n},{factor * n}" for name, factor in (("a", 1.0), ("b", 1.3), ("c", 0.9)) for n in range(1, 7)]
+STRAIGHT = [
+    f"{name},{n},{factor * n}" for name, factor in (("a", 1.0), ("b", 1.3), ("c", 0.9)) for n in range(1, 7)
+]
 
 
 def test_answer_and_files(cli, table, tmp_path):
@@ -65,8 +71,30 @@ def test_shipped_readings_are_those_of_the_validation():
     with data.open() as file:
         read = list(csv.DictReader(line for line in file if not line.startswith("#")))
     for one, other in zip(shipped, read, strict=True):
-        assert (one["series"], one["cycles"], one["wear_um"]) == (other["specimen"], other["cycles"], other["wear_um"])
+        assert (one["series"], one["cycles"], one["wear_um"]) == (
+            other["specimen"],
+            other["cycles"],
+            other["wear_um"],
+        )
         assert float(one["load_N"]) == pytest.approx(float(other["load_g"]) * 9.80665e-3, rel=1e-3)
+
+
+def test_page_has_all_columns_laws_and_constants():
+    page = (SHIPPED.parents[2] / "docs" / "judge.md").read_text("utf-8")
+    readings = [
+        WearReading("a", n, n, load=n, environment=name, t_gamma=n, speed=n)
+        for n, name in ((1, "dry"), (2, "wet"))
+    ]
+    laws = laws_for(wear_series(readings, "h", "um", relubrication_noted=True))
+    names = {law.name for law in laws if "load power" not in law.name}
+    assert len(names) == 10
+    assert [name for name in names if f"| {name} |" not in page] == []
+    constants = {one for law in laws for one in law.parameters if one.name != "wet over dry"}
+    shown = {f"`{one.name}`": f"{one.low:g} to {one.high:g}" for one in constants}
+    assert [
+        name for name, ends in shown.items() if name not in page or ends not in page.split(name)[1][:60]
+    ] == []
+    assert [name for name in COLUMNS if f"`{name}`" not in page] == []
 
 
 @pytest.mark.parametrize(

@@ -128,7 +128,9 @@ def judged(request: pytest.FixtureRequest) -> Callable[..., Judgement]:
                         "coverage_90": one.coverage_90,
                         "median_error": one.median_error,
                         "tied": one.tied,
-                        "constants": [[c.name, c.low, c.middle, c.high] for c in (*one.constants, *one.deviations)],
+                        "constants": [
+                            [c.name, c.low, c.middle, c.high] for c in (*one.constants, *one.deviations)
+                        ],
                     }
                     for one in found.laws
                 ],

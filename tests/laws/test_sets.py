@@ -19,8 +19,8 @@ def test_metal_later(series_of, judged):
     Archard's law and an exponential running-in are far behind: the wear never settles to a rate.
 
     Specimens wander. With a factor that stays, the band of 90 % holds too few readings; with one
-    that wanders it holds what it should, within what 12 specimens can tell. That is where the bands
-    of V1 on the page of [measured](measured.md) are too narrow.
+    that wanders it holds 30 or 31 of 36, within what 12 specimens can tell: just enough
+    for the rows of V1 on the page of [measured](measured.md), where the factor that stays fails.
     """
     data = series_of("metal", lambda one: one.exposure > 50)
     split = "readings up to 50 cycles; those at 100, 200 and 500"
@@ -29,7 +29,8 @@ def test_metal_later(series_of, judged):
     assert constant(found, "powers", "exposure_exponent") == pytest.approx(0.19, abs=0.01)
     assert constant(found, "powers", "load_exponent") == pytest.approx(0.65, abs=0.02)
     stays = next(one for one in found.laws if (one.law, one.scatter) == ("powers", "factor"))
-    assert stays.coverage_90 < found.best.coverage_90
+    assert stays.coverage_90 < 0.8
+    assert round(36 * found.simplest.coverage_90) in (30, 31)
 
 
 def test_metal_load(series_of, judged):
@@ -69,7 +70,7 @@ def test_commuter_rain(series_of, judged):
     split = "early readings and the first rain; the rest of Miche"
     found = judged(split, data, "Archard", True, behind=("none",))
     assert found.best.law == "environment"
-    assert constant(found, "environment", "environment_1") == pytest.approx(3.0, abs=0.6)
+    assert constant(found, "environment", "rain over mixed") == pytest.approx(3.0, abs=0.6)
 
 
 def test_single_chains(series_of, judged):

@@ -173,7 +173,9 @@ def study_columns():
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
     yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one])
     yield from drive_columns(select(DriveRequirements(3.0, 120.0, 2.7, 15_000.0))[0])
-    judgement = judge_series(read_series(cases / "studies" / "metal-wear.csv"), 100, lambda law, _: law == "powers")
+    judgement = judge_series(
+        read_series(cases / "studies" / "metal-wear.csv"), 100, lambda law, _: law == "powers"
+    )
     yield from SERIES_COLUMNS
     for table in (laws_table, constants_table, forecasts_table):
         yield from table(judgement)

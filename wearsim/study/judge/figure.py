@@ -54,9 +54,7 @@ def _forecast(panel: Axes, found: Judgement, own: NDArray[np.bool_], colour: str
     held, known = own & data.held_out, np.flatnonzero(own & data.fitted)
     before = known[-1:][data.exposure[known[-1:]] < data.exposure[held].min(initial=np.inf)]
     exposure = np.concatenate([data.exposure[before], data.exposure[held]]) * data.longest
-    low, _, middle, _, high = (
-        np.concatenate([data.wear[before], band[held]]) for band in found.best.bands
-    )
+    low, _, middle, _, high = (np.concatenate([data.wear[before], band[held]]) for band in found.best.bands)
     if exposure.size > 1:
         panel.fill_between(exposure, low, high, color=colour, alpha=0.12, linewidth=0)
         panel.plot(exposure, middle, color=colour, linewidth=1.0)

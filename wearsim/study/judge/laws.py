@@ -64,7 +64,7 @@ def _grows(data: WearSeries) -> bool:
 
 
 def _has_history(data: WearSeries) -> bool:
-    return data.slots.shape[1] > 1
+    return bool(data.slots.shape[1] > 1)
 
 
 def _steady(values: Values, data: WearSeries) -> Vector:
@@ -103,10 +103,14 @@ def _faded(age: Vector, values: Values) -> Vector:
 
 
 def _environment(values: Values, data: WearSeries) -> Vector:
-    first = np.ones_like(values["environment_1"])
-    factors = [values[f"environment_{i}"] for i in range(1, len(data.environments))]
-    factor = np.concatenate([first, *factors], axis=1)[:, data.environment]
+    factors = [values[name] for name in _factor_names(data)]
+    factor = np.concatenate([np.ones_like(factors[0]), *factors], axis=1)[:, data.environment]
     return data.summed(factor * (data.exposure - data.start))
+
+
+def _factor_names(data: WearSeries) -> list[str]:
+    first, *others = data.environments
+    return [f"{other} over {first}" for other in others]
 
 
 def t_gamma_rate(t_gamma: Vector) -> Vector:
@@ -156,17 +160,15 @@ def _load_varies(data: WearSeries) -> bool:
 
 def laws_for(data: WearSeries) -> list[WearLaw]:
     """Return the laws that apply to readings."""
-    factors = tuple(
-        LawParameter(f"environment_{i}", 0.1, 100.0) for i in range(1, len(data.environments))
-    )
+    factors = tuple(LawParameter(name, 0.1, 100.0) for name in _factor_names(data))
     steady: tuple[LawParameter, ...] = ()
     clocks = [
         ("", "s", steady, _steady, _always),
         ("cycle power", "s^b", (_EXPONENT,), _power, _grows),
         ("running-in", "(s + (f - 1) s_r (1 - exp(-s/s_r)))", _RUN_IN, _running_in, _has_history),
         ("offset", "(s_0 + s)", (_OFFSET,), _offset, _has_history),
-        ("lubricant age", "int 1 + (R - 1) F((a - s_L)/w) ds", _AGE, _lubricant_age, _noted),
-        ("environment", "int phi ds", factors, _environment, _several_environments),
+        ("lubricant age", "(integral of 1 + (R - 1) F((a - s_L)/w))", _AGE, _lubricant_age, _noted),
+        ("environment", "(sum of phi s)", factors, _environment, _several_environments),
     ]
     laws = [WearLaw("none", "k", (), _always, _nothing, None)]
     for name, formula, parameters, clock, applies in clocks:

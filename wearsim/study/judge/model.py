@@ -11,14 +11,7 @@ from scipy.special import stdtrit
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.laws import LawParameter, WearLaw, laws_for, ln_shape
 from wearsim.study.judge.sampler import draws
-from wearsim.study.judge.scatter import (
-    Forecasts,
-    Scatter,
-    drawn_again,
-    forecasts,
-    log_scores,
-    quantiles,
-)
+from wearsim.study.judge.scatter import Forecasts, Scatter, drawn_again, forecasts, log_scores, quantiles
 from wearsim.study.judge.wear_series import WearSeries
 
 PARTICLES = 1000
@@ -142,9 +135,7 @@ def judge_series(
         The laws, ordered by score.
     """
     scatters = SCATTERS if _has_walk(data) else SCATTERS[:1]
-    pairs = [
-        (law, scatter) for law in laws_for(data) for scatter in scatters if wanted(law.name, scatter)
-    ]
+    pairs = [(law, scatter) for law in laws_for(data) for scatter in scatters if wanted(law.name, scatter)]
     found = []
     for number, (law, scatter) in enumerate(pairs, start=1):
         found.append(_Candidate(law, scatter, data).judged(particles))
@@ -255,9 +246,7 @@ class _Candidate:
 
 
 def _of_batch(found: Forecasts, part: NDArray[np.intp]) -> Forecasts:
-    return Forecasts(
-        found.mean[part], found.variance[part], found.shared[part], found.log_likelihood[part]
-    )
+    return Forecasts(found.mean[part], found.variance[part], found.shared[part], found.log_likelihood[part])
 
 
 def _moved(one: LawParameter, value: float) -> float:

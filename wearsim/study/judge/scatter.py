@@ -8,6 +8,7 @@ all; it stays ("factor"), or wanders with variance `sd_walk`^2 per unit of ln(ex
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import log_ndtr, ndtr
 
 from wearsim.geometry.profile_points import Vector
@@ -28,12 +29,12 @@ class Scatter:
 
 @dataclass(frozen=True, eq=False)
 class Forecasts:
-    """Normal distributions of ln(wear) of every reading, shape (k, n), and the likelihood of the fitted ones."""
+    """Normal distributions of ln(wear) of every reading, shape (k, n), and likelihoods."""
 
     mean: Vector  # given the earlier fitted readings of the series
     variance: Vector
     shared: Vector  # part of the variance that readings of a series have in common
-    log_likelihood: Vector  # shape (k,)
+    log_likelihood: Vector  # of the fitted readings, shape (k,)
 
 
 def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
@@ -84,7 +85,7 @@ def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
     return Forecasts(mean.T, (shared + own).T, shared.T, total)
 
 
-def _read(off: Vector, size: Vector, sign: Vector) -> tuple[Vector, Vector, Vector]:
+def _read(off: Vector, size: Vector, sign: NDArray[np.intp]) -> tuple[Vector, Vector, Vector]:
     """Return log likelihood of readings, and mean and variance of ln(wear) about its forecast after them."""
     exact = -0.5 * (_LN_2PI + np.log(size) + off**2 / size)
     if not sign.any():
@@ -128,4 +129,4 @@ def quantiles(found: Forecasts, share: float) -> Vector:
         middle = 0.5 * (low + high)
         below = probabilities(found, middle) < share
         low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return np.exp(0.5 * (low + high))
+    return np.asarray(np.exp(0.5 * (low + high)))

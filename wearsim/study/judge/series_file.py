@@ -108,16 +108,22 @@ def _cell_faults(texts: dict[str, str], exposure: str, wear: str) -> list[tuple[
         if text is None or (optional and text == ""):
             continue
         if not _LEAST <= _number(text) <= _MOST and not (optional and _number(text) == 0.0):
-            hint = "leave out what the gauge cannot tell, or set censored = below" if column == wear else "correct it"
+            hint = (
+                "leave out what the gauge cannot tell, or set censored = below"
+                if column == wear
+                else "correct it"
+            )
             found.append((column, f"must be a number above 0 and at most {_MOST:g} (got {text!r}): {hint}"))
     if texts.get("censored", "") not in _CENSORED:
         got = texts["censored"]
         found.append(("censored", f"must be above, below or empty (got {got!r}): correct it"))
     if texts.get("environment") == "":
         found.append(("environment", "must be named in every row (got ''): name it"))
-    for column in YES_OR_NO:
-        if texts.get(column, "0") not in ("0", "1"):
-            found.append((column, f"must be 0 or 1 (got {texts[column]!r}): correct it"))
+    found += [
+        (column, f"must be 0 or 1 (got {texts[column]!r}): correct it")
+        for column in YES_OR_NO
+        if texts.get(column, "0") not in ("0", "1")
+    ]
     return found
 
 

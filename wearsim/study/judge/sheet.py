@@ -22,15 +22,15 @@ ASSUMPTIONS = (
 
 def judgement_text(found: Judgement) -> str:
     """Return the answer as ``wearsim judge`` prints it."""
-    data, constants = found.data, found.simplest.constants
+    data, taken = found.data, found.simplest
     held = int(data.held_out.sum())
     rows = [
         ("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
         ("Best law", _described(found.best)),
         ("As good", ", ".join(found.ties[1:]) or "none: the readings tell it from all others"),
-        ("Take", f"{_described(found.simplest)}, the simplest of them"),
-        *([("Constants", "; ".join(map(_constant, constants)))] if constants else []),
-        ("Scatter", "; ".join(map(_constant, found.simplest.deviations)) + ", of ln(wear)"),
+        *([("Take", f"{_described(taken)}, the simplest of them")] if taken is not found.best else []),
+        *([("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
+        ("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         ("Verdict", verdict(found)),
     ]
     return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
@@ -116,7 +116,12 @@ _NUMBERS = ("score", "behind", "behind_error", "coverage_50", "coverage_90", "me
 def laws_table(found: Judgement) -> pd.DataFrame:
     """Return a row for each law and kind of scatter."""
     return pd.DataFrame(
-        {"law": one.law, "scatter": one.scatter, **{name: getattr(one, name) for name in _NUMBERS}, "tied": one.tied}
+        {
+            "law": one.law,
+            "scatter": one.scatter,
+            **{name: getattr(one, name) for name in _NUMBERS},
+            "tied": one.tied,
+        }
         for one in found.laws
     )
 
@@ -124,7 +129,9 @@ def laws_table(found: Judgement) -> pd.DataFrame:
 def constants_table(found: Judgement) -> pd.DataFrame:
     """Return the constants of all laws."""
     return pd.DataFrame(
-        {"law": one.law, "scatter": one.scatter, **vars(constant)} for one in found.laws for constant in (*one.constants, *one.deviations)
+        {"law": one.law, "scatter": one.scatter, **vars(constant)}
+        for one in found.laws
+        for constant in (*one.constants, *one.deviations)
     )
 
 
