@@ -61,13 +61,14 @@ def composite() -> tuple[list[WearReading], str, str]:
 
 
 def twin_disc() -> tuple[list[WearReading], str, str]:
-    """Wear in a metre rolled, a series for each slip; exposure is the way slid in it."""
+    """Wear in a metre rolled, a series for each slip."""
     rows = table("twin_disc").itertuples()
     found = [
         WearReading(
             f"{r.slip_percent} %",
-            0.01 * r.slip_percent,
+            1.0,
             float(np.where(r.x_N_per_mm2 < 10.4, 5.3 * r.x_N_per_mm2, 55.0)),
+            slip=0.01 * r.slip_percent,
             t_gamma=r.x_N_per_mm2,
         )
         for r in rows

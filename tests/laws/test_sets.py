@@ -142,9 +142,9 @@ def test_twin_disc(series_of, judged):
     """V9: twin discs
 
     The published law from mild to severe, its scale fitted to slips of 0.2, 0.5 and 1 %, foretells
-    3, 7.5 and 10 %. It must: **the data are that law**, no points were seen. That the way slid alone
-    (Archard) or a power of it does not lead there is all that this table shows.
+    3, 7.5 and 10 %. It must: **the data are that law**, no points were seen. That the way slid (Archard)
+    does not lead there is all that this table shows.
     """
-    data = series_of("twin_disc", lambda one: one.exposure > 0.011)
+    data = series_of("twin_disc", lambda one: one.slip > 0.011)
     found = judged("slips up to 1 %; 3, 7.5 and 10 %", data, "T-gamma", True, behind=("Archard", "none"))
     assert found.best.median_error < 0.01

@@ -39,7 +39,7 @@ class WearLaw:
     parameters: tuple[LawParameter, ...]
     applies: Callable[[WearSeries], bool]
     clock: Callable[[Values, WearSeries], Vector]  # amount of wear at a load of 1, shape (k, n)
-    load_power: bool | None = False  # load to a fitted power, to the power 1, or none of it
+    load_power: bool | None = False  # load to a fitted power, to the power 1, or neither load nor slip
 
 
 def ln_shape(law: WearLaw, values: Values, data: WearSeries) -> Vector:
@@ -48,7 +48,7 @@ def ln_shape(law: WearLaw, values: Values, data: WearSeries) -> Vector:
     if law.load_power is None:
         return worn
     power = values["load_exponent"] if law.load_power else 1.0
-    return np.asarray(worn + power * np.log(data.load))
+    return np.asarray(worn + power * np.log(data.load) + np.log(data.slip))
 
 
 def _varies(column: Vector) -> bool:
@@ -129,7 +129,7 @@ def t_gamma_rate(t_gamma: Vector) -> Vector:
 
 
 def _t_gamma(values: Values, data: WearSeries) -> Vector:
-    return t_gamma_rate(data.t_gamma)[None, :]
+    return (t_gamma_rate(data.t_gamma) * data.exposure)[None, :]
 
 
 def _pv(values: Values, data: WearSeries) -> Vector:
@@ -177,8 +177,8 @@ def laws_for(data: WearSeries) -> list[WearLaw]:
         both = "powers" if clock is _power else f"{name}, load power".removeprefix(", ")
         laws.append(WearLaw(both, f"k P^a {formula}", with_load, _with_load(applies), clock, True))
     laws += [
-        WearLaw("T-gamma", "k, mild to severe by T gamma/A", (), _has_t_gamma, _t_gamma, None),
-        WearLaw("p v", "k P s, times c beyond a p v", _PV, _has_speed, _pv),
+        WearLaw("T-gamma", "k s g(T gamma/A)", (), _has_t_gamma, _t_gamma, None),
+        WearLaw("p v", "k P s, times c beyond some p v", _PV, _has_speed, _pv),
     ]
     return [law for law in laws if law.applies(data)]
 

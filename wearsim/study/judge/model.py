@@ -27,6 +27,8 @@ _LEVEL_SD = 1.5
 _ENDS_SD = 1.96
 _LEAST_SERIES = 3
 _ONE_SIGMA = 0.8413447
+"""Part of a normal distribution below one standard deviation."""
+
 _NO_DIFFERENCE = 0.05
 """Of scores: a density higher by a twentieth is nothing to choose by."""
 

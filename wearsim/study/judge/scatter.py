@@ -15,6 +15,9 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.wear_series import WearSeries
 
 _SEED = 21
+_LEAST = -50.0
+"""Logarithm of wear that no gauge tells from none."""
+
 _LN_2PI = float(np.log(2.0 * np.pi))
 
 
@@ -62,7 +65,7 @@ def forecasts(ln_law: Vector, scatter: Scatter, data: WearSeries) -> Forecasts:
     law = np.ascontiguousarray(ln_law.T)
     own = np.broadcast_to(scatter.reading.T**2, law.shape)
     if data.error.any():
-        own = own + (data.error[:, None] * np.exp(-law)) ** 2
+        own = own + (data.error[:, None] * np.exp(-np.maximum(law, _LEAST))) ** 2
     mean, shared = np.empty_like(law), np.empty_like(law)
     shape = len(data.names), law.shape[1]
     state, spread = np.zeros(shape), np.broadcast_to(scatter.series.T**2, shape).copy()

@@ -12,13 +12,13 @@ from wearsim.study.judge.wear_series import WearReading, WearSeries, wear_series
 
 EXPOSURES = {"cycles": "cycles", "time_hours": "h", "distance_km": "km", "distance_m": "m"}
 WEARS = {"wear_um": "um", "wear_mm": "mm", "wear_mg": "mg", "elongation_percent": "%"}
-NUMBERS = ("load_N", "reading_error", "t_gamma_N_per_mm2", "speed_m_per_s")
+NUMBERS = ("load_N", "slip_percent", "reading_error", "t_gamma_N_per_mm2", "speed_m_per_s")
 YES_OR_NO = ("relubricated", "held_out")
 COLUMNS = ("series", *EXPOSURES, *WEARS, *NUMBERS, "censored", "environment", *YES_OR_NO)
 """Columns of the table; of the exposures and of the wears one each."""
 
 _CENSORED = {"": 0, "above": 1, "below": -1}
-_LEAST, _MOST, _MOST_ROWS = 1e-12, 1e12, 5000
+_LEAST, _MOST, _MOST_ROWS = 1e-12, 1e12, 2000
 _LEAST_FITTED = 3
 
 
@@ -141,6 +141,7 @@ def _reading(texts: dict[str, str], exposure: str, wear: str) -> WearReading:
         exposure=float(texts[exposure]),
         wear=float(texts[wear]),
         load=float(texts.get("load_N", "1")),
+        slip=0.01 * float(texts.get("slip_percent", "100")),
         error=float(texts.get("reading_error") or "0"),
         censored=_CENSORED[texts.get("censored", "")],
         environment=texts.get("environment", ""),

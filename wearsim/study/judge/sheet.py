@@ -9,14 +9,13 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
-from wearsim.report.text_lines import row
+from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
 ASSUMPTIONS = (
-    "wear is log-normal about a law: a factor that stays with the series or wanders (walk), and one for "
-    "each reading",
-    "constants are fitted by sequential Monte Carlo, and their uncertainty is in the bands",
-    "before any reading each constant is expected within the range of docs/judge.md (95 %)",
+    "wear is log-normal about a law, by a factor of the series and one of the reading",
+    "bands hold the uncertainty of the constants, by sequential Monte Carlo",
+    "before any reading each constant is expected within the range that docs/judge.md names",
 )
 
 
@@ -32,6 +31,7 @@ def judgement_text(found: Judgement) -> str:
         *([("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
         ("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         ("Verdict", verdict(found)),
+        ("Assumes", numbered_assumptions(ASSUMPTIONS)),
     ]
     return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
 
@@ -119,7 +119,7 @@ def laws_table(found: Judgement) -> pd.DataFrame:
         {
             "law": one.law,
             "scatter": one.scatter,
-            **{name: getattr(one, name) for name in _NUMBERS},
+            **{name: plain(getattr(one, name)) for name in _NUMBERS},
             "tied": one.tied,
         }
         for one in found.laws

@@ -18,6 +18,7 @@ class WearReading:
     exposure: float  # since it was new, above 0: cycles, hours or a distance
     wear: float  # since it was new, above 0
     load: float = 1.0  # on it
+    slip: float = 1.0  # way slid over the exposure, the same along a series
     error: float = 0.0  # standard deviation of the gauge, in the unit of the wear
     censored: int = 0  # 1 where the wear is above the reading, -1 where it is below, else 0
     environment: str = ""  # since the reading before
@@ -39,6 +40,7 @@ class WearSeries:
     longest: float  # longest exposure [exposure unit]
     wear: Vector  # [wear unit]
     load: Vector  # in parts of the geometric mean
+    slip: Vector  # way slid over the exposure
     error: Vector  # of the gauge [wear unit]
     censored: NDArray[np.intp]  # 1 above, -1 below, 0 read
     environments: tuple[str, ...]  # in the order of their first readings
@@ -98,6 +100,7 @@ def wear_series(
         longest=longest,
         wear=np.array([one.wear for one in rows]),
         load=load / np.exp(np.log(load).mean()),
+        slip=np.array([one.slip for one in rows]),
         error=np.array([one.error for one in rows]),
         censored=np.array([one.censored for one in rows]),
         environments=environments,
