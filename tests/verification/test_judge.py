@@ -184,7 +184,7 @@ KNOWN = {
         lambda s, p: (
             p * (s + 14.0 * np.where(s > 4.0, np.where(s < 7.0, (s - 4.0) ** 2 / 6.0, s - 5.5), 0.0))
         ),
-        {"relubricated": [False] * 6},
+        {"relubricated": [False] * 6, "held_out": lambda s, load: s > 12.0},
     ),
     "environment": (
         lambda s, p: p * np.cumsum(PHASES * np.where(WET, 8.0, 1.0)),
