@@ -116,7 +116,7 @@ def test_lubricant_age_is_the_integral_of_its_ramp():
     readings = [
         WearReading("a", 2.0, 1.0),
         WearReading("a", 5.0, 1.0, relubricated=True),
-        WearReading("a", 10.0, 1.0),
+        WearReading("a", 15.0, 1.0),
     ]
     data = wear_series(readings, "h", "um")
 
@@ -124,8 +124,9 @@ def test_lubricant_age_is_the_integral_of_its_ramp():
         ramp = lambda s: 1.0 + 9.0 * np.clip((s - 3.0) / 4.0, 0.0, 1.0)  # noqa: E731
         return quad(ramp, 0.0, hours, points=[3.0, 7.0] if hours > 7 else None)[0]
 
-    found = 10.0 * shape(data, "lubricant age", {"dry_factor_less_1": 9.0, "lasts": 0.3, "fades_over": 0.4})
-    assert found == pytest.approx([2.0, worn(5.0), worn(5.0) + worn(5.0)])
+    constants = {"dry_factor_less_1": 9.0, "lasts": 3.0 / 15.0, "fades_over": 4.0 / 15.0}
+    found = 15.0 * shape(data, "lubricant age", constants)
+    assert found == pytest.approx([2.0, worn(5.0), worn(5.0) + worn(10.0)])
 
 
 def test_running_in_is_the_integral_of_its_coefficient():
