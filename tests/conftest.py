@@ -11,7 +11,7 @@ import pytest
 from wearsim.input.faults import known_keys
 
 DOCS = Path(__file__).parents[1] / "docs"
-PAGES = {"validated": "validation_page", "measured": "measured_page"}
+PAGES = {"validated": "validation_page", "measured": "measured_page", "judged": "laws_page"}
 """Name of a row that a test hands over, and the option and writer of its page."""
 
 
@@ -25,6 +25,9 @@ def pytest_addoption(parser):
         "--measured-page",
         metavar="FILE",
         help="write docs/measured.md to FILE from the rows of tests/validation",
+    )
+    parser.addoption(
+        "--laws-page", metavar="FILE", help="write docs/laws.md to FILE from the tables of tests/laws"
     )
 
 

@@ -20,7 +20,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = (
     *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),
     "howto_lubrication",
-    *("howto_measured_sprocket", "python"),
+    *("howto_measured_sprocket", "judge", "python"),
 )
 LINKS = [
     (page, link)

@@ -33,6 +33,10 @@ from wearsim.runner.shard import COLUMNS
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import OPTIONAL, REQUIRED
 from wearsim.study.calibrate.sheet import readings_table, values_table
+from wearsim.study.judge.model import judge_series
+from wearsim.study.judge.series_file import COLUMNS as SERIES_COLUMNS
+from wearsim.study.judge.series_file import read_series
+from wearsim.study.judge.sheet import constants_table, forecasts_table, laws_table
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
@@ -173,6 +177,12 @@ def study_columns():
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
     yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one])
     yield from drive_columns(select(DriveRequirements(3.0, 120.0, 2.7, 15_000.0))[0])
+    judgement = judge_series(
+        read_series(cases / "studies" / "metal-wear.csv"), 100, lambda law, _: law == "powers"
+    )
+    yield from SERIES_COLUMNS
+    for table in (laws_table, constants_table, forecasts_table):
+        yield from table(judgement)
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 

@@ -14,6 +14,10 @@ knows no age of the lubricant, so its late curve stays straight. And a run-in of
 is above the 0.1 % of the industrial guide: the two sources differ, and the engine follows the one
 it was calibrated on.
 
+The row of the *age of the lubricant* is no engine's: the coefficient of a chain that is not oiled again
+rises to 13 times from 2000 to 2500 km (where is assumed), the law that `wearsim judge` fits. The
+knee follows from what was put in; that a knee comes, and upward, is all that it shows.
+
 It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that
 the order of oiled and degreased is right follows from the coefficients put in. That it runs in by
 conforming, as joints do, is not in the engine.
@@ -23,6 +27,8 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.study.judge.laws import laws_for, ln_shape
+from wearsim.study.judge.wear_series import WearReading, wear_series
 
 CASE = "bicycle-17t-road"
 KM_PER_HOUR = 33.0
@@ -154,4 +160,19 @@ def test_knee_without_oil(oiled, measured):
         "a knee upward",
         ("above", 1.05),
         "failed",
+    )
+
+
+def test_knee_by_age_of_the_lubricant(figures, measured):
+    marks = [WearReading("chain", km, 1.0) for km in (500.0, 1000.0, 2000.0, 2500.0)]
+    data = wear_series(marks, "km", "mm", relubrication_noted=True)
+    (law,) = [one for one in laws_for(data) if one.name == "lubricant age"]
+    keys = {"dry_factor_less_1": figures.dry_over_oiled - 1.0, "lasts": 2000 / 2500, "fades_over": 500 / 2500}
+    worn = np.exp(ln_shape(law, {name: np.array([[value]]) for name, value in keys.items()}, data))[0]
+    measured(
+        "age of the lubricant, not the engine: last rate over the one before",
+        (worn[3] - worn[2]) / (worn[1] - worn[0]),
+        "a knee upward",
+        ("above", 1.05),
+        "passed",
     )

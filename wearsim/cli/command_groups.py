@@ -26,6 +26,7 @@ from wearsim.handbook.strength.command import strength
 from wearsim.handbook.synthesise.command import synthesise
 from wearsim.handbook.wave_drive.command import wave_drive
 from wearsim.study.calibrate.command import calibrate
+from wearsim.study.judge.command import judge
 from wearsim.study.lubricate.command import lubricate
 from wearsim.study.maintain.command import maintain
 from wearsim.study.optimise.command import optimise
@@ -54,6 +55,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         lubricate: "wearsim lubricate bicycle-17t-lubricants",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
         calibrate: "wearsim calibrate drive.toml readings.csv",
+        judge: "wearsim judge readings.csv",
     },
     "Studies": {
         sweep: "wearsim sweep teeth-and-tension",

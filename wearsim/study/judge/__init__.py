@@ -1,0 +1,1 @@
+"""Which law of wear readings follow: fitted to one part of them, judged by the rest."""
