@@ -43,7 +43,7 @@ _COLUMNS: dict[str, dict[str, str]] = {
         "joint_typical_mm2_per_N": "typical",
         "joint_high_mm2_per_N": "high",
     },
-    "wear-laws": {"law": "law", "kind": "kind", "formula": "formula", "keys": "keys of [wear]"},
+    "wear-laws": {"law": "law", "kind": "kind", "formula": "formula", "keys": "keys"},
     "cases": {"name": "name", "command": "command", "title": "title"},
     "quantities": {"name": "name", "symbol": "symbol", "unit": "unit", "meaning": "meaning"},
 }
