@@ -140,9 +140,9 @@ class WearLawEntry:
     """A row of the registry of wear laws, and of what multiplies their coefficient."""
 
     name: str  # as in the table
-    kind: str  # `law`, of which a case has one, or `factor`, of which it may have several
+    kind: str  # `law`, of which a case has one, `factor`, of which it may have several, or `told`: no wear
     formula: str  # in plain text; I is the depth of one cycle
-    keys: tuple[str, ...]  # keys of [wear] that it needs
+    keys: tuple[str, ...]  # keys that it needs, those of laws and factors in [wear]
     valid: str  # range in which it holds
     source: str  # where it comes from
     not_for: str  # what it must not be used for

@@ -58,7 +58,7 @@ _COLUMNS: dict[str, dict[str, str]] = {
         "high": "high",
         "ageing_factor": "ageing",
     },
-    "wear-laws": {"law": "law", "kind": "kind", "formula": "formula", "keys": "keys of [wear]"},
+    "wear-laws": {"law": "law", "kind": "kind", "formula": "formula", "keys": "keys"},
     "cases": {"name": "name", "command": "command", "title": "title"},
     "quantities": {"name": "name", "symbol": "symbol", "unit": "unit", "meaning": "meaning"},
 }
