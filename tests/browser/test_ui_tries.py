@@ -123,6 +123,13 @@ def test_sliders_change_the_input_and_follow_it(watched, serve):
     assert watched.said == []
 
 
+def test_no_field_is_wider_than_its_panel(watched, serve):
+    page = opened(watched, serve(STRAND))
+    edge = "parts => Math.max(...parts.map(part => part.getBoundingClientRect().right))"
+    fields = page.locator(".ws-field").evaluate_all(edge)
+    assert fields <= page.locator(".ws-input").evaluate_all(edge)
+
+
 def test_an_example_begins_a_file_of_ones_own(watched, serve, tmp_path):
     server = serve(STRAND)
     page = opened(watched, server)

@@ -7,7 +7,7 @@ chain meets and leaves a sprocket; its drive has a ring of 44 teeth at 75 rpm, 1
 slack span (all assumed) and 0.11, its default for a joint.
 
 Predicts the order: more is lost with fewer teeth and, in parts, with less power. Losses within a
-factor of 2 were allowed.
+factor of 2 were allowed; this factor was set when figures of other drives were known, not before.
 
 What fails: the size. The friction of joints is a quarter to a third of the loss at 200 W, and less
 of it at lower power, where most of the loss does not grow with the pull: derailleur, side plates

@@ -65,8 +65,8 @@ def assumption_list(stated: Sequence[str], defaults: Sequence[str]) -> None:
 def used_part(name: str, used: float, text: str) -> ui.element:
     """Add how much of a limit is used, in words and as a meter; return what holds both."""
     with ui.element("dd") as place:
-        meter = ui.element("meter").props("min=0 max=1 low=0.7 high=0.95 optimum=0")
-        meter.props["value"] = round(min(used, 1.0), 4)
+        meter = ui.element("meter").props("min=0 max=1.01 low=0.9 high=1 optimum=0")
+        meter.props["value"] = round(min(used, 1.01), 4)
         meter.props["aria-label"] = f"used part of {name}"
         ui.label(f"{text} ({100.0 * used:.0f} %)")
     return place
