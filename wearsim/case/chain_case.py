@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
+from wearsim.case.lubrication_input import lubrication_input, with_condition
 from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.table_inputs import contact_modulus_of, fatigue_input, run_input, take_defaults, wear_input
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
@@ -36,6 +37,7 @@ Builder = Callable[[ChainRecord, WearInput, Chain, GivenDuty | None], Drive | No
 def read_chain_case(document: Document, build: Builder, tolerance: float) -> Case:
     """Return the case of a drive with a chain, or raise all that is wrong with it."""
     data, faults = document.data, document.faults
+    with_condition(data)
     _check_load(data, faults)
     try:
         tables = CaseTables.model_validate(data)
@@ -67,6 +69,8 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
     more_limits = _more_limits(case, drive)
     run = run_input(case, tables.run, tolerance)
     fatigue = fatigue_input(case, tables.fatigue)
+    per_hour = tables.service.km_per_hour if tables.service else None
+    lubrication = lubrication_input(case, tables.lubrication, per_hour, tables.wear.condition)
     faults.check()
     assert drive is not None and duty is not None
     return Case(
@@ -89,6 +93,7 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
         given=document.given,
+        lubrication=lubrication,
     )
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from wearsim.case.input_lines import input_lines
+from wearsim.case.lubrication_input import LubricationInput
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
@@ -244,6 +245,8 @@ class Case:
         What was taken for granted, and what the user should look at.
     given : GivenInput or None
         What it was read from; None for one sprocket of a whole drive.
+    lubrication : LubricationInput or None
+        How it is lubricated; None where that stays as the wear coefficients say.
     """
 
     name: str
@@ -265,6 +268,7 @@ class Case:
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     given: GivenInput | None = None
+    lubrication: LubricationInput | None = None
 
     def __repr__(self) -> str:
         return one_line("Case", self.title, f"{len(self.assumptions)} assumptions", *self.warnings[:1])

@@ -106,6 +106,33 @@ class WearCondition:
     joint_typical: float  # specific wear rate of pin and bush together in that state [mm2/N]
     joint_high: float  # specific wear rate of pin and bush together in that state [mm2/N]
     joint_source: str  # where the numbers of the joints come from
+    machine: str  # what it is for: `any` machine, or one whose numbers are told apart
+
+
+@dataclass(frozen=True)
+class Lubricant:
+    """A way to lubricate a chain, and how long that lasts."""
+
+    lubricant: str  # as in the table
+    wear_condition: str  # row of the table of wear conditions that holds its wear rates
+    supply: str  # `applied` now and then, `continuous`, or `none`
+    lasts: float | None  # way of the joints on which it keeps its effect [m]; None where nothing is known
+    fades: float | None  # way on which it loses it then [m]
+    dry_factor: float | None  # coefficient of dry contacts over that of lubricated ones
+    contamination_removed: float | None  # part of what dirt adds that an application takes away
+    source: str  # where the numbers come from
+
+
+@dataclass(frozen=True)
+class Environment:
+    """What the surroundings multiply the wear of a lubricated chain by."""
+
+    environment: str  # as in the table
+    factor: float  # typical
+    low: float
+    high: float
+    ageing: float  # how many times as fast a lubricant ages there
+    source: str  # where the numbers come from
 
 
 @cache
@@ -265,8 +292,47 @@ def wear_conditions() -> dict[str, WearCondition]:
             float(row["joint_typical_mm2_per_N"]),
             float(row["joint_high_mm2_per_N"]),
             row["joint_source"],
+            row["machine"],
         )
         for row in catalogue_rows("wear_conditions")
+    }
+
+
+def _number(text: str) -> float | None:
+    return float(text) if text else None
+
+
+@cache
+def lubricants() -> dict[str, Lubricant]:
+    """Return the lubricants by name."""
+    return {
+        row["lubricant"]: Lubricant(
+            row["lubricant"],
+            row["wear_condition"],
+            row["supply"],
+            _number(row["lasts_sliding_m"]),
+            _number(row["fades_over_sliding_m"]),
+            _number(row["dry_factor"]),
+            _number(row["contamination_removed"]),
+            row["source"],
+        )
+        for row in catalogue_rows("lubricants")
+    }
+
+
+@cache
+def environments() -> dict[str, Environment]:
+    """Return the environments by name."""
+    return {
+        row["environment"]: Environment(
+            row["environment"],
+            float(row["contamination_factor"]),
+            float(row["low"]),
+            float(row["high"]),
+            float(row["ageing_factor"]),
+            row["source"],
+        )
+        for row in catalogue_rows("environments")
     }
 
 

@@ -15,11 +15,15 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
 
     That is so where by [uncertainty] only the wear coefficient scatters, every limit is one of the
     teeth (no wrap, whose chain wears by another coefficient), contact fatigue is not asked for,
-    and the coefficient does not change as the drive runs in: the percentile p of the life is
-    L k / k_(1-p).
+    and the coefficient does not change as the drive runs in or with the lubricant: the percentile p of
+    the life is L k / k_(1-p).
     """
     table = result.inputs.get("uncertainty") or {}
-    steady = not case.drive.wear_coefficients and case.wear.running_in_factor == 1.0
+    steady = (
+        not case.drive.wear_coefficients
+        and case.wear.running_in_factor == 1.0
+        and (case.lubrication is None or case.lubrication.steady)
+    )
     alone = list(table) == [coefficient_key(case)] and not result.fatigue
     if not alone or not steady or not isinstance(result.life, Life):
         return []
@@ -30,7 +34,13 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
 
 
 def check_steady_coefficient(case: Case, command: str) -> None:
-    """Raise where the wear of a case runs in."""
+    """Raise where the wear of a case runs in, or its lubricant changes."""
+    if case.lubrication is not None and not case.lubrication.steady:
+        message = (
+            f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or see "
+            "what relubrication does with wearsim lubricate"
+        )
+        raise CaseError([Fault(message, "lubrication", case.name)])
     if case.wear.running_in_factor != 1.0:
         message = (
             f"{command!r} scales lives, which holds for a constant coefficient only: remove "

@@ -84,7 +84,7 @@ class _FlankJob:
         if worn.horizon > horizon and (1.0 + task.life_tolerance) * worn.time > horizon:
             raise _AloneError
         steady = np.array([worn.time if worn.reached else horizon]) / coefficient
-        return _BatchRun(task, worn, float(task.running_in.running_cycles(steady)[0]))
+        return _BatchRun(task, worn, float(task.clock.running_cycles(steady)[0]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,7 @@ class _BatchRun:
     @property
     def own_error(self) -> float:
         missed = depth_missed(self.worn.x, self.worn.y, self.worn.depth)
-        return self.worn.change * self.task.running_in.amplification + missed
+        return self.worn.change * self.task.clock.amplification + missed
 
     def change(self, other: "_BatchRun") -> float:
         if self.worn.reached and other.worn.reached:

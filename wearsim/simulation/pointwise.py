@@ -67,7 +67,7 @@ def simulate_points(case: Case) -> WearResult:
         ratings=(),
         assumptions=(
             *mechanism.assumptions(),
-            *running_in_assumptions(task.running_in),
+            *running_in_assumptions(task.clock.running_in),
             *settled.assumptions(),
             *case.assumptions,
         ),
@@ -141,7 +141,7 @@ def _first_run(case: Case, contact: FlankContact, warnings: list[str]) -> tuple[
             f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
         )
     else:
-        expected = task.running_in.steady_cycles(float(check.cycles[-1]))
+        expected = task.clock.steady_cycles(float(check.cycles[-1]))
         check_length(contact, task.law, task.stop_limits, expected, cycles)
     run = task.run_in(run_per_cycle(contact, task.law, task.stop_limits, task.horizon, cycles))
     check_fold(contact, run)
@@ -204,9 +204,9 @@ def _band(
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
     if isinstance(life, Life):
-        steady = task.running_in.steady_cycles(life.cycles)
+        steady = task.clock.steady_cycles(life.cycles)
         factors = np.array([case.wear.high, case.wear.low])
-        low, high = task.running_in.running_cycles(steady / factors).tolist()
+        low, high = task.clock.running_cycles(steady / factors).tolist()
         return Life(low, low / case.cycles_per_hour), Life(high, high / case.cycles_per_hour)
     law = replace(task.law, coefficient=case.wear.high * task.law.coefficient)
     try:
@@ -214,8 +214,8 @@ def _band(
     except WearsimError as reason:
         # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
-        steady = task.running_in.steady_cycles(float(run.cycles[-1])) / case.wear.high
-        cycles = float(task.running_in.running_cycles(np.array([steady]))[0])
+        steady = task.clock.steady_cycles(float(run.cycles[-1])) / case.wear.high
+        cycles = float(task.clock.running_cycles(np.array([steady]))[0])
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
 

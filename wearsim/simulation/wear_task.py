@@ -12,8 +12,10 @@ from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import LimitState
+from wearsim.simulation.lubricant import lubricant_clock
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import RelativeLoad, WearLaw, archard, drozdov, equivalent_factor, power
+from wearsim.wear.lubricant_clock import WearClock
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 from wearsim.wear.trajectory import Trajectory
 
@@ -25,18 +27,18 @@ class WearTask:
     contact: FlankContact  # the flank and its contact
     law: WearLaw  # the wear law, for the mean over the duty
     stop_limits: tuple[StopLimit, ...]  # limits, the depth stop limit first
-    running_in: RunningIn  # between the cycles run and those of constant coefficient
+    clock: WearClock  # between the cycles run and those of constant coefficient
     horizon: float  # cycles of constant coefficient at which the run ends in any case
     life_tolerance: float  # relative tolerance of the life in such cycles
 
     def run(self) -> tuple[Trajectory, float]:
         """Wear the flank with step control."""
         run, change = run_advance(self.contact, self.law, self.stop_limits, self.horizon, self.life_tolerance)
-        return self.run_in(run), change * self.running_in.amplification
+        return self.run_in(run), change * self.clock.amplification
 
     def run_in(self, run: Trajectory) -> Trajectory:
         """Return a run over cycles of constant coefficient over the cycles run."""
-        return replace(run, cycles=self.running_in.running_cycles(run.cycles))
+        return replace(run, cycles=self.clock.running_cycles(run.cycles))
 
 
 def wear_task(case: Case, contact: FlankContact) -> WearTask:
@@ -52,15 +54,17 @@ def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask]:
 
 
 def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
-    runs_in = case.wear.running_in_factor != 1.0
-    running_in = case_running_in(case.wear, _sliding_per_cycle(case, contact) if runs_in else 0.0)
+    changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
+    sliding = _sliding_per_cycle(case, contact) if changes else 0.0
+    running_in = case_running_in(case.wear, sliding)
+    clock = WearClock(running_in, lubricant_clock(case, sliding))
     return WearTask(
         contact,
         replace(law, running_in=running_in),
         case.drive.stop_limits(case, contact),
-        running_in,
-        running_in.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
-        case.run.life_tolerance / running_in.amplification,
+        clock,
+        clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
+        case.run.life_tolerance / clock.amplification,
     )
 
 

@@ -16,13 +16,14 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
+from wearsim.simulation.lubricant import lubricant_clock
 from wearsim.simulation.wear_task import case_running_in, limit_states, running_in_assumptions, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
+from wearsim.wear.lubricant_clock import WearClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
-from wearsim.wear.running_in import RunningIn
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
 
@@ -46,14 +47,13 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     """
     drive = wrap_of(case)
     contact = drive.contact(case)
-    law, stop_limits, horizon = wrap_problem(case, contact)
-    running_in = law.running_in
+    law, stop_limits, horizon, clock = wrap_problem(case, contact)
     ratings = drive.ratings(case)
     warnings = [*case.warnings, *rating_warnings(ratings)]
-    run, error = _run(case, contact, law, stop_limits, horizon, warnings, progress)
+    run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
     warnings += _gave_up(run, horizon)
-    run = replace(run, cycles=running_in.running_cycles(run.cycles))
-    chain = _chain_life(case, contact, horizon, running_in)
+    run = replace(run, cycles=clock.running_cycles(run.cycles))
+    chain = _chain_life(case, contact, horizon, clock)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run, law)
@@ -64,8 +64,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         case=case.name,
         title=case.title,
         life=life,
-        life_low=_scaled(life, case.wear.high, case, running_in),
-        life_high=_scaled(life, case.wear.low, case, running_in),
+        life_low=_scaled(life, case.wear.high, case, clock),
+        life_high=_scaled(life, case.wear.low, case, clock),
         band=f"{case.wear.band}, of teeth and joints alike",
         stop=stop,
         stop_value=stop_value,
@@ -88,7 +88,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         parts=parts,
         limits=_limits(contact, drive, stop_limits, run, life),
         ratings=ratings,
-        assumptions=(*contact.assumptions(), *running_in_assumptions(running_in), *case.assumptions),
+        assumptions=(*contact.assumptions(), *running_in_assumptions(clock.running_in), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -98,12 +98,14 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     )
 
 
-def wrap_problem(case: Case, contact: WrapContact) -> tuple[WearLaw, tuple[StopLimit, ...], float]:
+def wrap_problem(case: Case, contact: WrapContact) -> tuple[WearLaw, tuple[StopLimit, ...], float, WearClock]:
     """Return what a wrap asks of the wear engine."""
     running_in = case_running_in(case.wear, contact.sliding_per_cycle)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=running_in)
     stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
-    return law, stop_limits, running_in.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    clock = WearClock(running_in, lubricant_clock(case, contact.joint_sliding_per_cycle))
+    horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
+    return law, stop_limits, horizon, clock
 
 
 def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
@@ -117,11 +119,12 @@ def _on_grid(
     law: WearLaw,
     stop_limits: tuple[StopLimit, ...],
     horizon: float,
+    clock: WearClock,
     life_tolerance: float,
     grid: RestingContact,
 ) -> Trajectory:
     run, _ = advance_resting(grid, law, stop_limits, horizon, life_tolerance)
-    return replace(run, cycles=law.running_in.running_cycles(run.cycles))
+    return replace(run, cycles=clock.running_cycles(run.cycles))
 
 
 def _run(
@@ -130,11 +133,12 @@ def _run(
     law: WearLaw,
     stop_limits: tuple[StopLimit, ...],
     horizon: float,
+    clock: WearClock,
     warnings: list[str],
     progress: Callable[[float], None],
 ) -> tuple[RestingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
-    amplification, tolerance = law.running_in.amplification, case.run.life_tolerance
+    amplification, tolerance = clock.amplification, case.run.life_tolerance
     by_cycles = case.run.method == "per_cycle"
     first = part_of(progress, 0.0, _ADVANCED) if by_cycles else progress
     run, error = advance_resting(
@@ -168,10 +172,10 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     ]
 
 
-def _chain_life(case: Case, contact: WrapContact, horizon: float, running_in: RunningIn) -> Life | LowerBound:
-    """Life of a chain: apart from running-in its joints wear at a constant rate."""
+def _chain_life(case: Case, contact: WrapContact, horizon: float, clock: WearClock) -> Life | LowerBound:
+    """Life of a chain: but for running-in and lubricant its joints wear at a constant rate."""
     cycles = contact.cycles_per_chain
-    run = float(running_in.running_cycles(np.array([min(cycles, horizon)]))[0])
+    run = float(clock.running_cycles(np.array([min(cycles, horizon)]))[0])
     return life_of(run, case.cycles_per_hour, cycles <= horizon)
 
 
@@ -190,10 +194,10 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def _scaled(life: Life | LowerBound, factor: float, case: Case, running_in: RunningIn) -> Life | LowerBound:
+def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
-    steady = running_in.steady_cycles(life.cycles_run)
-    scaled = running_in.running_cycles(np.array([steady / factor]))
+    steady = clock.steady_cycles(life.cycles_run)
+    scaled = clock.running_cycles(np.array([steady / factor]))
     return life_of(float(scaled[0]), case.cycles_per_hour, isinstance(life, Life))
 
 

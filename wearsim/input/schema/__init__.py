@@ -15,6 +15,7 @@ from wearsim.input.schema.drive_tables import (
     PlaceTable,
     SprocketTable,
 )
+from wearsim.input.schema.lubrication_tables import LubricationTable
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.input.schema.table import FormatVersion, Table
 from wearsim.input.schema.wear_tables import (
@@ -35,6 +36,7 @@ __all__ = [
     "DutyBlock",
     "JointTable",
     "LoadTable",
+    "LubricationTable",
     "MaintenanceTable",
     "MaterialTable",
     "MaterialsTable",
@@ -63,6 +65,7 @@ class CaseTables(Table):
     material: MaterialsTable = MaterialsTable()
     load: LoadTable = LoadTable()
     duty: list[DutyBlock] = Field(default_factory=list)
+    lubrication: LubricationTable | None = None
     wear: WearTable
     fatigue: SprocketFatigueTable | None = None
     stop: StopTable = StopTable()

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from wearsim.case.lubrication_input import lubrication_input
 from wearsim.case.model import Case
 from wearsim.case.table_inputs import (
     FLANK_NODES,
@@ -64,6 +65,8 @@ def read(document: Document) -> Case:
         limit = tables.stop.critical_depth_mm
         case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
     fatigue = fatigue_input(case, tables.fatigue)
+    lubrication = lubrication_input(case, tables.lubrication, None, None)
+    faults.check()
     return Case(
         name=document.name,
         title=tables.title or _title(tables.gear),
@@ -91,6 +94,7 @@ def read(document: Document) -> Case:
         assumptions=tuple(case.assumptions),
         warnings=tuple(case.warnings),
         given=document.given,
+        lubrication=lubrication,
     )
 
 

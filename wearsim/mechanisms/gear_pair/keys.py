@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from wearsim.input.schema.lubrication_tables import LubricationTable
 from wearsim.input.schema.study_tables import OptimiseTable, Uncertainty
 from wearsim.input.schema.table import CalculationTables, Table
 from wearsim.input.schema.wear_tables import (
@@ -177,6 +178,29 @@ class GearFatigueTable(FatigueTable):
     wheel: FlankMaterialTable
 
 
+class GearLubricationTable(LubricationTable):
+    """The lubricant of both flanks."""
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        rows = "the rows of the catalogue are those of chains: give"
+        chains = {
+            "lubricant": f"{rows} lasts_hours and dry_factor",
+            "environment": f"{rows} contamination_factor",
+            **dict.fromkeys(
+                ("interval_km", "at_km", "lasts_km", "fades_over_km"), "gears run no km: give hours"
+            ),
+        }
+        found = [(key, text) for key, text in chains.items() if getattr(self, key) is not None]
+        for number, phase in enumerate(self.phase, start=1):
+            found += [
+                (f"phase.{number}.{key}", chains[of])
+                for key, of in (("environment", "environment"), ("km", "at_km"))
+                if getattr(phase, key) is not None
+            ]
+        return found + super().conflicts()
+
+
 class GearTables(CalculationTables):
     """The whole file."""
 
@@ -185,6 +209,7 @@ class GearTables(CalculationTables):
     material: GearMaterialsTable = GearMaterialsTable()
     mechanism: GearMechanismTable = GearMechanismTable()
     load: GearLoadTable
+    lubrication: GearLubricationTable | None = None
     wear: GearWearTable
     fatigue: GearFatigueTable | None = None
     stop: GearStopTable

@@ -361,7 +361,10 @@ def _joint_rates(case: ChainRecord, given: float | None) -> tuple[float, float |
 
 def _warn_of_joint_rate(case: ChainRecord, state: WearCondition, given: float) -> None:
     """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
-    alike = [row for row in wear_conditions().values() if row.lubricated == state.lubricated]
+    of = {state.machine, "any"} if state.machine != "any" else {"any"}
+    alike = [
+        row for row in wear_conditions().values() if row.lubricated == state.lubricated and row.machine in of
+    ]
     low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
     if given <= high if state.lubricated else given >= low:
         return

@@ -287,6 +287,13 @@ class WrapDrive(Drive):
             same_link_kind=ToothMeetings(engaged, links).same_link_kind,
             elongation_per_cycle=per_loop * engaged / (links * self.time_share),
             elongation_limit=joint.elongation_limit,
+            joint_sliding_per_cycle=2.0
+            * math.pi
+            * self.chain.pin_diameter
+            * (1.0 + others)
+            / own
+            * engaged
+            / links,
             # Other sprockets wear the rollers too, by the same way over their own articulation.
             roller_area_ratio=case.wear.roller_ratio * engaged / links * (1.0 + others),
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),

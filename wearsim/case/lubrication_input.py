@@ -1,0 +1,322 @@
+"""How a case is lubricated: [lubrication] with its defaults taken and its contradictions named."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
+from wearsim.input.case_record import CaseRecord
+from wearsim.input.schema.lubrication_tables import (
+    FADES,
+    INTERVAL,
+    LASTS,
+    SCHEDULES,
+    LubricationPhase,
+    LubricationTable,
+)
+
+
+@dataclass(frozen=True)
+class RunningWay:
+    """A time that a drive runs, or how far its contacts slide meanwhile; the other is 0."""
+
+    hours: float = 0.0  # [h]
+    sliding: float = 0.0  # [mm]
+
+
+ENDLESS = RunningWay(math.inf)
+"""For ever."""
+
+
+@dataclass(frozen=True)
+class Dirt:
+    """What the surroundings do to the contacts."""
+
+    excess: float = 0.0  # what it adds to the factor 1 on the wear
+    ageing: float = 1.0  # how many times as fast a lubricant ages
+
+
+@dataclass(frozen=True)
+class PhaseInput:
+    """A part of a programme."""
+
+    hours: float  # how long it is [h]
+    dirt: Dirt
+    relubrications: int  # spread evenly, the first at its begin
+    contaminations: int  # spread evenly, in the middle of equal parts; none where dirt comes all the time
+
+
+@dataclass(frozen=True)
+class LubricationInput:
+    """The lubricant of all contacts as it was given."""
+
+    name: str = ""  # row of the catalogue of lubricants, if any
+    dry_factor: float = 1.0  # coefficient of dry contacts over that of lubricated ones
+    lasts: RunningWay = ENDLESS  # way on which the lubricant keeps its effect
+    fades: RunningWay = RunningWay()  # way on which it loses it then
+    completeness: float = 1.0  # part of its age that a relubrication takes away
+    dirt_removed: float = 1.0  # part of what dirt adds that a relubrication takes away
+    dirt: Dirt = Dirt()  # outside phases
+    interval: RunningWay | None = None  # between relubrications
+    at_hours: tuple[float, ...] = ()  # of relubrications [h]
+    threshold: float = math.inf  # factor on the wear at which contacts are relubricated
+    phases: tuple[PhaseInput, ...] = ()
+    minutes: float = 0.0  # of work for a relubrication
+    price: float = 0.0  # of what it takes
+
+    @property
+    def steady(self) -> bool:
+        """Whether the wear coefficients stay those of the case."""
+        return self.lasts is ENDLESS and not self.dirt.excess and not self.phases
+
+
+def with_condition(data: dict[str, object]) -> None:
+    """Let the lubricant name the wear condition of an input that gives no wear of its own."""
+    given, wear = data.get("lubrication"), data.get("wear", {})
+    if not isinstance(given, dict) or not isinstance(wear, dict):
+        return
+    row = lubricants().get(str(given.get("lubricant")))
+    own = {"condition", "law", "specific_wear_rate_mm2_per_N", "coefficient"}
+    if row is not None and not own & wear.keys():
+        data["wear"] = {"condition": row.wear_condition, **wear}
+
+
+def lubrication_input(
+    case: CaseRecord, table: LubricationTable | None, km_per_hour: float | None, condition: str | None
+) -> LubricationInput | None:
+    """Return how a case is lubricated; None where it says nothing about it."""
+    if table is None:
+        return None
+    row = lubricants()[table.lubricant] if table.lubricant else None
+    reader = _Reader(case, table, row, km_per_hour)
+    if row is not None:
+        _say_coefficients(case, row, condition)
+    return reader.input()
+
+
+def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -> None:
+    """Say which coefficients a lubricant gives, and warn of those that contradict it."""
+    if condition is None:
+        case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
+        return
+    if wear_conditions()[condition].lubricated == wear_conditions()[row.wear_condition].lubricated:
+        return
+    words = ("dry or contaminated", "lubricated")
+    case.warnings.append(
+        f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
+        f"contacts are {words[wear_conditions()[condition].lubricated]}, with this lubricant they are "
+        f"{words[wear_conditions()[row.wear_condition].lubricated]}: remove one of both"
+    )
+
+
+class _Reader:
+    """Completes a table of lubrication."""
+
+    def __init__(
+        self, case: CaseRecord, table: LubricationTable, row: Lubricant | None, km_per_hour: float | None
+    ) -> None:
+        self.case, self.table, self.row = case, table, row
+        self.km_per_hour = km_per_hour
+        self.run_hours = float(case.inputs.get("run", {}).get("horizon_hours", math.inf))
+
+    def input(self) -> LubricationInput:
+        """Return all of it."""
+        table = self.table
+        self._check_supply()
+        ages = self._ages()
+        dry_factor = self._value("dry_factor", 1.0, needed=ages)
+        dirt = self._dirt(table, "lubrication")
+        phases = tuple(self._phase(number, phase, dirt) for number, phase in enumerate(table.phase, start=1))
+        renewed = any(getattr(table, key) not in (None, []) for key in SCHEDULES)
+        dirty = any(of.excess > 0.0 for of in (dirt, *(phase.dirt for phase in phases)))
+        found = LubricationInput(
+            name=table.lubricant or "",
+            dry_factor=dry_factor,
+            lasts=self._way(LASTS, "lasts_sliding_m") if ages else ENDLESS,
+            fades=self._way(FADES, "fades_over_sliding_m") if ages else RunningWay(),
+            completeness=self._value("completeness", 1.0) if renewed else 1.0,
+            dirt_removed=self._value("contamination_removed", 1.0) if renewed and dirty else 1.0,
+            dirt=dirt,
+            interval=self._interval(),
+            at_hours=self._times(),
+            threshold=self._threshold(dirt.excess, dry_factor),
+            phases=phases,
+            minutes=table.minutes_per_application or 0.0,
+            price=table.price_per_application or 0.0,
+        )
+        self._say(found)
+        return found
+
+    def _fault(self, key: str, message: str) -> None:
+        self.case.faults.add(f"lubrication.{key}", message)
+
+    def _given(self, keys: Sequence[str]) -> str | None:
+        return next((key for key in keys if getattr(self.table, key) not in (None, [])), None)
+
+    def _check_supply(self) -> None:
+        """Name a schedule that the lubricant has no use for."""
+        row, key = self.row, self._given(SCHEDULES)
+        if key == "phase" and not any(phase.relubrications for phase in self.table.phase):
+            key = None
+        if row is None or key is None:
+            return
+        if row.supply == "none":
+            self._fault(
+                key, "a relubrication needs a lubricant, not lubricant = 'dry': name one, or remove this"
+            )
+        elif row.supply == "continuous" and key != "phase":
+            self._fault(
+                key,
+                f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one",
+            )
+
+    def _ages(self) -> bool:
+        """Return whether the lubricant ages, and name what is missing for that."""
+        row, given = self.row, self._given(LASTS)
+        if given is not None:
+            if row is not None and row.supply == "none":
+                self._fault(
+                    given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant"
+                )
+            return True
+        if row is not None and row.lasts is not None:
+            return True
+        schedule = self._given((*INTERVAL, "at_hours", "at_km", "when_rate_exceeds"))
+        if schedule is not None and (row is None or row.supply == "applied"):
+            what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
+            self._fault(
+                "lasts_hours",
+                f"{schedule} needs this key, lasts_km or lasts_sliding_m: nothing is known about how long "
+                f"{what} lasts",
+            )
+        fades = self._given(FADES)
+        if fades is not None:
+            self._fault(
+                fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this"
+            )
+        return False
+
+    def _value(self, key: str, default: float, *, needed: bool = False) -> float:
+        """Return a number: given, of the row, or a default that is said."""
+        given: float | None = getattr(self.table, key)
+        if given is not None:
+            return given
+        of_row: float | None = getattr(self.row, key, None)
+        if of_row is not None:
+            if needed or key != "dry_factor":
+                self.case.take(f"lubrication.{key}", of_row, f"lubricant {self.row.lubricant!r}")  # type: ignore[union-attr]
+            return of_row
+        if needed:
+            self._fault(key, "needed where a lubricant ages: dry over lubricated wear coefficient")
+        elif key != "dry_factor":
+            self.case.take(f"lubrication.{key}", default, "default")
+        return default
+
+    def _way(self, keys: Sequence[str], of_row: str) -> RunningWay:
+        key = self._given(keys)
+        if key is not None:
+            return self._running(key, getattr(self.table, key))
+        number = None if self.row is None else getattr(self.row, "lasts" if keys is LASTS else "fades")
+        if number is None or (keys is FADES and self._given(LASTS) is not None):
+            self.case.take(f"lubrication.{keys[0]}", 0.0, "the lubricant is gone at once")
+            return RunningWay()
+        self.case.take(f"lubrication.{of_row}", number, f"lubricant {self.row.lubricant!r}")  # type: ignore[union-attr]
+        return RunningWay(sliding=1000.0 * number)
+
+    def _running(self, key: str, value: float) -> RunningWay:
+        if key.endswith("_sliding_m"):
+            return RunningWay(sliding=1000.0 * value)
+        return RunningWay(self._hours(key, value))
+
+    def _hours(self, key: str, value: float) -> float:
+        """Return a time in hours that may be given in km."""
+        if not key.endswith("km"):
+            return value
+        if self.km_per_hour is None:
+            self._fault(key, "a way in km needs service.km_per_hour: give it, or hours")
+            return math.nan
+        return value / self.km_per_hour
+
+    def _within_run(self, key: str, hours: float) -> float:
+        if hours >= self.run_hours:
+            self._fault(
+                key,
+                f"must be within the run, run.horizon_hours = {self.run_hours:g} (got {hours:g} h): contacts "
+                "would never be relubricated",
+            )
+        return hours
+
+    def _interval(self) -> RunningWay | None:
+        key = self._given(INTERVAL)
+        if key is None:
+            return None
+        way = self._running(key, getattr(self.table, key))
+        self._within_run(key, way.hours)
+        return way
+
+    def _times(self) -> tuple[float, ...]:
+        key = self._given(("at_hours", "at_km"))
+        if key is None:
+            return ()
+        hours = tuple(self._hours(key, value) for value in getattr(self.table, key))
+        self._within_run(key, hours[-1])
+        return hours
+
+    def _threshold(self, excess: float, dry_factor: float) -> float:
+        given = self.table.when_rate_exceeds
+        if given is None:
+            return math.inf
+        if given <= 1.0 + excess:
+            self._fault(
+                "when_rate_exceeds",
+                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant "
+                "does not help",
+            )
+        elif given > dry_factor * (1.0 + excess):
+            self.case.warnings.append(
+                f"lubrication.when_rate_exceeds = {given:g} is never reached: dry contacts wear "
+                f"{dry_factor * (1.0 + excess):g} times as fast, so they are never relubricated"
+            )
+        return given
+
+    def _dirt(self, table: LubricationTable | LubricationPhase, place: str) -> Dirt:
+        """Return what dirt does: given, or as in the environment, which is said."""
+        row = environments()[table.environment or "clean"]
+        given = {"contamination_factor": table.contamination_factor, "ageing_factor": table.ageing_factor}
+        taken = {"contamination_factor": row.factor, "ageing_factor": row.ageing}
+        for key, value in taken.items():
+            if given[key] is None and value != 1.0:
+                span = f": {row.low:g} to {row.high:g}" if key == "contamination_factor" else ""
+                why = f"environment {row.environment!r}{span}; {row.source}"
+                if table is self.table:
+                    self.case.take(f"{place}.{key}", value, why)
+                else:
+                    self.case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
+        return Dirt((given["contamination_factor"] or row.factor) - 1.0, given["ageing_factor"] or row.ageing)
+
+    def _phase(self, number: int, phase: LubricationPhase, dirt: Dirt) -> PhaseInput:
+        key = "km" if phase.hours is None else "hours"
+        place = f"phase.{number}"
+        hours = self._hours(f"{place}.{key}", phase.hours or phase.km or 0.0)
+        if any((phase.environment, phase.contamination_factor, phase.ageing_factor)):
+            dirt = self._dirt(phase, f"lubrication.{place}")
+        return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
+
+    def _say(self, found: LubricationInput) -> None:
+        self.case.assumptions += _assumptions(found)
+
+
+def _assumptions(found: LubricationInput) -> Iterator[str]:
+    """What the state of the lubricant takes for granted."""
+    if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
+        yield (
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains do "
+            "not change it"
+        )
+    if found.phases:
+        yield (
+            "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
+            "contaminations in the middle of equal parts; after the last phase the first follows"
+        )
+    if found.at_hours:
+        yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"

@@ -1,0 +1,136 @@
+"""How contacts are lubricated, how that ages and what dirties it: [lubrication] and [[lubrication.phase]]."""
+
+from itertools import pairwise
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
+
+from wearsim.catalogue.catalogues import environments, lubricants
+from wearsim.input.schema.table import Table, known, others_of
+from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
+
+UNITS = ("hours", "km", "sliding_m")
+"""Ends of the keys of a way that a drive runs."""
+
+
+def keys_of(name: str) -> tuple[str, ...]:
+    """Return the keys of which at most one gives a way.
+
+    Examples
+    --------
+    >>> keys_of("interval")
+    ('interval_hours', 'interval_km', 'interval_sliding_m')
+    """
+    return tuple(f"{name}_{unit}" for unit in UNITS)
+
+
+LASTS, FADES, INTERVAL = keys_of("lasts"), keys_of("fades_over"), keys_of("interval")
+AT = ("at_hours", "at_km")
+SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
+"""Keys of which at most one says when contacts are relubricated."""
+
+Part = Annotated[Number, Field(ge=0.0, le=1.0)]
+Factor = Annotated[PositiveNumber, Field(ge=1.0, le=1e6)]
+
+
+def _times(value: object) -> object:
+    entries: list[Any] = value if isinstance(value, list) and value else [None]
+    for entry in entries:
+        if isinstance(entry, bool) or not isinstance(entry, int | float) or not 0.0 < entry < 1e12:
+            raise ValueError("must be a list of numbers above 0 such as [100, 250]")
+    if any(later <= earlier for earlier, later in pairwise(entries)):
+        raise ValueError("must rise from one entry to the next")
+    return tuple(float(entry) for entry in entries)
+
+
+_SCHEMA: dict[str, Any] = {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 1}
+Times = Annotated[tuple[float, ...], BeforeValidator(_times), WithJsonSchema(_SCHEMA)]
+
+
+class _Surroundings(Table):
+    """What dirt multiplies the wear by."""
+
+    environment: str | None = None
+    contamination_factor: Factor | None = None
+    ageing_factor: Factor | None = None
+
+    @field_validator("environment")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(value, dict(environments()), "environment", "wearsim list environments")
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.environment == "clean" and self.contamination_factor not in (None, 1.0):
+            text = "a clean environment has none: name another environment, or remove one of both"
+            return [("contamination_factor", text)]
+        return []
+
+
+class LubricationPhase(_Surroundings):
+    """A part of a programme: how long it is, and how often contacts are relubricated and dirtied in it."""
+
+    hours: Positive | None = None
+    km: Positive | None = None
+    relubrications: Annotated[int, Field(ge=0, le=10000)] = 0
+    contaminations: Annotated[int, Field(ge=0, le=10000)] = 0
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, ("hours", "km"))
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = super().conflicts()
+        if (self.hours is None) == (self.km is None):
+            got = "none" if self.hours is None else "both"
+            found.append(("hours", f"give exactly one of hours and km (got {got})"))
+        dirt = self.contamination_factor or 1.0
+        if self.contaminations and self.environment in (None, "clean") and dirt == 1.0:
+            text = "dirt must multiply the wear: give environment or contamination_factor too"
+            found.append(("contaminations", text))
+        return found
+
+
+class LubricationTable(_Surroundings):
+    """The lubricant of all contacts, how long it lasts, when it is renewed, and what dirties it."""
+
+    lubricant: str | None = None
+    interval_hours: Positive | None = None
+    interval_km: Positive | None = None
+    interval_sliding_m: Positive | None = None
+    at_hours: Times | None = None
+    at_km: Times | None = None
+    when_rate_exceeds: Annotated[PositiveNumber, Field(gt=1.0)] | None = None
+    lasts_hours: NotNegative | None = None
+    lasts_km: NotNegative | None = None
+    lasts_sliding_m: NotNegative | None = None
+    fades_over_hours: NotNegative | None = None
+    fades_over_km: NotNegative | None = None
+    fades_over_sliding_m: NotNegative | None = None
+    dry_factor: Factor | None = None
+    completeness: Annotated[PositiveNumber, Field(le=1.0)] | None = None
+    contamination_removed: Part | None = None
+    minutes_per_application: NotNegative | None = None
+    price_per_application: Annotated[Number, Field(ge=0.0)] | None = None
+    phase: list[LubricationPhase] = Field(default_factory=list)
+
+    @field_validator("lubricant")
+    @classmethod
+    def _known_lubricant(cls, value: str | None) -> str | None:
+        return known(value, dict(lubricants()), "lubricant", "wearsim list lubricants")
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return others_of(key, LASTS, FADES, SCHEDULES)
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = super().conflicts()
+        for keys in (LASTS, FADES, SCHEDULES):
+            given = [key for key in keys if getattr(self, key) not in (None, [])]
+            if len(given) > 1:
+                found.append((given[1], f"{given[0]} says this already: remove one of both"))
+        return found

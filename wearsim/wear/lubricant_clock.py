@@ -1,0 +1,349 @@
+"""The state of the lubricant as a clock: cycles run, and lubricated ones that wear as much."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from wearsim.errors import ConvergenceError
+from wearsim.geometry.profile_points import Vector
+from wearsim.wear.running_in import RunningIn
+
+_MOST = 100_000
+"""Stretches between two events that a schedule may have before it repeats itself."""
+
+_SAME = 1e-14
+"""Part of the age up to which two states of a lubricant are one."""
+
+
+@dataclass(frozen=True)
+class LubricantLaw:
+    """The factor on the coefficient of every contact, from the age of the lubricant and from dirt.
+
+    g = (1 + (R - 1) F((s - s_L)/w)) (1 + C), with F(u) = u between 0 and 1. s is the way since the last
+    relubrication, C what dirt adds.
+
+    Equation physics.md (O1).
+
+    Examples
+    --------
+    Half of the way from lubricated to four times that, with half as much again by dirt:
+
+    >>> LubricantLaw(4.0, 100.0, 50.0).factor(125.0, 0.5)
+    3.75
+    """
+
+    dry_factor: float = 1.0  # R, coefficient of dry contacts over that of lubricated ones, at least 1
+    lasts: float = math.inf  # s_L, way on which a lubricant keeps its effect [cycles]
+    fades: float = 0.0  # w, way on which it loses it then [cycles]
+    completeness: float = 1.0  # part of the age that a relubrication takes away
+    dirt_removed: float = 1.0  # part of C that a relubrication takes away
+
+    def factor(self, age: float, dirt: float) -> float:
+        """Return g at an age [cycles] and with what dirt adds."""
+        return (1.0 + (self.dry_factor - 1.0) * self._dried(age)) * (1.0 + dirt)
+
+    def _dried(self, age: float) -> float:
+        if age <= self.lasts:
+            return 0.0
+        return min((age - self.lasts) / self.fades, 1.0) if self.fades > 0.0 else 1.0
+
+    def worn(self, age: float, cycles: float, dirt: float, ageing: float = 1.0) -> float:
+        """Return the integral of g over cycles that begin at an age and each make older by ``ageing``.
+
+        Examples
+        --------
+        100 cycles lubricated, 50 at 2.5 times that in the mean, 10 at four times:
+
+        >>> LubricantLaw(4.0, 100.0, 50.0).worn(0.0, 160.0, 0.0)
+        265.0
+        """
+        excess = (self._dry_way(age + ageing * cycles) - self._dry_way(age)) / ageing
+        return (cycles + (self.dry_factor - 1.0) * excess) * (1.0 + dirt)
+
+    def _dry_way(self, age: float) -> float:
+        """Integral of F up to an age."""
+        beyond = age - self.lasts
+        if not beyond > 0.0:
+            return 0.0
+        if beyond < self.fades:
+            return 0.5 * beyond * beyond / self.fades
+        return beyond - 0.5 * self.fades
+
+    def cycles_for(self, age: float, worn: float, dirt: float, ageing: float = 1.0) -> float:
+        """Return the cycles in which so much wears from an age on, the inverse of ``worn``."""
+        return self._way_for(age, worn * ageing, dirt) / ageing
+
+    def _way_for(self, age: float, worn: float, dirt: float) -> float:
+        left, excess = worn / (1.0 + dirt), self.dry_factor - 1.0
+        fresh = max(self.lasts - age, 0.0)
+        if left <= fresh or excess == 0.0:
+            return left
+        if math.isinf(fresh):
+            return left
+        left, begun = left - fresh, max(age - self.lasts, 0.0)
+        if begun < self.fades:
+            # left = n + excess (begun n + n^2/2)/w, solved for n without a difference of near numbers.
+            slope, rate = excess / self.fades, 1.0 + excess * begun / self.fades
+            fading = 2.0 * left / (rate + math.sqrt(rate * rate + 2.0 * slope * left))
+            if begun + fading <= self.fades:
+                return fresh + fading
+            fading = self.fades - begun
+            left -= fading * (1.0 + excess * 0.5 * (begun + self.fades) / self.fades)
+        else:
+            fading = 0.0
+        return fresh + fading + left / self.dry_factor
+
+    def age_of(self, factor: float, dirt: float) -> float:
+        """Return the age at which g comes to a factor; infinite where it never does.
+
+        Examples
+        --------
+        >>> LubricantLaw(4.0, 100.0, 50.0).age_of(2.5, 0.0)
+        125.0
+        """
+        dry = factor / (1.0 + dirt)
+        if dry <= 1.0:
+            return 0.0
+        if dry > self.dry_factor or math.isinf(self.lasts):
+            return math.inf
+        return self.lasts + self.fades * (dry - 1.0) / (self.dry_factor - 1.0)
+
+
+class LubricantEvent(NamedTuple):
+    """What happens to the lubricant at one time of a schedule."""
+
+    after: float  # cycles from the begin of the schedule
+    relubricated: bool = False
+    held: float | None = None  # what dirt adds at least from here on; None where that stays as it was
+    ageing: float | None = None  # how many cycles a cycle makes older from here on; None as before
+    dirtied: float = 0.0  # what dirt adds at least at this time
+
+
+@dataclass(frozen=True)
+class LubricantSchedule:
+    """What happens to the lubricant, in the order of time, and after how many cycles it begins anew."""
+
+    events: tuple[LubricantEvent, ...] = ()
+    repeats: float = math.inf  # [cycles]
+    # factor g at which contacts are relubricated after the last event; above what dirt alone gives
+    threshold: float = math.inf
+
+
+class _Stretch(NamedTuple):
+    """The begin of the cycles between two events."""
+
+    begin: float  # [cycles]
+    worn: float  # M up to there
+    age: float  # [cycles]
+    dirt: float  # C
+    held: float  # what dirt adds at least
+    ageing: float  # how many cycles a cycle makes older
+
+    def near(self, other: "_Stretch", scale: float) -> bool:
+        """Return whether age and dirt are those of another time."""
+        return (
+            abs(self.age - other.age) <= _SAME * scale
+            and abs(self.dirt - other.dirt) <= _SAME * (1.0 + self.dirt)
+            and (self.held, self.ageing) == (other.held, other.ageing)
+        )
+
+
+class LubricantClock:
+    """Between cycles run and the cycles of well lubricated contacts that wear as much.
+
+    M(N), the integral of g over N cycles, is found event by event until the schedule repeats a state;
+    from there on it is periodic. All of it is exact but for rounding.
+
+    Equation physics.md (O2).
+
+    Parameters
+    ----------
+    law : LubricantLaw
+        How the coefficient goes with age and dirt.
+    schedule : LubricantSchedule
+        What happens to the lubricant.
+
+    Raises
+    ------
+    ConvergenceError
+        A schedule that does not repeat a state after very many events.
+
+    Examples
+    --------
+    Relubricated every 150 cycles, of which the last 50 are at four times the wear:
+
+    >>> every = LubricantSchedule((LubricantEvent(150.0, relubricated=True),), 150.0)
+    >>> clock = LubricantClock(LubricantLaw(4.0, 100.0), every)
+    >>> clock.steady_cycles(300.0), clock.steady_cycles(310.0)
+    (600.0, 610.0)
+    """
+
+    def __init__(self, law: LubricantLaw, schedule: LubricantSchedule) -> None:
+        self.law = law
+        self._stretches: list[_Stretch] = []
+        # Where the schedule begins to repeat itself, and its cycles and wear from then on.
+        self._first, self._cycles, self._worn = 0, math.inf, math.inf
+        state = _Stretch(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+        if schedule.events:
+            state = self._rounds(schedule, state)
+        if math.isinf(schedule.repeats):
+            self._afterwards(schedule.threshold, state)
+        self._begins = np.array([stretch.begin for stretch in self._stretches])
+        self._wears = np.array([stretch.worn for stretch in self._stretches])
+
+    def _rounds(self, schedule: LubricantSchedule, state: _Stretch) -> _Stretch:
+        """Follow a schedule, time and again where it repeats itself, until a state comes again."""
+        while True:
+            start, first = state, len(self._stretches)
+            for event in schedule.events:
+                state = self._changed(self._run(state, start.begin + event.after), event)
+            if math.isinf(schedule.repeats):
+                return state
+            state = self._run(state, start.begin + schedule.repeats)
+            if state.near(start, schedule.repeats):
+                self._repeat(first, start, state)
+                return state
+
+    def _afterwards(self, threshold: float, state: _Stretch) -> None:
+        """Go on after the last event, with relubrications wherever the wear asks for them."""
+        age = self.law.age_of(threshold, state.dirt)
+        while age < math.inf:
+            start, first = state, len(self._stretches)
+            state = self._run(state, state.begin + max(age - state.age, 0.0) / state.ageing)
+            state = self._changed(state, LubricantEvent(0.0, relubricated=True))
+            if state.near(start, age):
+                self._repeat(first, start, state)
+                return
+            age = self.law.age_of(threshold, state.dirt)
+        self._keep(state)
+
+    def _repeat(self, first: int, start: _Stretch, end: _Stretch) -> None:
+        self._first, self._cycles, self._worn = first, end.begin - start.begin, end.worn - start.worn
+
+    def _run(self, state: _Stretch, end: float) -> _Stretch:
+        """Let the lubricant age until a time."""
+        cycles = end - state.begin
+        if not cycles > 0.0:
+            return state
+        self._keep(state)
+        worn = state.worn + self.law.worn(state.age, cycles, state.dirt, state.ageing)
+        # It ages no more once it is dry, or while it does not age at all.
+        dry = 0.0 if math.isinf(self.law.lasts) else self.law.lasts + self.law.fades
+        return state._replace(begin=end, worn=worn, age=min(state.age + state.ageing * cycles, dry))
+
+    def _keep(self, state: _Stretch) -> None:
+        if len(self._stretches) == _MOST:
+            raise ConvergenceError(
+                f"lubrication: the schedule must repeat itself, but does not within {_MOST} stretches "
+                "between events: take fewer events, or relubrications that are more complete"
+            )
+        self._stretches.append(state)
+
+    def _changed(self, state: _Stretch, event: LubricantEvent) -> _Stretch:
+        """Return the lubricant after an event."""
+        age, dirt = state.age, state.dirt
+        if event.relubricated:
+            age *= 1.0 - self.law.completeness
+            dirt *= 1.0 - self.law.dirt_removed
+        held = state.held if event.held is None else event.held
+        ageing = state.ageing if event.ageing is None else event.ageing
+        return state._replace(age=age, dirt=max(dirt, held, event.dirtied), held=held, ageing=ageing)
+
+    def steady_cycles(self, cycles: float) -> float:
+        """Return M, the cycles of well lubricated contacts that wear as much as ``cycles`` run.
+
+        Equation physics.md (O2).
+        """
+        rounds, rest, stretch = self._place(cycles)
+        worn = stretch.worn + self.law.worn(
+            stretch.age, max(rest - stretch.begin, 0.0), stretch.dirt, stretch.ageing
+        )
+        return worn + rounds * self._worn if rounds else worn
+
+    def _place(self, cycles: float) -> tuple[int, float, _Stretch]:
+        """Return the rounds before a time, the same time in the first round, and its stretch."""
+        start = self._stretches[self._first]
+        rounds = max(math.floor((cycles - start.begin) / self._cycles), 0)
+        rest = cycles - rounds * self._cycles if rounds else cycles
+        at = max(int(np.searchsorted(self._begins, rest, side="right")) - 1, 0)
+        return rounds, rest, self._stretches[at]
+
+    def running_cycles(self, constant: Vector) -> Vector:
+        """Return the cycles run after which as much has worn as in so many of well lubricated contacts.
+
+        Equation physics.md (O2), solved for N in the stretch in which it lies.
+        """
+        steady = np.asarray(constant, dtype=float)
+        return np.array([self._run_for(float(worn)) for worn in steady.flat]).reshape(steady.shape)
+
+    def _run_for(self, worn: float) -> float:
+        start = self._stretches[self._first]
+        rounds = max(math.floor((worn - start.worn) / self._worn), 0)
+        rest = worn - rounds * self._worn if rounds else worn
+        at = max(int(np.searchsorted(self._wears, rest, side="right")) - 1, 0)
+        stretch = self._stretches[at]
+        left = max(rest - stretch.worn, 0.0)
+        cycles = stretch.begin + self.law.cycles_for(stretch.age, left, stretch.dirt, stretch.ageing)
+        return cycles + rounds * self._cycles if rounds else cycles
+
+    def factor(self, cycles: float) -> float:
+        """Return g at a time."""
+        _, rest, stretch = self._place(cycles)
+        age = stretch.age + stretch.ageing * max(rest - stretch.begin, 0.0)
+        return self.law.factor(age, stretch.dirt)
+
+    @property
+    def lasting_factor(self) -> float:
+        """Mean of g once the schedule repeats itself; in the end where it does not."""
+        if math.isinf(self._cycles):
+            last = self._stretches[-1]
+            return self.law.factor(math.inf, last.dirt)
+        return self._worn / self._cycles
+
+    @property
+    def amplification(self) -> float:
+        """Greatest relative error of the cycles run for one of the lubricated ones, M/(N g).
+
+        Within a stretch g does not fall, so it is greatest where one begins, at the latest in the
+        mean over a round.
+        """
+        greatest = 1.0
+        for number, stretch in enumerate(self._stretches):
+            mean = stretch.worn / stretch.begin if stretch.begin > 0.0 else 1.0
+            if number >= self._first and not math.isinf(self._cycles):
+                mean = max(mean, self._worn / self._cycles)
+            greatest = max(greatest, mean / self.law.factor(stretch.age, stretch.dirt))
+        return greatest
+
+
+FRESH = LubricantClock(LubricantLaw(), LubricantSchedule())
+"""A lubricant that stays as it is."""
+
+
+@dataclass(frozen=True, eq=False)
+class WearClock:
+    """Between cycles run and the cycles of constant coefficient that wear as much.
+
+    Contacts run in by what they wear, so running-in counts the cycles of lubricated contacts.
+
+    Equation physics.md (O3).
+    """
+
+    running_in: RunningIn
+    lubricant: LubricantClock = FRESH
+
+    @property
+    def amplification(self) -> float:
+        """Greatest relative error of the cycles run for one of the constant cycles, at most."""
+        return self.running_in.amplification * self.lubricant.amplification
+
+    def steady_cycles(self, cycles: float) -> float:
+        """Return the cycles of constant coefficient that wear as much as those run."""
+        return self.running_in.steady_cycles(self.lubricant.steady_cycles(cycles))
+
+    def running_cycles(self, constant: Vector) -> Vector:
+        """Return the cycles run that wear as much as those of constant coefficient."""
+        lubricated = self.running_in.running_cycles(constant)
+        return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)
