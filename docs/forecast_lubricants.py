@@ -13,7 +13,7 @@ import lubricant_ages as ages
 import lubricant_coefficients as coefficients
 import numpy as np
 import pandas as pd
-from lubricant_rig import DATA, KM_PER_HOUR, blocks_read, coefficient_of_rate, kinds, mid_quantiles
+from lubricant_rig import DATA, HOURS, KM_PER_HOUR, blocks_read, coefficient_of_rate, kinds, mid_quantiles
 
 REPORTS = Path(__file__).parent.parent / "reports" / "reference"
 HEAD = Path(__file__).with_name("forecast_lubricants_head.md")

@@ -22,6 +22,7 @@ RIG = (
     "load.power_kW=250 W",
     f"load.speed_rpm={100 * 50 / 22!r}",
     "mechanism.phases=2",
+    "run.horizon_hours=210",
     "wear.specific_wear_rate_mm2_per_N=1e-14",
 )
 """50/22 teeth are assumed; the teeth of the cog do not wear, so that only the joints count."""
