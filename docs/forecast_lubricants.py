@@ -29,7 +29,9 @@ Cell = tuple[str, str]
 def lubricants() -> tuple[pd.DataFrame, list[Cell]]:
     """All lubricants with blocks and single applications, NaN where not read, and the withheld cells."""
     single = pd.read_csv(DATA / "lubricant_single_application.csv", comment="#", dtype=str)
-    table = blocks_read().merge(single, on=["id", "category"], how="outer").sort_values("id", ignore_index=True)
+    table = (
+        blocks_read().merge(single, on=["id", "category"], how="outer").sort_values("id", ignore_index=True)
+    )
     later = table.note.fillna("").str.contains("blocks_5_and_6_withheld")
     withheld = [(lubricant, block) for lubricant in table.id[later] for block in READ[4:]]
     for quantity in QUANTITIES[2:]:
@@ -193,7 +195,9 @@ def main() -> None:
     table, withheld = lubricants()
     fitted = draws_of(table[READ].to_numpy(dtype=float)[None], table, rounds)
     drawn = forecasts(table, withheld, fitted, rounds)
-    tried = left_out_blocks(table, 4, rounds // 2) | left_out_applications(table, lubricated(fitted), rounds // 2)
+    tried = left_out_blocks(table, 4, rounds // 2) | left_out_applications(
+        table, lubricated(fitted), rounds // 2
+    )
     bands = {cell: band(cell[1], draws) for cell, draws in tried.items()}
     with (REPORTS / "forecast_lubricants.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

@@ -67,7 +67,9 @@ class Draws:
     def readings(self, generator, lubricants) -> np.ndarray:
         """Draw what would be read of lubricants of the only set in the six blocks: (draws, lubricants, 6)."""
         theta, spread = self.theta[:, 0, lubricants], self.spread[..., None]
-        at = scale(wear(theta), spread) + spread * generator.standard_t(TAILS, (*theta.shape[:-1], len(HOURS)))
+        at = scale(wear(theta), spread) + spread * generator.standard_t(
+            TAILS, (*theta.shape[:-1], len(HOURS))
+        )
         grown = READING / spread * np.sinh(np.clip(at, -20.0, 20.0))
         return STEP * np.round(np.maximum(grown, 0.0) / STEP)
 
@@ -102,8 +104,12 @@ class _Sampler:
             moved = self.theta.copy()
             moved[..., one] += self.step[..., one] * draw.standard_normal(moved.shape[:2])
             likely = log_likelihood(moved, self.read, self.spread)
-            change = likely - self.likely - 0.5 * self.weight * (
-                self._distance(moved, precision) - self._distance(self.theta, precision)
+            change = (
+                likely
+                - self.likely
+                - 0.5
+                * self.weight
+                * (self._distance(moved, precision) - self._distance(self.theta, precision))
             )
             taken = np.log(draw.random(change.shape)) < change
             self.theta = np.where(taken[..., None], moved, self.theta)
@@ -162,7 +168,7 @@ def inverse_wishart(generator, freedom, matrix):
     return np.linalg.inv(root @ np.swapaxes(root, -1, -2))
 
 
-def fit(read, kind, kinds, rounds, seed=21, thin=5) -> Draws:
+def fit(read, kind, kinds, rounds, seed=21, thin=2) -> Draws:
     """Draw the coefficients of lubricants given sets of readings (sets, lubricants, 6), NaN where none."""
     sampler = _Sampler(np.asarray(read, dtype=float), kind, kinds, np.random.default_rng(seed))
     for _ in range(rounds // 3):

@@ -16,11 +16,14 @@ band* are readings of lubricants whose later blocks, or whose allowances, were l
 from their own earlier blocks and from the other lubricants. 80 to 97 % may be in bands of 90 %, 35
 to 65 % in those of 50 %.
 
-Calibrated on the open readings; blocks 5 and 6 of 14 lubricants and 37 distances are withheld.
-Their [forecast](https://github.com/wearsim/wearsim/blob/main/reports/reference/forecast_lubricants.md)
-waits for them.
+Calibrated on the open readings; blocks 5 and 6 of 14 lubricants and 37 distances are withheld, and
+their forecast (`reports/reference/forecast_lubricants.md`) waits for them.
 
-FAILS
+What fails: bands of block 3 are too narrow, of 58 readings some 45 are in those of 90 %, and those of
+block 4 too wide. Oils grow faster in the clean block after dust than in dust, which no part removed
+by a relubrication can give: what dirt leaves behind is more than dirt. And the knee is not what
+the readings of one application show: of 12 lubricants 7 have allowance and jump at one distance,
+with a mean growth to there many times that of the clean block, so they fade before it.
 
 It cannot show: a coefficient, since it stands in a product with the assumed teeth; an effect of
 teeth, tension or speed; running-in apart from the first 1000 km; wear of teeth; how the lubricant
@@ -28,6 +31,7 @@ fades, as blocks relubricate before it does.
 """
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import wearsim
@@ -100,51 +104,73 @@ def test_growth_of_a_clean_block_after_dust_by_hand(rig):
 
 def test_an_application_of_the_case_lasts_by_the_closed_form(rig, lubricants):
     """0.05 of the allowance in 1000 km up to 2000 km, then 1.5: the rest of 0.9 takes 600 km."""
-    inputs = {**wearsim.load_case(rig.CASE, list(rig.RIG)).inputs, "service": {"km_per_hour": rig.KM_PER_HOUR}}
+    inputs = {
+        **wearsim.load_case(rig.CASE, list(rig.RIG)).inputs,
+        "service": {"km_per_hour": rig.KM_PER_HOUR},
+    }
     inputs.pop("maintenance")
-    inputs["joint"] = {"specific_wear_rate_mm2_per_N": 1e-3 * 5e-5 * rig.KM_PER_HOUR * rig.coefficient_of_rate()}
+    inputs["joint"] = {
+        "specific_wear_rate_mm2_per_N": 1e-3 * 5e-5 * rig.KM_PER_HOUR * rig.coefficient_of_rate()
+    }
     inputs["lubrication"] = {"lasts_km": 2000.0, "dry_factor": 30.0}
     run = wearsim.simulate(wearsim.load_case(inputs))
     assert rig.KM_PER_HOUR * run.parts["chain"].hours_run == pytest.approx(2600.0, rel=1e-9)
     assert lubricants("lubricant_ages").allowance(2000.0, 5e-5, 1.5e-3) == pytest.approx(2600.0)
 
 
-def in_bands(forecast, table, drawn, measured, what, verdicts):
-    """Rows of how many readings are within their bands."""
-    bands = {cell: forecast.band(cell[1], draws) for cell, draws in drawn.items()}
-    found = forecast.held(bands, forecast.read_in(table))
-    for share, (low, high), column, verdict in (
-        (90, WITHIN_90, "in_90", verdicts[0]),
-        (50, WITHIN_50, "in_50", verdicts[1]),
-    ):
-        number = len(found)
-        measured(
-            f"{what}: readings of {number} in their band of {share} %",
-            found[column].sum(),
-            f"{0.01 * share * number:.1f} expected",
-            ("range", (np.ceil(low * number), np.floor(high * number))),
-            verdict,
-            scatter=f"sd {np.sqrt(1e-4 * share * (100 - share) * number):.1f}",
-        )
+LEFT_OUT = {
+    "blocks 5 and 6 from 1 to 4": (4, 6),
+    "block 4 from 1 to 3": (3, 4),
+    "block 3 from 1 and 2": (2, 3),
+}
+"""First block left out, and the one before which those that count end."""
+
+
+@pytest.fixture(scope="module")
+def held(forecast, table, fitted):
+    """Readings left out, by what they are, and whether they are in their bands."""
+    drawn = {}
+    for what, (first, end) in LEFT_OUT.items():
+        found = forecast.left_out_blocks(table, first, 900, groups=4)
+        drawn[what] = {cell: draws for cell, draws in found.items() if cell[1] in forecast.READ[first:end]}
+    wear = forecast.lubricated(fitted)
+    drawn["one application"] = forecast.left_out_applications(table, wear, 400)
+    bands = {
+        what: {cell: forecast.band(cell[1], one) for cell, one in cells.items()}
+        for what, cells in drawn.items()
+    }
+    return {what: forecast.held(cells, forecast.read_in(table)) for what, cells in bands.items()}
+
+
+def in_bands(found, column, share, limits, what, verdict, measured):
+    number = len(found)
+    measured(
+        f"{what}: readings of {number} in their band of {share} %",
+        found[column].sum(),
+        f"{0.01 * share * number:.1f} expected",
+        ("range", (np.ceil(limits[0] * number), np.floor(limits[1] * number))),
+        verdict,
+        scatter=f"sd {np.sqrt(1e-4 * share * (100 - share) * number):.1f}",
+    )
 
 
 @pytest.mark.parametrize(
-    ("first", "last", "what", "verdicts"),
+    ("what", "verdict"),
     [
-        (4, 6, "blocks 5 and 6 from 1 to 4", ("passed", "passed")),
-        (3, 4, "block 4 from 1 to 3", ("passed", "passed")),
-        (2, 3, "block 3 from 1 and 2", ("passed", "passed")),
+        ("blocks 5 and 6 from 1 to 4", "passed"),
+        ("block 4 from 1 to 3", "failed"),
+        ("block 3 from 1 and 2", "failed"),
+        ("one application", "passed"),
     ],
 )
-def test_blocks_left_out(forecast, table, measured, first, last, what, verdicts):
-    drawn = forecast.left_out_blocks(table, first, 900, groups=4)
-    wanted = {cell: draws for cell, draws in drawn.items() if cell[1] in forecast.READ[first:last]}
-    in_bands(forecast, table, wanted, measured, what, verdicts)
+def test_bands_of_90_percent(held, measured, what, verdict):
+    in_bands(held[what], "in_90", 90, WITHIN_90, what, verdict, measured)
 
 
-def test_applications_left_out(forecast, table, fitted, measured):
-    drawn = forecast.left_out_applications(table, forecast.lubricated(fitted), 400)
-    in_bands(forecast, table, drawn, measured, "allowances and jumps of one application", ("passed", "passed"))
+def test_bands_of_50_percent(held, measured):
+    blocks = pd.concat([held[what] for what in LEFT_OUT])
+    in_bands(blocks, "in_50", 50, WITHIN_50, "all these blocks", "passed", measured)
+    in_bands(held["one application"], "in_50", 50, WITHIN_50, "one application", "passed", measured)
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +194,7 @@ def ratio(table, modelled, forecast, over, under, kept):
         ("dust over clean", 1, 0, None, "passed"),
         ("wet over clean", 3, 0, None, "passed"),
         ("clean after dust over dust, waxes", 2, 1, "wax", "passed"),
-        ("clean after dust over dust, oils", 2, 1, "wet_drip", "passed"),
+        ("clean after dust over dust, oils", 2, 1, "wet_drip", "failed"),
         ("clean after wet over wet", 4, 3, None, "passed"),
     ],
 )
@@ -221,7 +247,7 @@ def test_knee_of_one_application(forecast, table, fitted, measured):
         len(road),
         float(knee.sum()),
         ("within", 1),
-        "passed",
+        "failed",
     )
     straight = 1.0 / (lubricated * road.road_jump_km)[~knee]
     measured(
@@ -229,6 +255,6 @@ def test_knee_of_one_application(forecast, table, fitted, measured):
         1.0,
         np.median(straight),
         ("factor", 2),
-        "passed",
+        "failed",
         scatter=f"{straight.min():.2g} to {straight.max():.2g} of {len(straight)}",
     )
