@@ -13,7 +13,7 @@ import lubricant_ages as ages
 import lubricant_coefficients as coefficients
 import numpy as np
 import pandas as pd
-from lubricant_rig import DATA, HOURS, KM_PER_HOUR, blocks_read, coefficient_of_rate, kinds, mid_quantiles
+from lubricant_rig import DATA, KM_PER_HOUR, blocks_read, coefficient_of_rate, kinds, mid_quantiles
 
 REPORTS = Path(__file__).parent.parent / "reports" / "reference"
 HEAD = Path(__file__).with_name("forecast_lubricants_head.md")
@@ -86,7 +86,7 @@ def lubricated(fitted: coefficients.Draws) -> np.ndarray:
 def on_one_application(
     table: pd.DataFrame, wear: np.ndarray, lubricant: int, roads: Iterable[int], rounds: int
 ) -> dict[Cell, np.ndarray]:
-    """Draw the allowances of a lubricant on roads, and its jump in extreme wet, none of which is looked at."""
+    """Draw the allowances of a lubricant on roads, and its jump in extreme wet, looking at none of them."""
     generator = np.random.default_rng(1000 + lubricant)
     jumps, allowances = table[JUMPS].to_numpy(), table[ALLOWANCES].to_numpy()
     own = table.id[lubricant]
@@ -122,10 +122,15 @@ def band(quantity: str, draws: np.ndarray) -> list[float]:
     return ages.outward(mid_quantiles(draws, PARTS), 1.0 if quantity.endswith("_km") else 1e-4)
 
 
-def held(bands: Mapping[Cell, list[float]], reading: Callable[[Cell], float]) -> pd.DataFrame:
+def bands(drawn: Mapping[Cell, np.ndarray]) -> dict[Cell, list[float]]:
+    """Quantiles of cells."""
+    return {cell: band(cell[1], draws) for cell, draws in drawn.items()}
+
+
+def held(found: Mapping[Cell, list[float]], reading: Callable[[Cell], float]) -> pd.DataFrame:
     """Whether readings lie in the bands of 50 % and 90 %, and below the median."""
     rows = []
-    for cell, (low, lower, middle, upper, high) in bands.items():
+    for cell, (low, lower, middle, upper, high) in found.items():
         read = reading(cell)
         if not np.isnan(read):
             rows.append((*cell, read, lower <= read <= upper, low <= read <= high, read < middle))
@@ -155,7 +160,7 @@ def forecasts(
 
 
 def expected(drawn: Mapping[Cell, np.ndarray]) -> pd.DataFrame:
-    """Chance of each cell to lie in its bands, by its own draws: steps and ties make it more or less than said."""
+    """Chance of each cell to lie in its bands, by its own draws; ties make it more or less."""
     rows = []
     for (lubricant, quantity), draws in drawn.items():
         low, lower, _, upper, high = band(quantity, draws)
@@ -166,7 +171,7 @@ def expected(drawn: Mapping[Cell, np.ndarray]) -> pd.DataFrame:
 
 def coverage_lines(chances: pd.DataFrame, tried: pd.DataFrame) -> Iterable[str]:
     """A table of what is expected of the forecast, and what came of the same where readings are known."""
-    yield "| quantity | forecasts | expected in 50 % | in 90 % | tried | were in 50 % | in 90 % | below the median |"
+    yield "| quantity | forecasts | expected in 50 % | in 90 % | tried | were in 50 % | in 90 % | below p50 |"
     yield "|---|---|---|---|---|---|---|---|"
     for name in (*QUANTITIES, "all"):
         asked, known = (rows if name == "all" else rows[rows.quantity == name] for rows in (chances, tried))
@@ -198,7 +203,6 @@ def main() -> None:
     tried = left_out_blocks(table, 4, rounds // 2) | left_out_applications(
         table, lubricated(fitted), rounds // 2
     )
-    bands = {cell: band(cell[1], draws) for cell, draws in tried.items()}
     with (REPORTS / "forecast_lubricants.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["id", "quantity", *(f"p{100 * part:02.0f}" for part in PARTS)])
@@ -207,7 +211,7 @@ def main() -> None:
             writer.writerow([*cell, *(f"{value:.{digits}f}" for value in band(cell[1], drawn[cell]))])
     text = HEAD.read_text(encoding="utf-8")
     shown = {
-        "coverage": "\n".join(coverage_lines(expected(drawn), held(bands, read_in(table)))),
+        "coverage": "\n".join(coverage_lines(expected(drawn), held(bands(tried), read_in(table)))),
         "categories": "\n".join(category_lines(fitted, coefficient_of_rate())),
         "spread": f"{np.median(fitted.spread):.2f}",
     }

@@ -65,7 +65,7 @@ class Draws:
         return Draws(*(getattr(self, name)[:, [one]] for name in self.__dataclass_fields__))
 
     def readings(self, generator, lubricants) -> np.ndarray:
-        """Draw what would be read of lubricants of the only set in the six blocks: (draws, lubricants, 6)."""
+        """Draw what would be read in the six blocks, of the only set: (draws, lubricants, 6)."""
         theta, spread = self.theta[:, 0, lubricants], self.spread[..., None]
         at = scale(wear(theta), spread) + spread * generator.standard_t(
             TAILS, (*theta.shape[:-1], len(HOURS))

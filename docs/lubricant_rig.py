@@ -1,4 +1,4 @@
-"""The rig of the 67 lubricants: its six blocks, what the law of lubrication gives for them, how wear was read.
+"""The rig of the 67 lubricants: its blocks, what the law of lubrication gives for them, how it was read.
 
 Growth is in parts of the allowance, 0.5 % of the chain's length. Coefficients are in allowances that
 well lubricated, clean joints wear in an hour; the run of the shipped case says what that is in
@@ -39,7 +39,7 @@ READING = 0.01 * (2.0 * 7.0 / 12.0) ** 0.5 / 3.5
 
 @dataclass(frozen=True)
 class Block:
-    """1000 km: relubrications evenly spread, the first at the begin, contaminations in the middle of parts."""
+    """1000 km: relubrications evenly, the first at the begin, contaminations in the middle of parts."""
 
     hours: float
     relubrications: int
@@ -47,7 +47,7 @@ class Block:
     environment: str  # clean, dust, wet, extreme
 
     def stretches(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Parts of the block, relubrications before each, and those since the last contamination (-1: none yet)."""
+        """Parts of the block, relubrications up to each, and since the last contamination (-1: none)."""
         relubricated = [(i / self.relubrications, 0) for i in range(self.relubrications)]
         dirtied = [((i + 0.5) / self.contaminations, 1) for i in range(self.contaminations)]
         events = sorted([*relubricated, *dirtied])

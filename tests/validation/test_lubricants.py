@@ -57,7 +57,7 @@ def table(forecast):
 
 @pytest.fixture(scope="module")
 def fitted(forecast, table):
-    return forecast.draws_of(table[forecast.READ].to_numpy(dtype=float)[None], table, 1000)
+    return forecast.draws_of(table[forecast.READ].to_numpy(dtype=float)[None], table, 700)
 
 
 @pytest.fixture(scope="module")
@@ -131,15 +131,12 @@ def held(forecast, table, fitted):
     """Readings left out, by what they are, and whether they are in their bands."""
     drawn = {}
     for what, (first, end) in LEFT_OUT.items():
-        found = forecast.left_out_blocks(table, first, 900, groups=4)
+        found = forecast.left_out_blocks(table, first, 500, groups=4)
         drawn[what] = {cell: draws for cell, draws in found.items() if cell[1] in forecast.READ[first:end]}
     wear = forecast.lubricated(fitted)
     drawn["one application"] = forecast.left_out_applications(table, wear, 400)
-    bands = {
-        what: {cell: forecast.band(cell[1], one) for cell, one in cells.items()}
-        for what, cells in drawn.items()
-    }
-    return {what: forecast.held(cells, forecast.read_in(table)) for what, cells in bands.items()}
+    read = forecast.read_in(table)
+    return {what: forecast.held(forecast.bands(cells), read) for what, cells in drawn.items()}
 
 
 def in_bands(found, column, share, limits, what, verdict, measured):
@@ -180,7 +177,7 @@ def modelled(forecast, table, fitted):
 
 
 def ratio(table, modelled, forecast, over, under, kept):
-    """Median over lubricants of the growth per hour in a block over that in another, by the law and as read."""
+    """Growth per hour in a block over that in another: its median by the law, and as read."""
     read = table[forecast.READ].to_numpy(dtype=float)
     kept = kept & ~np.isnan(read[:, over]) & (read[:, under] > 0)
     rate = np.median(modelled, axis=0)[kept] / forecast.HOURS, read[kept] / forecast.HOURS
