@@ -57,7 +57,7 @@ def table(forecast):
 
 @pytest.fixture(scope="module")
 def fitted(forecast, table):
-    return forecast.draws_of(table[forecast.READ].to_numpy(dtype=float)[None], table, 700)
+    return forecast.draws_of(table[forecast.READ].to_numpy(dtype=float)[None], table, 1000)
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +131,7 @@ def held(forecast, table, fitted):
     """Readings left out, by what they are, and whether they are in their bands."""
     drawn = {}
     for what, (first, end) in LEFT_OUT.items():
-        found = forecast.left_out_blocks(table, first, 500, groups=4)
+        found = forecast.left_out_blocks(table, first, 900, groups=4)
         drawn[what] = {cell: draws for cell, draws in found.items() if cell[1] in forecast.READ[first:end]}
     wear = forecast.lubricated(fitted)
     drawn["one application"] = forecast.left_out_applications(table, wear, 400)
@@ -176,11 +176,11 @@ def modelled(forecast, table, fitted):
     return forecast.coefficients.wear(fitted.theta[:, 0])
 
 
-def ratio(table, modelled, forecast, over, under, kept):
+def ratio(table, modelled, forecast, rig, over, under, kept):
     """Growth per hour in a block over that in another: its median by the law, and as read."""
     read = table[forecast.READ].to_numpy(dtype=float)
     kept = kept & ~np.isnan(read[:, over]) & (read[:, under] > 0)
-    rate = np.median(modelled, axis=0)[kept] / forecast.HOURS, read[kept] / forecast.HOURS
+    rate = np.median(modelled, axis=0)[kept] / rig.HOURS, read[kept] / rig.HOURS
     law, seen = (rates[:, over] / rates[:, under] for rates in rate)
     return np.median(law), seen
 
@@ -195,9 +195,11 @@ def ratio(table, modelled, forecast, over, under, kept):
         ("clean after wet over wet", 4, 3, None, "passed"),
     ],
 )
-def test_ratios_within_a_lubricant(forecast, table, modelled, measured, what, over, under, category, verdict):
+def test_ratios_within_a_lubricant(
+    forecast, rig, table, modelled, measured, what, over, under, category, verdict
+):
     kept = table.category.str.contains(category or "").to_numpy()
-    law, seen = ratio(table, modelled, forecast, over, under, kept)
+    law, seen = ratio(table, modelled, forecast, rig, over, under, kept)
     low, middle, high = np.quantile(seen, (0.25, 0.5, 0.75))
     measured(
         f"growth per hour, {what}, median",
