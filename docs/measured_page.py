@@ -23,6 +23,7 @@ SECTIONS = (
     "test_pin_on_disc",
     "test_carbon_fibre_plastic",
     "test_twin_disc",
+    "test_lubricants",
     "test_chain_losses",
 )
 """Files of tests in the order of the page."""

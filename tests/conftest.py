@@ -73,6 +73,18 @@ def stated_error():
 
 
 @pytest.fixture(scope="session")
+def lubricants():
+    """Return the importer of the modules in docs/ that forecast what was read of lubricants."""
+
+    def module(name):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.syspath_prepend(str(DOCS))
+            return importlib.import_module(name)
+
+    return module
+
+
+@pytest.fixture(scope="session")
 def leaves():
     """Function that lists the dotted keys of a model that are no tables."""
 
