@@ -211,8 +211,9 @@ def test_input_md_has_the_registry_of_laws_as_it_is():
         assert f"| `{name}` | {' | '.join(others)} |" in INPUT
 
 
-def test_input_md_has_the_wear_conditions_as_they_are():
-    for row in catalogue_rows("wear_conditions"):
+@pytest.mark.parametrize("table", ["wear_conditions", "lubricants", "environments"])
+def test_input_md_has_the_catalogues_as_they_are(table):
+    for row in catalogue_rows(table):
         assert "| " + " | ".join(row.values()) + " |" in INPUT
 
 

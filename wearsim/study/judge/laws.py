@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.kernels.severity import FIRST, LEVEL, MILD, SECOND, STEEP
 from wearsim.study.judge.wear_series import WearSeries
 
 Values = Mapping[str, Vector]
@@ -124,8 +125,8 @@ def t_gamma_rate(t_gamma: Vector) -> Vector:
     >>> t_gamma_rate(np.array([10.0, 20.0, 78.2])).tolist()
     [53.0, 55.0, 116.9]
     """
-    beyond = 55.0 + 61.9 * (t_gamma - 77.2)
-    return np.where(t_gamma < 10.4, 5.3 * t_gamma, np.maximum(55.0, beyond))
+    beyond = LEVEL + STEEP * (t_gamma - SECOND)
+    return np.where(t_gamma < FIRST, MILD * t_gamma, np.maximum(LEVEL, beyond))
 
 
 def _t_gamma(values: Values, data: WearSeries) -> Vector:
