@@ -33,7 +33,6 @@ exclude_patterns = [
     "validation_head.md",
     "measured_head.md",
     "laws_head.md",
-    "forecast_lubricants_head.md",
 ]
 html_theme = "furo"
 html_title = f"wearsim {release}"
