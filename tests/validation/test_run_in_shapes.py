@@ -9,14 +9,14 @@ Calibrated on three figures: 2 mm in the first 150 km, of the excess 95 % in the
 straight after, and the whole length at 2500 km. The coefficients of the oiled and the degreased
 chain are in the ratio of roller scars, 13.
 
-What fails: two figures. A chain that is not oiled again bends upward; the engine's coefficient
-knows no age of the lubricant, so its late curve stays straight. And a run-in of a bicycle's chain
-is above the 0.1 % of the industrial guide: the two sources differ, and the engine follows the one
-it was calibrated on.
+What fails: two figures. A chain that is not oiled again bends upward; without `[lubrication]` the
+engine's coefficient knows no age of the lubricant, so its late curve stays straight. And a run-in
+of a bicycle's chain is above the 0.1 % of the industrial guide: the two sources differ, and the
+engine follows the one it was calibrated on.
 
-The row of the *age of the lubricant* is no engine's: the coefficient of a chain that is not oiled again
-rises to 13 times from 2000 to 2500 km (where is assumed), the law that `wearsim judge` fits. The
-knee follows from what was put in; that a knee comes, and upward, is all that it shows.
+The row *with the age of the lubricant* has `[lubrication]`: the coefficient of a chain that is not
+oiled again rises to 13 times from 2000 to 2500 km (where is assumed). The knee follows from what was
+put in; that a knee comes, and upward, is all that it shows.
 
 It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that
 the order of oiled and degreased is right follows from the coefficients put in. That it runs in by
@@ -27,8 +27,6 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.study.judge.laws import laws_for, ln_shape
-from wearsim.study.judge.wear_series import WearReading, wear_series
 
 CASE = "bicycle-17t-road"
 KM_PER_HOUR = 33.0
@@ -163,15 +161,17 @@ def test_knee_without_oil(oiled, measured):
     )
 
 
-def test_knee_by_age_of_the_lubricant(figures, measured):
-    marks = [WearReading("chain", km, 1.0) for km in (500.0, 1000.0, 2000.0, 2500.0)]
-    data = wear_series(marks, "km", "mm", relubrication_noted=True)
-    (law,) = [one for one in laws_for(data) if one.name == "lubricant age"]
-    keys = {"dry_factor_less_1": figures.dry_over_oiled - 1.0, "lasts": 2000 / 2500, "fades_over": 500 / 2500}
-    worn = np.exp(ln_shape(law, {name: np.array([[value]]) for name, value in keys.items()}, data))[0]
+def test_knee_by_age_of_the_lubricant(grown, coefficient, figures, measured):
+    age = (
+        "lubrication.lasts_km=2000",
+        "lubrication.fades_over_km=500",
+        f"lubrication.dry_factor={float(figures.dry_over_oiled)!r}",
+    )
+    # The end of a run each: a line between two rows of a history would cut the knee.
+    marks = [grown(coefficient, km, *age).elongation[-1] for km in (500.0, 1000.0, 2000.0, 2500.0)]
     measured(
-        "age of the lubricant, not the engine: last rate over the one before",
-        (worn[3] - worn[2]) / (worn[1] - worn[0]),
+        "not oiled again, with the age of the lubricant: last rate over the one before",
+        (marks[3] - marks[2]) / (marks[1] - marks[0]),
         "a knee upward",
         ("above", 1.05),
         "passed",
