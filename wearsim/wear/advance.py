@@ -46,6 +46,9 @@ that conforms: the width of the contact is then several roller radii."""
 _CHUNK, MAX_STEPS = 64, 10_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
 
+_MOST_BYTES = 2e9
+"""Memory that the states of one solve may take: fewer steps on very many points."""
+
 Table = NDArray[np.float64]
 
 
@@ -93,6 +96,10 @@ class _Solution:
         found: Table = self.states(np.array([time]))[0]
         return found
 
+    def ended(self) -> "_Solution":
+        """Return the last step alone, without the memory that all of them take."""
+        return replace(self, times=self.times[-2:].copy(), path=self.path[-2:].copy())
+
     def change(self, before: "_Solution") -> float:
         """Return the relative difference from a solve that met the same limit.
 
@@ -119,11 +126,12 @@ class _Solve:
         self.work = np.zeros((WORK_ROWS, points))
         self.increments = np.zeros((STAGES, 3 * points))
         self.chunks: list[tuple[Vector, Table]] = []
+        self.most = min(MAX_STEPS, int(_MOST_BYTES / (8 * STATE_ROWS * points)))
 
     def run(self) -> _Solution:
         """Go on until a limit or the horizon ends it; raise what else does."""
         status, failing = RUNNING, None
-        while status == RUNNING and failing is None and self._states() <= MAX_STEPS:
+        while status == RUNNING and failing is None and self._states() <= self.most:
             status = self._go_on()
             failing = self._first_failing()
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
@@ -207,8 +215,12 @@ class _Solve:
             check_sawtooth(contact, depth, cycles, self.problem.stop_limits[0].limit)
         broken = ~np.isfinite(self.work[8])
         place = contact.arc_length[int((broken if broken.any() else path[-1, 3]).argmax())]
-        kind = _TooManyStepsError if status == RUNNING else ConvergenceError
-        raise kind(
+        if status == RUNNING:
+            raise _TooManyStepsError(
+                f"wear at cycle {cycles:.6g}: the solver must come to an end within {self.most} steps, but "
+                "has not: ask a larger run.life_tolerance, or fewer nodes"
+            )
+        raise ConvergenceError(
             f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
             'on, but stopped: use method = "per_cycle" or more nodes'
         )
@@ -256,7 +268,8 @@ def run_advance(
                 change = after.change(before)
                 if change <= 0.1 * life_tolerance:
                     return _trajectory(problem, after), change
-            before = after
+            before = after.ended()
+            del after
         tolerance *= 0.1
     if before is None and failure is not None:
         raise failure
