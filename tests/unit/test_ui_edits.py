@@ -92,7 +92,8 @@ def test_sliders_are_of_plain_numbers_only():
         "sprocket": {"teeth": True},
         "load": {"power_kW": -3, "torque_N_m": float("inf"), "speed_rpm": [1]},
     }
-    for tables in (odd, {}, {"sprocket": 3, "load": 4}, {"sprocket": [3, {}]}):
+    huge = {"sprocket": {"teeth": 10**400}}
+    for tables in (odd, huge, {}, {"sprocket": 3, "load": 4}, {"sprocket": [3, {}]}):
         assert knobs(tables) == []
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from nicegui import ui
 
+from wearsim.input.units import MAX
 from wearsim.page.field_words import label
 from wearsim.page.fields import value_at
 from wearsim.page.text_elements import heading
@@ -120,7 +121,7 @@ def _teeth(data: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def _is_amount(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and 0.0 < value < float("inf")
+    return isinstance(value, int | float) and not isinstance(value, bool) and 0.0 < value <= MAX
 
 
 def _between(value: float, ends: Range) -> bool:
