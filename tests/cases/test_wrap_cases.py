@@ -47,7 +47,8 @@ def chain_hours(case: wearsim.Case) -> float:
     loop = rate * (tight + slack) / area * turning / case.drive.chain.pitch
     pitches = inputs["sprocket"]["teeth"] / inputs["sprocket"].get("engaged_every", 1)
     loops = 60.0 * inputs["load"]["speed_rpm"] * pitches / layout.links
-    return 0.01 * inputs["stop"]["elongation_percent"] / (loop * loops)
+    dirt = inputs.get("lubrication", {}).get("contamination_factor", 1.0)
+    return 0.01 * inputs["stop"]["elongation_percent"] / (dirt * loop * loops)
 
 
 @cache

@@ -60,7 +60,7 @@ def plain(*values):
 
 
 def test_commands(complete):
-    assert complete("l") == plain("life", "list", "loads")
+    assert complete("l") == plain("life", "list", "loads", "lubricate")
     assert complete("compl") == plain("completion")
 
 
@@ -103,7 +103,7 @@ def test_names_of_catalogues(complete):
     assert complete("init", "--chain", "20b-1") == plain("20B-1")
     assert complete("init", "--lubrication", "d") == plain("drip", "dry")
     assert complete("schema", "--of", "wave") == plain("wave-drive")
-    assert complete("list", "wear") == plain("wear-conditions")
+    assert complete("list", "wear") == plain("wear-conditions", "wear-laws")
 
 
 def test_keys(complete):

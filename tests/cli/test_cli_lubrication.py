@@ -166,7 +166,6 @@ def test_contradiction_is_warned_of_by_name(settings: list[str], words: str) -> 
     [
         (["lubrication.lubricant=dripp"], "lubrication.lubricant", "did you mean 'drip'"),
         (["lubrication.environment=dusty"], "lubrication.environment", "did you mean 'dust'"),
-        (["lubrication.interval_hours=2e6"], "lubrication.interval_hours", "within the run"),
         (["lubrication.interval_hours=-1"], "lubrication.interval_hours", "greater than 0"),
         (["lubrication.lasts_hours=-1"], "lubrication.lasts_hours", "0"),
         (["lubrication.interval_km=3"], "lubrication.interval_km", "interval_hours says this already"),
@@ -231,6 +230,15 @@ def test_contradictory_table_is_named(table: dict[str, Any], key: str, words: st
     text = faults({**STRAND, "lubrication": table})
     assert f"lubrication.{key}" in text
     assert words in text
+
+
+@pytest.mark.parametrize(
+    "changes", [{"interval_hours": 2e6}, {"interval_hours": None, "at_hours": [1.0, 2e6]}]
+)
+def test_relubrication_after_the_run_is_warned_of(changes: dict[str, Any]) -> None:
+    key = next(key for key, value in changes.items() if value is not None)
+    (text,) = (one for one in wearsim.load_case(_with(**changes)).warnings if "longer than the run" in one)
+    assert text.startswith(f"lubrication.{key}: 2e+06 h")
 
 
 def test_threshold_that_is_never_reached_is_warned_of() -> None:

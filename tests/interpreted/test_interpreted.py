@@ -128,7 +128,7 @@ def numbers():
         rows = [loads.tension, loads.force, loads.pressure_angle, *loads.centre.T]
         locus = [*mechanism.unworn.locus, mechanism.unworn.touched]
         found[name] = np.concatenate([*rows, *locus]).tolist()
-    law = np.array([1e-7, 0.5, 1.0, 0.0, np.inf, 1.0])
+    law = np.array([1e-7, 0.5, 1.0, 0.0, np.inf, 1.0, 0.0, 0.0, 0.0])
     for name, contact, flank, constants, columns in contacts():
         x, y, depth = flank.x.copy(), flank.y.copy(), np.zeros(11)
         work, done = np.zeros((CYCLES_ROWS, 11)), np.zeros(1)

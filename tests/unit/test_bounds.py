@@ -34,7 +34,7 @@ def test_what_is_left_of_a_life_that_the_run_does_not_reach():
     inputs = {"service": {"km_per_hour": 30.0}}
     bound, life = LowerBound(6e6, 1000.0), Life(3e6, 500.0)
     reading = SingleReading("max_depth_mm", 0.1, 0.01, 200.0)
-    found = RemainingLife("a", "A", "sprocket", reading, 100.0, 1e-10, bound, bound, life, bound, (), ())
+    found = RemainingLife("a", "A", "sprocket", reading, 100.0, 0.5, 1e-10, bound, bound, life, bound, (), ())
     content = remaining_json(found, inputs)
     for name in ("life_hours", "remaining_hours", "remaining_hours_high"):
         assert (content[name], content[f"{name}_at_least"]) == (None, 1000.0)

@@ -495,7 +495,7 @@ CHANGES |= {
         ("programme", "dust"),
         ("lubricated", "clean", "lubrication.contamination_factor"),
     ],
-    "lubrication.interval_hours": [("lubricated", 25.0), ("lubricated", 2e6, "lubrication.interval_hours")],
+    "lubrication.interval_hours": [("lubricated", 25.0), ("lubricated", 0.0, "lubrication.interval_hours")],
     "lubrication.interval_km": [("by km", 250.0), ("lubricated", 9.0, "lubrication.interval_km")],
     "lubrication.interval_sliding_m": [("by way", 25.0)],
     "lubrication.at_hours": [("at times", [30.0]), ("lubricated", [1.0], "lubrication.at_hours")],

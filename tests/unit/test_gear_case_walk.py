@@ -274,7 +274,7 @@ def test_every_key_is_covered_and_no_other(leaves: Callable[[type[BaseModel]], l
 CHANGES |= {
     f"lubrication.{key}": changes
     for key, changes in {
-        "interval_hours": [("lubricated", 7.0), ("lubricated", 2e6, "lubrication.interval_hours")],
+        "interval_hours": [("lubricated", 7.0), ("lubricated", 0.0, "lubrication.interval_hours")],
         "interval_sliding_m": [("by way", 250.0)],
         "at_hours": [("at times", [4.8]), ("lubricated", [1.0], "lubrication.at_hours")],
         "when_rate_exceeds": [("by rate", 8.0)],

@@ -236,21 +236,20 @@ class _Reader:
             return math.nan
         return value / self.km_per_hour
 
-    def _within_run(self, key: str, hours: float) -> float:
+    def _look_at_run(self, key: str, hours: float) -> None:
+        """Warn of a relubrication that comes after the run."""
         if hours >= self.run_hours:
-            self._fault(
-                key,
-                f"must be within the run, run.horizon_hours = {self.run_hours:g} (got {hours:g} h): contacts "
-                "would never be relubricated",
+            self.case.warnings.append(
+                f"lubrication.{key}: {hours:.6g} h are longer than the run, run.horizon_hours = "
+                f"{self.run_hours:g}: contacts are not relubricated in it"
             )
-        return hours
 
     def _interval(self) -> RunningWay | None:
         key = self._given(INTERVAL)
         if key is None:
             return None
         way = self._running(key, getattr(self.table, key))
-        self._within_run(key, way.hours)
+        self._look_at_run(key, way.hours)
         return way
 
     def _times(self) -> tuple[float, ...]:
@@ -258,7 +257,7 @@ class _Reader:
         if key is None:
             return ()
         hours = tuple(self._hours(key, value) for value in getattr(self.table, key))
-        self._within_run(key, hours[-1])
+        self._look_at_run(key, hours[-1])
         return hours
 
     def _threshold(self, excess: float, dry_factor: float) -> float:

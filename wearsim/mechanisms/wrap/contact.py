@@ -60,11 +60,11 @@ class WrapContact(RestingContact):
     # growth of the chain in a revolution of the sprocket, the mean over the blocks
     elongation_per_cycle: float
     elongation_limit: float  # relative elongation at which a new chain is put on
-    joint_sliding_per_cycle: float  # way that the pin of a joint slides in its bush in such a revolution [mm]
     # area of its section that a roller loses over that a gap would lose to it; 0 where rollers do not wear
     roller_area_ratio: float = 0.0
     # least slack tension at which the life ends once it is needed [N]; 0 for no such limit
     slack_limit: float = 0.0
+    joint_sliding_per_cycle: float = 0.0  # way that a pin slides in its bush in a revolution [mm]
 
     @property
     def mechanism(self) -> WrapMechanism:
