@@ -11,7 +11,9 @@ from click.testing import CliRunner
 
 import wearsim
 from wearsim.cli.main import wearsim_command
+from wearsim.study.lubricate.model import case_clock
 from wearsim.study.lubricate.runs import lubricate
+from wearsim.study.lubricate.sheet import lubrication_text
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -178,10 +180,80 @@ def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     assert at_100["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
 
 
+def test_ways_of_different_units_are_one_interval() -> None:
+    """The flanks of the strand slide so many m in the hours of an interval."""
+    in_hours = wearsim.load_case(STRAND)
+    clock = case_clock(in_hours)
+    way = {"lasts_hours": 50.0, "interval_sliding_m": 20.0}
+    table = {**{k: v for k, v in STRAND["lubrication"].items() if k != "interval_hours"}, **way}
+    (plan,) = study(tables={**STRAND, "lubrication": table}).plans
+    by_hours = {**STRAND["lubrication"], "interval_hours": plan.own.interval}
+    (same,) = study(tables={**STRAND, "lubrication": by_hours}).plans
+    assert clock.lubricant.repeats / in_hours.cycles_per_hour == pytest.approx(40.0)
+    assert same.own.lives == pytest.approx(plan.own.lives)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ["wear.cycles_exponent=0.5", "wear.reference_hours=1000"],
+        ["wear.running_in_factor=5", "wear.running_in_distance_mm=50000"],
+    ],
+    ids=["power of the cycles", "running-in"],
+)
+def test_band_is_that_of_the_life(settings: list[str]) -> None:
+    result = wearsim.simulate(wearsim.load_case(STRAND, settings))
+    (plan,) = study(*settings).plans
+    own = plan.own
+    assert own.lives["sprocket"] == pytest.approx(result.life.hours_run, rel=1e-6)
+    assert own.lives_low["sprocket"] == pytest.approx(result.life_low.hours_run, rel=1e-6)
+    assert own.lives_high["sprocket"] == pytest.approx(result.life_high.hours_run, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (["lubrication.dry_factor=1"], "never within a life"),
+        (["lubrication.price_per_application=1e6"], "never within a life"),
+        (["lubrication.price_per_application=0", "lubrication.minutes_per_application=0"], "costs nothing"),
+    ],
+)
+def test_no_interval_is_made_up(settings: list[str], words: str) -> None:
+    (plan,) = study(*settings).plans
+    assert plan.cheapest is None
+    assert words in plan.unknown
+    assert words in lubrication_text(study(*settings))
+
+
+def test_missed_one_is_not_told_where_a_part_does_not_outlive_it() -> None:
+    (plan,) = study("lubrication.interval_hours=3000").plans
+    assert (plan.missed.lost, plan.missed.cost) == (None, None)
+
+
+@pytest.mark.parametrize("name", ["drip", "dry"])
+def test_option_that_is_not_applied_is_named(name: str) -> None:
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS, {"lubricant": name}]}}
+    with pytest.raises(wearsim.CaseError) as caught:
+        study(tables=tables)
+    assert {fault.key for fault in caught.value.faults} == {"lubrication.option.2.lubricant"}
+    assert "changed" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "own", [{"wear": {"condition": "hardened, oiled"}}, {"wear": {"specific_wear_rate_mm2_per_N": 1e-9}}]
+)
+def test_lubricants_of_one_wear_rate_are_not_compared(own: dict[str, Any]) -> None:
+    tables = {**STRAND, **own, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS]}}
+    with pytest.raises(wearsim.CaseError, match="holds for one lubricant"):
+        study(tables=tables)
+
+
 @pytest.mark.parametrize(
     ("tables", "words"),
     [
         ({"lubricant": "drip"}, "how long a lubricant lasts"),
+        ({"lubricant": "drip", "environment": "dust"}, "how long a lubricant lasts"),
+        ({"lubricant": "dry", "environment": "dust"}, "how long a lubricant lasts"),
         (None, "how long a lubricant lasts"),
         ({"lubricant": "manual", "lasts_hours": 9, "phase": [{"hours": 9}]}, "relubricates by itself"),
     ],

@@ -147,6 +147,7 @@ def test_own_numbers_override_each() -> None:
     ("settings", "words"),
     [
         (["lubrication.lubricant=drip", "wear.condition=hardened, dry"], "contradicts lubrication.lubricant"),
+        (["lubrication.lubricant=drip", "wear.condition=normalised, greased"], "is not that of lubrication"),
         (
             ["lubrication.lubricant=dry", "wear.condition=hardened, oiled"],
             "contradicts lubrication.lubricant",
@@ -265,6 +266,24 @@ def test_lubricants_and_environments_are_listed() -> None:
         rows = json.loads(CliRunner().invoke(wearsim_command, ["list", table, "--json"]).output)
         assert len(rows) == len(names)
         assert all(row["source"] for row in rows)
+
+
+@pytest.mark.parametrize("key", ["lubrication.lubricant", "wear.band_factor"])
+def test_studies_take_a_case_without_wear(key: str) -> None:
+    """The wear condition of each lubricant is its own."""
+    case = {**WRAP, "lubrication": {"lubricant": "drip"}}
+    values = ["drip", "dry"] if key.endswith("lubricant") else [2.0, 4.0]
+    found = wearsim.sweep(case, {key: values}).cases
+    lives = found["life_hours"].tolist()
+    assert lives[0] == pytest.approx(hours(case), rel=1e-12)
+    assert (lives[1] < 0.1 * lives[0]) == key.endswith("lubricant")
+
+
+def test_uncertainty_of_a_case_without_wear() -> None:
+    case = {**WRAP, "lubrication": {"lubricant": "drip", "environment": "dust"}}
+    table = {"load.tension_N": {"distribution": "lognormal", "sigma_ln": 0.2}}
+    found = wearsim.uncertainty(case, table, samples=2)
+    assert found.summary()["samples"] == 2
 
 
 def test_maintain_refuses_a_lubricant_that_changes() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
-from wearsim.case.lubrication_input import lubrication_input, with_condition
+from wearsim.case.lubrication_input import lubrication_input
 from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.table_inputs import (
     contact_modulus_of,
@@ -44,7 +44,6 @@ Builder = Callable[[ChainRecord, WearInput, Chain, GivenDuty | None], Drive | No
 def read_chain_case(document: Document, build: Builder, tolerance: float) -> Case:
     """Return the case of a drive with a chain, or raise all that is wrong with it."""
     data, faults = document.data, document.faults
-    with_condition(data)
     _check_load(data, faults)
     try:
         tables = CaseTables.model_validate(data)

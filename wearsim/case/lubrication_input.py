@@ -70,17 +70,6 @@ class LubricationInput:
         return self.lasts is ENDLESS and not self.dirt.excess and not self.phases
 
 
-def with_condition(data: dict[str, object]) -> None:
-    """Let the lubricant name the wear condition of an input that gives no wear of its own."""
-    given, wear = data.get("lubrication"), data.get("wear", {})
-    if not isinstance(given, dict) or not isinstance(wear, dict):
-        return
-    row = lubricants().get(str(given.get("lubricant")))
-    own = {"condition", "law", "specific_wear_rate_mm2_per_N", "coefficient"}
-    if row is not None and not own & wear.keys():
-        data["wear"] = {"condition": row.wear_condition, **wear}
-
-
 def lubrication_input(
     case: CaseRecord, table: LubricationTable | None, km_per_hour: float | None, condition: str | None
 ) -> LubricationInput | None:
@@ -95,17 +84,23 @@ def lubrication_input(
 
 
 def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -> None:
-    """Say which coefficients a lubricant gives, and warn of those that contradict it."""
+    """Say whose coefficients hold where they are not those of the lubricant."""
     if condition is None:
         case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
         return
-    if wear_conditions()[condition].lubricated == wear_conditions()[row.wear_condition].lubricated:
+    if condition == row.wear_condition:
+        return
+    is_oiled, as_named = (wear_conditions()[name].lubricated for name in (condition, row.wear_condition))
+    if is_oiled == as_named:
+        case.warnings.append(
+            f"wear.condition = {condition!r} is not that of lubrication.lubricant = {row.lubricant!r}, "
+            f"{row.wear_condition!r}: its wear rates hold; remove it to take those of the lubricant"
+        )
         return
     words = ("dry or contaminated", "lubricated")
     case.warnings.append(
         f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
-        f"contacts are {words[wear_conditions()[condition].lubricated]}, with this lubricant they are "
-        f"{words[wear_conditions()[row.wear_condition].lubricated]}: remove one of both"
+        f"contacts are {words[is_oiled]}, with this lubricant they are {words[as_named]}: remove one of both"
     )
 
 

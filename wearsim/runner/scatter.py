@@ -131,8 +131,8 @@ def _value(case: Case, key: str) -> float:
 def plain_document(document: Document, case: Case) -> Document:
     """Return a case in which every value stands that a study changes."""
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
-    if "condition" in data["wear"]:
-        wear = {name: value for name, value in data["wear"].items() if name != "condition"}
+    if "condition" in case.inputs["wear"]:
+        wear = {name: value for name, value in data.get("wear", {}).items() if name != "condition"}
         data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
         for key, value in case.drive.wear_coefficients.items():
             data = replaced(data, key.split("."), value)

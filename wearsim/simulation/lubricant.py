@@ -9,7 +9,6 @@ from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
-from wearsim.mechanisms.wrap.drive import wrap_drive
 from wearsim.wear.lubricant_clock import (
     FRESH,
     LubricantClock,
@@ -62,14 +61,6 @@ def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[Lubr
         for part, event in sorted(events, key=lambda entry: entry[0]):
             yield event._replace(after=begin + part * length)
         begin += length
-
-
-def case_lubricant(case: Case) -> LubricantClock:
-    """Return the clock of the lubricant of a case, in its cycles."""
-    if case.drive.rests:
-        contact = wrap_drive(case, "the rollers must rest in gaps").contact(case)
-        return lubricant_clock(case, contact.joint_sliding_per_cycle)
-    return lubricant_clock(case, sliding_per_cycle(case, case.drive.mechanism(case).contact))
 
 
 def sliding_per_cycle(case: Case, contact: FlankContact) -> float:

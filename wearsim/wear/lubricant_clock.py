@@ -315,6 +315,11 @@ class LubricantClock:
         return self.law.factor(age, stretch.dirt)
 
     @property
+    def repeats(self) -> float:
+        """Cycles after which the schedule begins anew; infinite where it does not."""
+        return self._cycles
+
+    @property
     def lasting_factor(self) -> float:
         """Mean of g once the schedule repeats itself; in the end where it does not."""
         if math.isinf(self._cycles):

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, model_validator
 
 from wearsim.input.schema.drive_tables import (
     ChainTable,
@@ -15,7 +15,7 @@ from wearsim.input.schema.drive_tables import (
     PlaceTable,
     SprocketTable,
 )
-from wearsim.input.schema.lubrication_tables import LubricationTable
+from wearsim.input.schema.lubrication_tables import LubricationTable, with_wear_condition
 from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.input.schema.table import FormatVersion, Table, describe
 from wearsim.input.schema.wear_tables import (
@@ -64,6 +64,11 @@ class CaseTables(Table):
     """The tables of an input file as they were given."""
 
     model_config = ConfigDict(json_schema_extra=_wear_or_lubricant)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _wear_of_lubricant(cls, tables: Any) -> Any:
+        return with_wear_condition(tables)
 
     format_version: FormatVersion
     title: str = ""

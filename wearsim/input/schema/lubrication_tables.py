@@ -29,6 +29,25 @@ AT = ("at_hours", "at_km")
 SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
 """Keys of which at most one says when contacts are relubricated."""
 
+_RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
+"""Keys of [wear] that say how fast it wears."""
+
+
+def with_wear_condition(tables: Any) -> Any:
+    """Return tables with the wear condition of their lubricant, if they give no wear rate of their own."""
+    if not isinstance(tables, dict):
+        return tables
+    given, wear = tables.get("lubrication"), tables.get("wear", {})
+    if not isinstance(given, dict) or not isinstance(wear, dict) or any(key in wear for key in _RATES):
+        return tables
+    name = given.get("lubricant")
+    if not isinstance(name, str):
+        return tables
+    # A name that is none is a fault of its own.
+    row = lubricants().get(name, next(iter(lubricants().values())))
+    return {**tables, "wear": {"condition": row.wear_condition, **wear}}
+
+
 Part = Annotated[Number, Field(ge=0.0, le=1.0)]
 Hardness = Annotated[PositiveNumber, Field(le=10_000.0)]
 Factor = Annotated[PositiveNumber, Field(ge=1.0, le=1e6)]

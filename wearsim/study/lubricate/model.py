@@ -10,11 +10,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from wearsim.case.lubrication_input import ENDLESS
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.lubricant import case_lubricant
-from wearsim.wear.lubricant_clock import LubricantClock, LubricantEvent, LubricantLaw, LubricantSchedule
+from wearsim.simulation.wear_task import wear_task
+from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+from wearsim.wear.lubricant_clock import (
+    LubricantClock,
+    LubricantEvent,
+    LubricantLaw,
+    LubricantSchedule,
+    LubricatedClock,
+)
 
 _SHOWN = (0.25, 0.5, 0.75, 1.0, 1.1, 1.25, 1.5, 2.0, 4.0, 10.0)
 """Intervals of the table beside the case's own and the cheapest, over what the lubricant lasts."""
@@ -26,16 +34,23 @@ _BEFORE = 200
 """Relubrications before one is left out: the lubricant is as old then as in the long run."""
 
 _EDGE = 1.05
-"""Interval over the cheapest within which the cost must not have risen much."""
+"""Interval over the cheapest within which the mean wear must not rise as much."""
+
+_NEVER = 1e15
+"""An interval that nothing outlives [h]."""
+
+_ROUNDING = 1e-9
+"""Part of what wears in an interval below which it is nothing."""
 
 _NEARLY = 1.05
 """Cost over the least up to which an interval is as good as the cheapest."""
 
 
 CONVENTIONS = (
-    "costs in the long run: a new part lives as long as the first one, no interest",
-    "bands of lives and costs are those of the wear coefficients; how long the lubricant lasts and what dry "
-    "contacts wear is taken as it is",
+    "lives are of parts that are new when they are lubricated; costs are in the long run, where parts are "
+    "replaced at any time between two relubrications, without interest",
+    "bands of lives and costs are those of the wear coefficients, of a chain those of its joints; how long "
+    "the lubricant lasts and what dry contacts wear is taken as it is",
 )
 """What the tables rest on."""
 
@@ -48,9 +63,9 @@ class WornPart:
     hours: float  # of well lubricated contacts [h]
     reached: bool  # whether its life ends then, or only the run
     price: float | None  # None where none is given
-    # low, high: coefficients at the ends of the band over that of the case
-    low: float
-    high: float
+    # hours_low, hours_high: the same at the high and at the low end of the wear coefficients
+    hours_low: float
+    hours_high: float
 
 
 @dataclass(frozen=True)
@@ -71,11 +86,11 @@ class RelubricationPolicy:
 
 @dataclass(frozen=True)
 class MissedRelubrication:
-    """What it costs to leave out one relubrication of many."""
+    """What it costs to leave out one relubrication of many; None where a part does not outlive that."""
 
     interval: float  # between the others [h]
-    lost: float  # hours that every part loses of its life [h]
-    cost: float | None  # of the parts that wear meanwhile
+    lost: float | None  # hours that every part loses of its life [h]
+    cost: float | None  # of the parts that wear meanwhile, less the relubrication
 
 
 @dataclass(frozen=True)
@@ -83,25 +98,18 @@ class LubricantPlan:
     """One lubricant at all intervals."""
 
     name: str  # of the lubricant, empty where the case names none
-    lasts: float  # [h]
-    fades: float  # [h]
+    # lasts, fades: in the environment of the case [h]
+    lasts: float
+    fades: float
     dry_factor: float
     parts: tuple[WornPart, ...]
     policies: tuple[RelubricationPolicy, ...]  # intervals rising
     own: RelubricationPolicy | None  # of the case
-    priced: bool  # whether a relubrication has a price
     cheapest: RelubricationPolicy | None
     cheap: tuple[float, float] | None  # intervals whose cost is within 5 % of the least [h]
+    unknown: str  # why there is no cheapest interval; empty where there is one
+    gives_out: bool  # whether the lubricant gives out just beyond the cheapest interval
     missed: MissedRelubrication
-
-    @property
-    def at_the_edge(self) -> bool:
-        """Whether a slightly longer interval than the cheapest is far dearer."""
-        return (
-            self.cheapest is not None
-            and self.cheap is not None
-            and self.cheap[1] < _EDGE * self.cheapest.interval
-        )
 
 
 @dataclass(frozen=True)
@@ -134,15 +142,15 @@ class LubricatedDrive:
     warnings: tuple[str, ...]
 
 
-def check_ages(case: Case) -> None:
+def check_ages(case: Case, key: str = "lubrication") -> None:
     """Raise where relubrication makes no difference to a case, or its schedule is not one of intervals."""
     given = case.lubrication
-    if given is None or given.steady:
+    if given is None or given.lasts is ENDLESS:
         text = (
             "must say how long a lubricant lasts: give lubricant = 'wet drip' or another one that is applied "
             "(wearsim list lubricants), or lasts_hours and dry_factor"
         )
-        raise CaseError([Fault(text, "lubrication", case.name)])
+        raise CaseError([Fault(text, key, case.name)])
     if given.phases:
         text = "a programme relubricates by itself: remove it to compare intervals"
         raise CaseError([Fault(text, "lubrication.phase", case.name)])
@@ -152,41 +160,55 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
     """Compare intervals for one lubricant."""
     case, given = drive.case, drive.case.lubrication
     assert given is not None
-    clock = case_lubricant(case)
-    per_hour = case.cycles_per_hour
-    law = replace(clock.law, lasts=clock.law.lasts / per_hour, fades=clock.law.fades / per_hour)
-    parts = tuple(
-        WornPart(
-            name,
-            clock.steady_cycles(life.hours_run * per_hour) / per_hour,
-            isinstance(life, Life),
-            drive.prices[name],
-            *drive.bands[name],
-        )
-        for name, life in drive.lives.items()
-    )
+    clock, per_hour = case_clock(case), case.cycles_per_hour
+    law = clock.lubricant.law
+    law = replace(law, lasts=law.lasts / per_hour, fades=law.fades / per_hour)
+    parts = tuple(_part(drive, clock, name) for name in drive.lives)
     intervals = _Intervals(law, given.dirt.excess, given.dirt.ageing, parts, given.application_cost)
-    own = None
-    if given.interval is not None:
-        way = given.interval
-        sliding = way.sliding / given.lasts.sliding * law.lasts if way.sliding else 0.0
-        own = intervals.policy(way.hours + sliding)
-    cheapest, cheap = intervals.cheapest()
-    shown = sorted({*intervals.shown(), *(one.interval for one in (own, cheapest) if one is not None)})
-    missed = intervals.missed((own or cheapest or intervals.policy(law.lasts or shown[0])).interval)
-    policies = tuple(intervals.policy(interval) for interval in shown)
+    own = None if given.interval is None else intervals.policy(clock.lubricant.repeats / per_hour)
+    cheapest, cheap, unknown = intervals.cheapest()
+    shown = {*intervals.shown(), *(one.interval for one in (own, cheapest) if one is not None)}
+    of_missed = own or cheapest
+    missed = intervals.missed(intervals.effect if of_missed is None else of_missed.interval)
     return LubricantPlan(
         name=given.name,
-        lasts=law.lasts,
-        fades=law.fades,
+        lasts=law.lasts / given.dirt.ageing,
+        fades=law.fades / given.dirt.ageing,
         dry_factor=law.dry_factor,
         parts=parts,
-        policies=policies,
+        policies=tuple(intervals.policy(interval) for interval in sorted(shown)),
         own=own,
-        priced=given.application_cost is not None,
         cheapest=cheapest,
         cheap=cheap,
+        unknown=unknown,
+        gives_out=cheapest is not None and intervals.gives_out_beyond(cheapest),
         missed=missed,
+    )
+
+
+def case_clock(case: Case) -> LubricatedClock:
+    """Return the clock of the wear of a case, in its cycles."""
+    if case.drive.rests:
+        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+        return clock
+    return wear_task(case, case.drive.mechanism(case).contact).clock
+
+
+def _part(drive: LubricatedDrive, clock: LubricatedClock, name: str) -> WornPart:
+    """Return a part with its hours of well lubricated contacts, in the middle and at the ends of the band."""
+    life, per_hour = drive.lives[name], drive.case.cycles_per_hour
+    lubricated = clock.lubricant.steady_cycles(life.hours_run * per_hour)
+    # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
+    constant = clock.part.steady_cycles(lubricated)
+    low, high = drive.bands[name]
+    ends = clock.part.running_cycles(np.array([constant / high, constant / low])) / per_hour
+    return WornPart(
+        name=name,
+        hours=lubricated / per_hour,
+        reached=isinstance(life, Life),
+        price=drive.prices[name],
+        hours_low=float(ends[0]),
+        hours_high=float(ends[1]),
     )
 
 
@@ -204,15 +226,26 @@ class _Intervals:
         self.law, self.excess, self.ageing = law, excess, ageing
         self.parts = parts
         self.application_cost = application_cost
-        prices = [part.price for part in parts]
-        self.priced = (
-            application_cost is not None and None not in prices and all(one.reached for one in parts)
-        )
+        self.unknown = self._unknown()
         # Cost of the parts in an hour of lubricated contacts: as in the case, and at both ends of the band.
         self.hourly = [
-            math.fsum((part.price or 0.0) * factor(part) / part.hours for part in parts)
-            for factor in (lambda part: 1.0, lambda part: part.low, lambda part: part.high)
+            math.fsum((part.price or 0.0) / getattr(part, hours) for part in parts)
+            for hours in ("hours", "hours_high", "hours_low")
         ]
+
+    def _unknown(self) -> str:
+        """Return why no cost is known; empty where it is."""
+        if not all(part.reached for part in self.parts):
+            return "the life of a part is not reached (raise run.horizon_hours)"
+        missing = [f"a price of {part.name}" for part in self.parts if part.price is None]
+        if self.application_cost is None:
+            missing.append("price_per_application or minutes_per_application")
+        return f"it takes {', '.join(missing)}" if missing else ""
+
+    @property
+    def effect(self) -> float:
+        """Hours until the lubricant is gone."""
+        return (self.law.lasts + self.law.fades) / self.ageing
 
     def clock(self, interval: float) -> LubricantClock:
         """Return the clock of an interval."""
@@ -224,72 +257,75 @@ class _Intervals:
         """Return what an interval leads to."""
         clock = self.clock(interval)
 
-        def lives(factor: Callable[[WornPart], float]) -> dict[str, float]:
-            return {part.name: self._life(clock, part.hours / factor(part)) for part in self.parts}
+        def lives(hours: Callable[[WornPart], float]) -> dict[str, float]:
+            return {part.name: _life(clock, hours(part)) for part in self.parts}
 
         cost, low, high = (
-            self._cost(clock, interval, hourly) if self.priced else None for hourly in self.hourly
+            None if self.unknown else self._cost(clock, interval, hourly) for hourly in self.hourly
         )
         return RelubricationPolicy(
             interval=interval,
-            lives=lives(lambda part: 1.0),
-            lives_low=lives(lambda part: part.high),
-            lives_high=lives(lambda part: part.low),
+            lives=lives(lambda part: part.hours),
+            lives_low=lives(lambda part: part.hours_low),
+            lives_high=lives(lambda part: part.hours_high),
             wear_factor=clock.lasting_factor,
             cost=cost,
             cost_low=low,
             cost_high=high,
         )
 
-    @staticmethod
-    def _life(clock: LubricantClock, lubricated: float) -> float:
-        return float(clock.running_cycles(np.array([lubricated]))[0])
-
     def _cost(self, clock: LubricantClock, interval: float, hourly: float) -> float:
         return 1000.0 * (clock.lasting_factor * hourly + (self.application_cost or 0.0) / interval)
 
     @property
-    def ends(self) -> tuple[float, float]:
-        """Intervals between which the answer lies [h]: far below what the lubricant lasts, and a life."""
-        longest = self._life(self.clock(1e12), max(part.hours for part in self.parts))
-        effect = (self.law.lasts + self.law.fades) / self.ageing
-        shortest = 0.1 * effect if 0.0 < effect < longest else 1e-3 * longest
-        return shortest, longest
+    def longest(self) -> float:
+        """Longest life of a part without any relubrication [h]."""
+        return _life(self.clock(_NEVER), max(part.hours for part in self.parts))
 
     def shown(self) -> list[float]:
         """Return the intervals of the table, of two digits."""
-        shortest, longest = self.ends
-        scale = (10.0 * shortest * part for part in _SHOWN)
-        return sorted({float(f"{interval:.2g}") for interval in scale if interval < longest})
+        scale = self.effect if 0.0 < self.effect < self.longest else 0.01 * self.longest
+        return sorted(
+            {float(f"{scale * part:.2g}") for part in _SHOWN if scale * part < max(self.longest, scale)}
+        )
 
-    def cheapest(self) -> tuple[RelubricationPolicy | None, tuple[float, float] | None]:
-        """Return the cheapest interval, and those that cost hardly more."""
+    def cheapest(self) -> tuple[RelubricationPolicy | None, tuple[float, float] | None, str]:
+        """Return the cheapest interval and those that cost hardly more, or why there is none."""
         from scipy.optimize import minimize_scalar  # takes 0.2 s
 
-        if not self.priced:
-            return None, None
-        shortest, longest = self.ends
-        tried = np.geomspace(1e-2 * shortest, longest, _SEARCHED)
+        if self.unknown:
+            return None, None, self.unknown
+        if not self.application_cost:
+            return None, None, "a relubrication costs nothing: the more often, the better"
+        longest = self.longest
+        tried = np.geomspace(1e-4 * longest, longest, _SEARCHED)
 
         def cost(interval: float) -> float:
             return self._cost(self.clock(interval), interval, self.hourly[0])
 
         costs = np.array([cost(interval) for interval in tried])
         at = int(costs.argmin())
-        near = tried[max(at - 1, 0)], tried[min(at + 1, _SEARCHED - 1)]
+        if at == _SEARCHED - 1:
+            return None, None, "never within a life: a relubrication costs more than it saves"
+        if at == 0:
+            return None, None, f"less than {tried[0]:.3g} h: hardly anything to pay for a relubrication"
+        near = tried[at - 1], tried[at + 1]
         best = float(
             minimize_scalar(cost, bounds=near, method="bounded", options={"xatol": 1e-9 * near[1]}).x
         )
         if costs[at] < cost(best):
             best = float(tried[at])
-        nearly = np.flatnonzero(costs <= _NEARLY * cost(best))
-        first, last = int(nearly[0]), int(nearly[-1])
-        # Only those without a dearer one between them and the cheapest.
         dear = np.flatnonzero(costs > _NEARLY * cost(best))
-        first = max([first, *(int(one) + 1 for one in dear if one < at)])
-        last = min([last, *(int(one) - 1 for one in dear if one > at)])
+        # Only those without a dearer one between them and the cheapest.
+        first = max((int(one) + 1 for one in dear if one < at), default=0)
+        last = min((int(one) - 1 for one in dear if one > at), default=_SEARCHED - 1)
         cheap = (min(float(tried[min(first, at)]), best), max(float(tried[max(last, at)]), best))
-        return self.policy(best), cheap
+        return self.policy(best), cheap, ""
+
+    def gives_out_beyond(self, policy: RelubricationPolicy) -> bool:
+        """Return whether the mean wear rises fast just beyond an interval."""
+        beyond = self.clock(_EDGE * policy.interval).lasting_factor
+        return beyond > _EDGE * policy.wear_factor
 
     def missed(self, interval: float) -> MissedRelubrication:
         """Return what one relubrication left out costs, once the schedule repeats itself."""
@@ -302,8 +338,16 @@ class _Intervals:
         left_out = LubricantClock(self.law, LubricantSchedule(events))
         end = (_BEFORE + 2) * interval
         more = left_out.steady_cycles(end) - clock.steady_cycles(end)
-        cost = more * self.hourly[0] - (self.application_cost or 0.0) if self.priced else None
+        more = more if more > _ROUNDING * clock.steady_cycles(interval) else 0.0
+        if 2.0 * interval > min(_life(clock, part.hours) for part in self.parts):
+            return MissedRelubrication(interval, None, None)
+        cost = None if self.unknown else more * self.hourly[0] - (self.application_cost or 0.0)
         return MissedRelubrication(interval, more / clock.lasting_factor, cost)
+
+
+def _life(clock: LubricantClock, lubricated: float) -> float:
+    """Return the hours in which so many of well lubricated contacts wear off."""
+    return float(clock.running_cycles(np.array([lubricated]))[0])
 
 
 def lubrication_study(

@@ -1,6 +1,7 @@
 """The runs behind a study of lubrication: one for each lubricant."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from wearsim.case.load_case import load_case
@@ -8,7 +9,7 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
-from wearsim.input.schema.lubrication_tables import FADES, LASTS
+from wearsim.input.schema.lubrication_tables import FADES, LASTS, SCHEDULES
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
@@ -22,6 +23,9 @@ SPROCKET = "sprocket"
 _OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed")
 """Keys that do not hold for another lubricant."""
 
+_SCHEDULED = (*SCHEDULES, "lasts_hours")
+"""Keys in which a case lacks something that suits its schedule."""
+
 
 def lubricate(
     case: Case | DriveCase, progress: Callable[[float], None] = lambda part: None
@@ -32,8 +36,8 @@ def lubricate(
         text = "must be studied as a whole: this is one sprocket of a drive, give the drive"
         raise CaseError([Fault(text, "", case.name)])
     cases = [case, *_options(given)]
-    for one in cases:
-        check_ages(_first(one))
+    for number, one in enumerate(cases):
+        check_ages(_first(one), f"lubrication.option.{number}" if number else "lubrication")
     drives = []
     for number, one in enumerate(cases):
 
@@ -46,16 +50,40 @@ def lubricate(
 
 
 def _options(given: GivenInput) -> Iterator[Case | DriveCase]:
-    """Give the same case with each of its other lubricants."""
+    """Give the same case with each of its other lubricants; faults name the option."""
     table = given.tables.get("lubrication", {})
     options = table.get("option", []) if isinstance(table, Mapping) else []
-    for option in options:
+    _check_rates(given, options)
+    for number, option in enumerate(options, start=1):
         changes: dict[str, Any] = {f"lubrication.{key}": value for key, value in option.items()}
         if "lubricant" in option:
-            # What the lubricant before lasts and wears is not that of another.
             changes = {f"lubrication.{key}": None for key in _OF_A_LUBRICANT if key in table} | changes
-        other = changed(given, changes)
-        yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
+        other = replace(changed(given, {**changes, "lubrication.option": None}), file=given.file)
+        try:
+            yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
+        except CaseError as error:
+            place = f"lubrication.option.{number}"
+            raise CaseError([_of_option(fault, place, option) for fault in error.faults]) from None
+
+
+def _of_option(fault: Fault, place: str, option: Mapping[str, Any]) -> Fault:
+    """Return a fault of a case with an option as one of the option."""
+    name = fault.key.removeprefix("lubrication.")
+    if name in option or name not in _SCHEDULED:
+        return replace(fault, key=f"{place}.{name}", line=0)
+    text = "must be one that is applied now and then, as the others are: remove this option"
+    return Fault(text, f"{place}.lubricant", fault.file)
+
+
+def _check_rates(given: GivenInput, options: Sequence[Mapping[str, Any]]) -> None:
+    """Raise where lubricants are to be compared that all have the wear rates of one."""
+    wear, joint = (given.tables.get(name) or {} for name in ("wear", "joint"))
+    rates = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
+    own = [f"wear.{key}" for key in rates if key in wear]
+    own += [f"joint.{key}" for key in rates if key in joint]
+    if own and any("lubricant" in option for option in options):
+        text = "holds for one lubricant: remove it to compare lubricants, each has its own wear rates"
+        raise CaseError([Fault(text, own[0], given.file)])
 
 
 def _first(case: Case | DriveCase) -> Case:

@@ -75,6 +75,7 @@ def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
         "cheapest_cost_per_1000_h": None if plan.cheapest is None else plan.cheapest.cost,
         "cheap_from_hours": low,
         "cheap_to_hours": high,
+        "no_cheapest_interval": plan.unknown or None,
         "missed_interval_hours": plan.missed.interval,
         "missed_lost_hours": plan.missed.lost,
         "missed_cost": plan.missed.cost,
@@ -114,26 +115,21 @@ def _plan_lines(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
         yield "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
     if plan.cheapest is not None:
         yield row("Cheapest", _advice(study, plan))
-    elif not all(part.reached for part in plan.parts):
-        yield row("Cheapest", "not known: the life of a part is not reached (raise run.horizon_hours)")
     else:
-        yield row("Cheapest", f"not known without {_missing(plan)}")
+        yield row("Cheapest", f"no interval: {plan.unknown}")
     yield row("Missed", _missed(study, plan.missed))
 
 
 def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
+    if missed.lost is None:
+        every = _interval(study, missed.interval)
+        return f"not told for intervals of {every}: a part does not outlive two of them"
     lost = f"{grouped(missed.lost)} h" if missed.lost > 0.0 else "nothing"
     cost = ""
     if missed.cost is not None:
         cost = f", which {'costs' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
     every = _interval(study, missed.interval)
     return f"one relubrication left out of those every {every} takes {lost} of the life of every part{cost}"
-
-
-def _missing(plan: LubricantPlan) -> str:
-    """Return the keys that a cost needs."""
-    keys = [f"a price of {part.name}" for part in plan.parts if part.price is None]
-    return ", ".join([*keys, *([] if plan.priced else ["price_per_application or minutes_per_application"])])
 
 
 def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:
@@ -147,7 +143,7 @@ def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:
     )
     return (
         f"every {_interval(study, best.interval)}, {grouped(best.cost)}{band} per 1000 h; from {low} to "
-        f"{high} it costs at most 5 % more{_AT_THE_EDGE if plan.at_the_edge else ''}"
+        f"{high} it costs at most 5 % more{_AT_THE_EDGE if plan.gives_out else ''}"
     )
 
 

@@ -56,7 +56,7 @@ def counted_readings(found: ChainState) -> str:
 
 def _relubrications(found: ChainState) -> str:
     """Return how often the chain was relubricated."""
-    count, every = len(found.log.relubricated), grouped(mean_interval(found.log))
+    count, every = len(set(found.log.relubricated)), grouped(mean_interval(found.log))
     return f"{count} times, every {every} h in the mean, and so on from here"
 
 

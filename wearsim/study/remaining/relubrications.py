@@ -21,6 +21,12 @@ def check_relubrications(case: Case, log: ChainLog) -> None:
             "them, or remove these rows"
         )
         raise CaseError([Fault(text, "quantity", log.file)])
+    if case.lubrication.phases:
+        text = (
+            f"{RELUBRICATION} takes the place of a schedule, but the case has a programme of its own: "
+            "remove [[lubrication.phase]], or these rows"
+        )
+        raise CaseError([Fault(text, "quantity", log.file)])
     if not log.relubricated[0] > 0.0:
         text = f"{RELUBRICATION} must be later than 0, as a new chain is lubricated: remove the row"
         raise CaseError([Fault(text, log.time.column, log.file)])
@@ -28,7 +34,7 @@ def check_relubrications(case: Case, log: ChainLog) -> None:
 
 def mean_interval(log: ChainLog) -> float:
     """Return the mean time between relubrications, the first counted from the new chain [h]."""
-    return log.relubricated[-1] / len(log.relubricated)
+    return log.relubricated[-1] / len(set(log.relubricated))
 
 
 def as_logged(case: Case, log: ChainLog) -> Case:
