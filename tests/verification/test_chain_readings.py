@@ -250,6 +250,20 @@ def test_an_overdue_relubrication_happens_on_the_day_of_the_last_row(table):
     assert found.of("remaining_hours").middle == pytest.approx(1025.0, rel=1e-5)
 
 
+def test_two_relubrications_of_one_day_are_one(table):
+    rows = "150,relubrication,,,,", "400,elongation_percent,1.0,,,1e-6"
+    once, twice = (chain_state(case(**OILED), table(*of)) for of in (rows, (rows[0], *rows)))
+    assert twice.of("remaining_hours") == once.of("remaining_hours")
+
+
+def test_a_programme_beside_a_log_is_named(table):
+    programme = {**OILED["lubrication"], "phase": [{"hours": 50, "contamination_factor": 3}]}
+    with pytest.raises(wearsim.CaseError, match=r"programme of its own: remove \[\[lubrication.phase"):
+        chain_state(
+            case(lubrication=programme), table("150,relubrication,,,,", "400,elongation_percent,1.0,,,1e-6")
+        )
+
+
 def test_without_a_log_the_schedule_of_the_case_holds(table):
     """Never relubricated: 100 h, then four times as fast. 0.7 % after 250 h is 1 % after 325 h."""
     dry = case(**OILED, stop={"elongation_percent": 1})
