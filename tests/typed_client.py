@@ -50,6 +50,9 @@ def main() -> None:
     law = {"load.tension_N": {"distribution": "normal", "standard_deviation": 50.0}}
     sure = assert_type(wearsim.uncertainty(case, law, samples=4), wearsim.UncertaintyResult)
     assert_type(sure.percentiles, pd.DataFrame)
+    ageing = case.with_({"lubrication.lasts_hours": 100, "lubrication.dry_factor": 4})
+    often = assert_type(wearsim.lubricate(ageing), wearsim.LubricationResult)
+    assert_type(often.intervals, pd.DataFrame)
     plan = assert_type(wearsim.maintain(case, {"replace_at_percent": [3]}), wearsim.MaintenanceResult)
     assert_type(plan.policies, pd.DataFrame)
     left = assert_type(wearsim.remaining(case, 1000, elongation_percent=1), wearsim.RemainingResult)

@@ -20,6 +20,7 @@ _PUBLIC = {
     "Life": "wearsim.result",
     "LoadsResult": "wearsim.python.loads",
     "LowerBound": "wearsim.result",
+    "LubricationResult": "wearsim.python.lubricate",
     "MaintenanceResult": "wearsim.python.maintain",
     "OptimiseResult": "wearsim.python.optimise",
     "RemainingResult": "wearsim.python.remaining",
@@ -34,6 +35,7 @@ _PUBLIC = {
     "load_case": "wearsim.case.load_case",
     "load_drive": "wearsim.study.whole_drive.keys",
     "loads": "wearsim.python.loads",
+    "lubricate": "wearsim.python.lubricate",
     "maintain": "wearsim.python.maintain",
     "optimise": "wearsim.python.optimise",
     "progress_bar": "wearsim.python.progress",
@@ -57,6 +59,7 @@ if TYPE_CHECKING:
     from wearsim.python.check import CheckResult, check
     from wearsim.python.export import ExportResult, export
     from wearsim.python.loads import LoadsResult, loads
+    from wearsim.python.lubricate import LubricationResult, lubricate
     from wearsim.python.maintain import MaintenanceResult, maintain
     from wearsim.python.optimise import OptimiseResult, optimise
     from wearsim.python.progress import progress_bar
@@ -85,6 +88,7 @@ __all__ = [
     "Life",
     "LoadsResult",
     "LowerBound",
+    "LubricationResult",
     "MaintenanceResult",
     "OptimiseResult",
     "RemainingResult",
@@ -100,6 +104,7 @@ __all__ = [
     "load_case",
     "load_drive",
     "loads",
+    "lubricate",
     "maintain",
     "optimise",
     "progress_bar",

@@ -243,6 +243,21 @@ def test_uncertainty(answer, drive):
     assert is_drawn(found.plot())
 
 
+def test_lubricate(answer):
+    expected = answer("lubricate", "bicycle-17t-lubricants")
+    done = []
+    found = wearsim.lubricate("bicycle-17t-lubricants", progress=done.append)
+    assert found.summary() == expected
+    assert list(found.intervals["cost_per_1000_h"]) == [
+        row["cost_per_1000_h"] for row in expected["policies"]
+    ]
+    assert list(found.lubricants["lubricant"]) == ["wet drip", "wax drip", "immersion wax"]
+    assert found.headline.endswith("immersion wax")
+    assert done[0] == 0.0 and max(done) <= 1.0
+    assert is_shown(found, "intervals", "lubricants")
+    assert is_drawn(found.plot())
+
+
 def test_maintain(answer, wrap, two):
     expected = answer("maintain", wrap)
     done = []
