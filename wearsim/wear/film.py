@@ -46,6 +46,7 @@ def minimum_film(
     Discs of 20 mm, 0.1 Pa s, 20/GPa, 1 m/s, 100 N/mm: U = 2.167e-11, G = 4615, W = 2.167e-5, and
     2.65 G^0.54 U^0.7 W^-0.13 is 2.65 95.1 3.42e-8 4.04 = 3.48e-5, or 0.70 um.
 
+    >>> import numpy as np
     >>> oil = Lubricant(1e-7, 0.02)
     >>> one = np.ones(1)
     >>> film = minimum_film(oil, 1000.0 * one, 100.0 * one, 0.05 * one, 115384.6)
