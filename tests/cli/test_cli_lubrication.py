@@ -97,6 +97,28 @@ def test_sliding_way_of_flanks_moves_the_life() -> None:
     assert hours(fading) != pytest.approx(hours(tables), rel=1e-6)
 
 
+@pytest.mark.parametrize("key", ["lasts_sliding_m", "interval_sliding_m"])
+def test_flank_that_does_not_slide_is_named(tmp_path: Path, key: str) -> None:
+    """As without a lubricant: nothing wears."""
+    head = "arc_length_mm,load_per_width_N_per_mm,flank_curvature_per_mm,sliding_distance_mm"
+    (tmp_path / "rows.csv").write_text("\n".join([head, *(f"{i},100,0.02,0" for i in range(6))]), "utf-8")
+    tables = {
+        "format_version": 1,
+        "chain": {"designation": "16B-1"},
+        "mechanism": {"kind": "prescribed", "table_file": str(tmp_path / "rows.csv")},
+        "load": {"speed_rpm": 100},
+        "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
+        "stop": {"critical_depth_mm": 0.05},
+        "lubrication": {
+            "dry_factor": 3.0,
+            **({} if key.startswith("lasts") else {"lasts_hours": 3.0}),
+            key: 2.0,
+        },
+    }
+    with pytest.raises(wearsim.ContactError, match="slid"):
+        wearsim.simulate(wearsim.load_case(tables))
+
+
 def test_phase_in_km() -> None:
     in_km = [{"km": 200.0}, {**{key: PHASES[1][key] for key in PHASES[1] if key != "hours"}, "km": 200.0}]
     found = [hours(_with(interval_hours=None, phase=phase)) for phase in (PHASES, in_km)]

@@ -25,21 +25,21 @@ def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
         return FRESH
 
     def cycles(way: RunningWay) -> float:
+        if way.sliding and not sliding_per_cycle > 0.0:
+            return math.inf
         by_sliding = way.sliding / sliding_per_cycle if way.sliding else 0.0
         return way.hours * case.cycles_per_hour + by_sliding
 
     law = LubricantLaw(
         given.dry_factor, cycles(given.lasts), cycles(given.fades), given.completeness, given.dirt_removed
     )
-    begin = LubricantEvent(0.0, held=given.dirt.excess, ageing=given.dirt.ageing)
+    dirt = given.dirt
     if given.phases:
         whole = math.fsum(phase.hours for phase in given.phases) * case.cycles_per_hour
         return LubricantClock(law, LubricantSchedule(tuple(_of_phases(given, case.cycles_per_hour)), whole))
     if given.interval is not None:
-        interval = cycles(given.interval)
-        return LubricantClock(
-            law, LubricantSchedule((begin, LubricantEvent(interval, relubricated=True)), interval)
-        )
+        return LubricantClock(law, LubricantSchedule.every(cycles(given.interval), dirt.excess, dirt.ageing))
+    begin = LubricantEvent(0.0, held=dirt.excess, ageing=dirt.ageing)
     times = (LubricantEvent(hours * case.cycles_per_hour, relubricated=True) for hours in given.at_hours)
     return LubricantClock(law, LubricantSchedule((begin, *times), threshold=given.threshold))
 

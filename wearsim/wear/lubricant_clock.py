@@ -130,6 +130,12 @@ class LubricantSchedule:
     # factor g at which contacts are relubricated after the last event; above what dirt alone gives
     threshold: float = math.inf
 
+    @classmethod
+    def every(cls, interval: float, dirt: float, ageing: float) -> "LubricantSchedule":
+        """Return relubrications at an interval [cycles], in dirt that adds so much all the time."""
+        begin = LubricantEvent(0.0, held=dirt, ageing=ageing)
+        return cls((begin, LubricantEvent(interval, relubricated=True)), interval)
+
 
 class _Stretch(NamedTuple):
     """The begin of the cycles between two events."""

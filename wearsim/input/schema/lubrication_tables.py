@@ -29,7 +29,7 @@ AT = ("at_hours", "at_km")
 SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
 """Keys of which at most one says when contacts are relubricated."""
 
-_RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
+RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
 """Keys of [wear] that say how fast it wears."""
 
 
@@ -38,7 +38,7 @@ def with_wear_condition(tables: Any) -> Any:
     if not isinstance(tables, dict):
         return tables
     given, wear = tables.get("lubrication"), tables.get("wear", {})
-    if not isinstance(given, dict) or not isinstance(wear, dict) or any(key in wear for key in _RATES):
+    if not isinstance(given, dict) or not isinstance(wear, dict) or any(key in wear for key in RATES):
         return tables
     name = given.get("lubricant")
     if not isinstance(name, str):

@@ -249,9 +249,7 @@ class _Intervals:
 
     def clock(self, interval: float) -> LubricantClock:
         """Return the clock of an interval."""
-        begin = LubricantEvent(0.0, held=self.excess, ageing=self.ageing)
-        events = (begin, LubricantEvent(interval, relubricated=True))
-        return LubricantClock(self.law, LubricantSchedule(events, interval))
+        return LubricantClock(self.law, LubricantSchedule.every(interval, self.excess, self.ageing))
 
     def policy(self, interval: float) -> RelubricationPolicy:
         """Return what an interval leads to."""

@@ -9,7 +9,7 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
-from wearsim.input.schema.lubrication_tables import FADES, LASTS, SCHEDULES
+from wearsim.input.schema.lubrication_tables import FADES, LASTS, RATES, SCHEDULES
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
@@ -78,9 +78,8 @@ def _of_option(fault: Fault, place: str, option: Mapping[str, Any]) -> Fault:
 def _check_rates(given: GivenInput, options: Sequence[Mapping[str, Any]]) -> None:
     """Raise where lubricants are to be compared that all have the wear rates of one."""
     wear, joint = (given.tables.get(name) or {} for name in ("wear", "joint"))
-    rates = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
-    own = [f"wear.{key}" for key in rates if key in wear]
-    own += [f"joint.{key}" for key in rates if key in joint]
+    own = [f"wear.{key}" for key in RATES if key in wear]
+    own += [f"joint.{key}" for key in RATES if key in joint]
     if own and any("lubricant" in option for option in options):
         text = "holds for one lubricant: remove it to compare lubricants, each has its own wear rates"
         raise CaseError([Fault(text, own[0], given.file)])
