@@ -2,6 +2,7 @@
 
 import importlib
 import runpy
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -32,7 +33,9 @@ def pytest_addoption(parser):
 
 
 def pytest_sessionstart(session):
-    """Have all kernels compiled side by side before workers run the whole suite and compile each its own."""
+    """Let programs be interrupted, and have all kernels compiled before workers would compile each its own."""
+    # A shell that starts the tests in its background has them, and what they start, ignore the interrupt.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     config = session.config
     whole = config.args_source is config.ArgsSource.TESTPATHS and not config.option.collectonly
     if whole and config.getoption("numprocesses") and not hasattr(config, "workerinput"):
