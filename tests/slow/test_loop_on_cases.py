@@ -38,10 +38,13 @@ def raised(case: wearsim.Case, method: str, factor: float) -> wearsim.Case:
     """Return a case whose parts all wear so many times as fast."""
     rates = {coefficient_key(case): case.wear.coefficient, **case.drive.wear_coefficients}
     tables = {name: dict(table) if isinstance(table, dict) else table for name, table in case.inputs.items()}
-    tables["wear"].pop("condition", None)
+    tables.setdefault("wear", {}).pop("condition", None)
     for key, rate in rates.items():
         table, name = key.split(".")
         tables.setdefault(table, {})[name] = factor * rate
+    if "lubrication" in tables:
+        # As many applications of the lubricant in a life that is shorter.
+        tables["service"]["km_per_hour"] *= factor
     tables["run"] = {**tables.get("run", {}), "method": method}
     tables["run"].pop("cycles_per_update", None)
     return wearsim.load_case(tables)
@@ -55,7 +58,8 @@ def test_both_methods_agree_within_the_stated_error(path, monkeypatch):
     sprocket = first.parts.get("sprocket", first.life)
     factor = sprocket.cycles_run / cycles
     stepped, loop = (wearsim.simulate(raised(case, method, factor)) for method in ("advance", "per_cycle"))
-    assert loop.updates == pytest.approx(cycles, rel=0.1)
+    # One for each cycle with a fresh lubricant: the clock of one that ages runs faster.
+    assert loop.updates >= 0.9 * cycles
     assert loop.stop == stepped.stop
     allowed = stepped.numerical_error + (HALF_SPACE if case.drive.rests else 0.0)
     # Half a cycle is what the loop can tell.
