@@ -19,12 +19,17 @@ def rows(stated_error):
 
 def test_it_holds_where_it_did_not(stated_error, rows, tmp_path):
     references = {row.number: row.reference for row in rows if row.kind == "strand"}
-    cases = [stated_error.drive("strand", number, tmp_path)[0] for number in SILENT]
-    for case, number, many in zip(cases, SILENT, wearsim.simulate_many(cases), strict=True):
+    for number in SILENT:
+        alone = wearsim.simulate(stated_error.drive("strand", number, tmp_path)[0])
+        assert abs(alone.cycles / references[number] - 1.0) <= alone.numerical_error
+
+
+def test_many_at_once_state_the_same(stated_error, tmp_path):
+    cases = [stated_error.drive("strand", number, tmp_path)[0] for number in SILENT[:2]]
+    for case, many in zip(cases, wearsim.simulate_many(cases), strict=True):
         alone = wearsim.simulate(case)
         assert many.life == alone.life
         assert many.numerical_error == pytest.approx(alone.numerical_error, rel=1e-6)
-        assert abs(alone.cycles / references[number] - 1.0) <= alone.numerical_error
 
 
 def test_page_shows_what_was_judged(stated_error, rows):
