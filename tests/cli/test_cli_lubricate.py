@@ -161,7 +161,7 @@ def test_shipped_case_answers(tmp_path: Path) -> None:
 
 
 def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
-    table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 100\n'
+    table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 300000\n'
     text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")
     text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace(
         "nodes = 201", "nodes = 101"
@@ -176,8 +176,30 @@ def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     lives = json.loads(
         CliRunner().invoke(wearsim_command, ["life", str(path), "--json"]).stdout.splitlines()[0]
     )
-    at_100 = next(row for row in found["policies"] if math.isclose(row["interval_hours"], 100.0))
-    assert at_100["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
+    own = next(row for row in found["policies"] if math.isclose(row["interval_hours"], 3e5))
+    assert own["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
+    key = "lubrication.interval_hours = 300000 is longer than the life of the"
+    for warnings in (found["warnings"], lives["warnings"]):
+        texts = [text for text in warnings if "never relubricated" in text]
+        assert [text.split(", ")[0] for text in texts] == [
+            f"{key} chain",
+            f"motor: {key} sprocket",
+            f"conveyor: {key} sprocket",
+        ]
+        assert all(text.endswith("gone from 200 h on") for text in texts)
+
+
+def test_late_relubrication_is_named_for_each_lubricant() -> None:
+    """50 and 200 h of the one, 80 and 10 h of the other."""
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS]}}
+    found = study("lubrication.interval_hours=9000", tables=tables)
+    texts = [text for text in found.warnings if "never relubricated" in text]
+    key = "lubrication.interval_hours = 9000 is longer than the life of the flank"
+    assert texts[0].startswith(key)
+    assert texts[0].endswith("gone from 250 h on")
+    assert texts[1].startswith(f"greased: {key}")
+    assert texts[1].endswith("gone from 90 h on")
+    assert all(text in lubrication_text(found).replace("\n             ", " ") for text in texts)
 
 
 def test_ways_of_different_units_are_one_interval() -> None:

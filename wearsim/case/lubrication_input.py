@@ -8,6 +8,7 @@ from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, we
 from wearsim.contact.abrasion import abrasion_share
 from wearsim.input.case_record import CaseRecord
 from wearsim.input.schema.lubrication_tables import (
+    AT,
     FADES,
     INTERVAL,
     LASTS,
@@ -15,6 +16,7 @@ from wearsim.input.schema.lubrication_tables import (
     LubricationPhase,
     LubricationTable,
 )
+from wearsim.quantities import grouped
 
 
 @dataclass(frozen=True)
@@ -60,9 +62,27 @@ class LubricationInput:
     dirt: Dirt = Dirt()  # outside phases
     interval: RunningWay | None = None  # between relubrications
     at_hours: tuple[float, ...] = ()  # of relubrications [h]
+    first: str = ""  # key and value, as given, that say when contacts are first relubricated
     threshold: float = math.inf  # factor on the wear at which contacts are relubricated
     phases: tuple[PhaseInput, ...] = ()
     application_cost: float | None = None  # of a relubrication, work and lubricant; None where none is given
+
+    @property
+    def first_hours(self) -> float:
+        """Running time before the first relubrication, 0 where it is not given as one [h]."""
+        return self.at_hours[0] if self.at_hours else self.interval.hours if self.interval else 0.0
+
+    def never_relubricated(self, end: str, what: str, hours: float, lasts: float, dries: float) -> str:
+        """Say that something ends before its first relubrication, and how its lubricant is by then [h]."""
+        then = f"; the lubricant is gone from {grouped(dries)} h on"
+        if math.isinf(lasts):
+            then = ""
+        elif lasts >= hours:
+            then = "; the lubricant lasts so long"
+        elif dries >= hours:
+            then = f"; the lubricant fades from {grouped(lasts)} h on"
+        word = "comes after" if self.at_hours else "is longer than"
+        return f"{self.first} {word} {end}: {what} never relubricated{then}"
 
     @property
     def steady(self) -> bool:
@@ -134,6 +154,7 @@ class _Reader:
             dirt=dirt,
             interval=self._interval(),
             at_hours=self._times(),
+            first=self._first(),
             threshold=self._threshold(dirt.excess, dry_factor),
             phases=phases,
             application_cost=self._cost(),
@@ -175,7 +196,7 @@ class _Reader:
             return True
         if row is not None and row.lasts is not None:
             return True
-        schedule = self._given((*INTERVAL, "at_hours", "at_km", "when_rate_exceeds"))
+        schedule = self._given((*INTERVAL, *AT, "when_rate_exceeds"))
         if schedule is not None and (row is None or row.supply == "applied"):
             what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
             self._fault(
@@ -231,29 +252,22 @@ class _Reader:
             return math.nan
         return value / self.km_per_hour
 
-    def _look_at_run(self, key: str, hours: float) -> None:
-        """Warn of a relubrication that comes after the run."""
-        if hours >= self.run_hours:
-            self.case.warnings.append(
-                f"lubrication.{key}: {hours:.6g} h are longer than the run, run.horizon_hours = "
-                f"{self.run_hours:g}: contacts are not relubricated in it"
-            )
-
     def _interval(self) -> RunningWay | None:
         key = self._given(INTERVAL)
         if key is None:
             return None
-        way = self._running(key, getattr(self.table, key))
-        self._look_at_run(key, way.hours)
-        return way
+        return self._running(key, getattr(self.table, key))
 
     def _times(self) -> tuple[float, ...]:
-        key = self._given(("at_hours", "at_km"))
+        key = self._given(AT)
+        return () if key is None else tuple(self._hours(key, value) for value in getattr(self.table, key))
+
+    def _first(self) -> str:
+        key = self._given((*INTERVAL, *AT))
         if key is None:
-            return ()
-        hours = tuple(self._hours(key, value) for value in getattr(self.table, key))
-        self._look_at_run(key, hours[-1])
-        return hours
+            return ""
+        value = getattr(self.table, key)
+        return f"lubrication.{key} = {value[0] if key in AT else value:g}"
 
     def _threshold(self, excess: float, dry_factor: float) -> float:
         given = self.table.when_rate_exceeds
@@ -333,6 +347,18 @@ class _Reader:
 
     def _say(self, found: LubricationInput) -> None:
         self.case.assumptions += _assumptions(found)
+        run, end = self.run_hours, f"the run, run.horizon_hours = {self.run_hours:g}"
+        late = sum(time >= run for time in found.at_hours)
+        if found.first_hours >= run:
+            by_hours = not (found.lasts.sliding or found.fades.sliding)
+            lasts = found.lasts.hours / found.dirt.ageing if by_hours else math.inf
+            dries = lasts + found.fades.hours / found.dirt.ageing
+            self.case.warnings.append(found.never_relubricated(end, "contacts are", run, lasts, dries))
+        elif late:
+            self.case.warnings.append(
+                f"lubrication.{self._given(AT)}: {late} of {len(found.at_hours)} relubrications come after "
+                f"{end}"
+            )
 
 
 def _assumptions(found: LubricationInput) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """The lubricant of a case as the clock of its wear."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -9,6 +9,8 @@ from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
+from wearsim.quantities import grouped
+from wearsim.result import Life, LowerBound
 from wearsim.wear.lubricant_clock import (
     FRESH,
     LubricantClock,
@@ -42,6 +44,26 @@ def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
     begin = LubricantEvent(0.0, held=dirt.excess, ageing=dirt.ageing)
     times = (LubricantEvent(hours * case.cycles_per_hour, relubricated=True) for hours in given.at_hours)
     return LubricantClock(law, LubricantSchedule((begin, *times), threshold=given.threshold))
+
+
+def late_relubrication(
+    case: Case, clock: LubricantClock, parts: Mapping[str, Life | LowerBound]
+) -> list[str]:
+    """Return a warning for each part that ends before its first relubrication, or the run before that."""
+    given = case.lubrication
+    if given is None or not given.first or given.first_hours >= case.run.horizon_hours:
+        return []  # the case has said so
+    per_hour = case.cycles_per_hour
+    first = given.at_hours[0] if given.at_hours else clock.repeats / per_hour
+    lasts = clock.law.lasts / per_hour / given.dirt.ageing
+    dries = lasts + clock.law.fades / per_hour / given.dirt.ageing
+    found = []
+    for name, life in parts.items():
+        if life.hours_run < first:
+            kind = "life" if isinstance(life, Life) else "run"
+            end = f"the {kind} of the {name}, {grouped(life.hours_run)} h"
+            found.append(given.never_relubricated(end, f"the {name} is", life.hours_run, lasts, dries))
+    return found
 
 
 def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[LubricantEvent]:

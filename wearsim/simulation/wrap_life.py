@@ -16,7 +16,7 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.lubricant import lubricant_clock
+from wearsim.simulation.lubricant import late_relubrication, lubricant_clock
 from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
@@ -59,6 +59,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     history, flank = _tables(case, contact, drive, run, law)
     parts = {"chain": chain, "sprocket": sprocket}
+    warnings += late_relubrication(case, clock.lubricant, parts)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(

@@ -5,7 +5,7 @@ part lives, and each interval only how fast that clock goes.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -353,12 +353,20 @@ def lubrication_study(
 ) -> LubricationStudy:
     """Return the lubricants of one drive side by side, that of the case first."""
     first = drives[0]
-    warnings = dict.fromkeys(text for drive in drives for text in drive.warnings)
     return LubricationStudy(
         first.case.name,
         title,
         tuple(lubricant_plan(drive) for drive in drives),
         km_per_hour,
         (*CONVENTIONS, *first.assumptions),
-        tuple(warnings),
+        tuple(_warnings(drives)),
     )
+
+
+def _warnings(drives: Sequence[LubricatedDrive]) -> Iterator[str]:
+    """Give the warnings of the case, then what is said of one of its other lubricants only, by its name."""
+    first = drives[0].warnings
+    yield from first
+    for drive in drives[1:]:
+        name = drive.case.lubrication.name if drive.case.lubrication else ""
+        yield from (f"{name}: {text}" for text in drive.warnings if text not in first)
