@@ -232,6 +232,46 @@ def test_band_is_that_of_the_life(settings: list[str]) -> None:
     assert own.lives_high["sprocket"] == pytest.approx(result.life_high.hours_run, rel=1e-6)
 
 
+WRAP: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 61},
+    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
+    "mechanism": {"phases": 2},
+    "load": {"tension_N": 800, "speed_rpm": 200},
+    "run": {"life_tolerance": 0.1},
+    "lubrication": {"lubricant": "manual", "lasts_hours": 30.0, "interval_hours": 20.0},
+}
+
+
+@pytest.mark.parametrize(
+    ("settings", "part", "ends"),
+    [
+        # Of the table of conditions, mm2/N: joints 1.2e-10, 1.8e-10 and 1e-9, teeth 1.7e-10, 5e-10 and 1.5e-9.
+        (["stop.critical_depth_mm=1"], "chain", (1.8 / 10.0, 1.8 / 1.2)),
+        (["stop.critical_depth_mm=0.01"], "sprocket", (5.0 / 15.0, 5.0 / 1.7)),
+        (
+            ["stop.critical_depth_mm=1", "joint.specific_wear_rate_mm2_per_N=1.8e-10"],
+            "chain",
+            (5.0 / 15.0, 5.0 / 1.7),
+        ),
+    ],
+    ids=["joints", "teeth", "joints without a band"],
+)
+def test_band_of_a_part_is_the_same_in_life_and_lubricate(
+    settings: list[str], part: str, ends: tuple[float, float]
+) -> None:
+    """Relubricated in time, so that lives go with one over the coefficient of what ends them."""
+    case = wearsim.load_case(WRAP, settings)
+    result = wearsim.simulate(case)
+    assert result.life == result.parts[part]
+    expected = [end * result.life.hours_run for end in ends]
+    assert [result.life_low.hours_run, result.life_high.hours_run] == pytest.approx(expected, rel=1e-9)
+    assert ("joints 1.2e-10 to 1e-09" in result.band) == ("joint." not in str(settings) and part == "chain")
+    own = study(*settings, tables=WRAP).plans[0].own
+    assert [own.lives_low[part], own.lives_high[part]] == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [

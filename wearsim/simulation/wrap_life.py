@@ -24,6 +24,7 @@ from wearsim.wear.law import WearLaw
 from wearsim.wear.lubricant_clock import LubricatedClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
+from wearsim.wear.running_in import NO_RUNNING_IN
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
 from wearsim.wear.wear_clock import WearClock
@@ -57,6 +58,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     chain = _chain_life(case, contact, horizon, clock)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
+    ended = "chain" if stop == "elongation_percent" else "sprocket"
+    low, high = _band(case, ended, life, clock)
     history, flank = _tables(case, contact, drive, run, law)
     parts = {"chain": chain, "sprocket": sprocket}
     warnings += late_relubrication(case, clock.lubricant, parts)
@@ -66,9 +69,9 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         case=case.name,
         title=case.title,
         life=life,
-        life_low=_scaled(life, case.wear.high, case, clock),
-        life_high=_scaled(life, case.wear.low, case, clock),
-        band=f"{case.wear.band}, of teeth and joints alike",
+        life_low=low,
+        life_high=high,
+        band=drive.wear_band(ended, case.wear).source,
         stop=stop,
         stop_value=stop_value,
         cycles_run=float(run.cycles[-1]),
@@ -198,12 +201,19 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def with_coefficients(case: Case, life: Life | LowerBound, factor: float) -> Life | LowerBound:
-    """Return what becomes of a life of a wrapped case with all wear coefficients multiplied."""
-    if case.wear.is_steady and (case.lubrication is None or case.lubrication.steady):
-        return type(life)(life.cycles_run / factor, life.hours_run / factor)
-    *_, clock = wrap_problem(case, wrap_of(case).contact(case))
-    return _scaled(life, factor, case, clock)
+def part_band(case: Case, part: str, life: Life | LowerBound) -> tuple[Life | LowerBound, Life | LowerBound]:
+    """Return the life of chain or sprocket at the high and at the low end of its coefficient."""
+    clock: WearClock = NO_RUNNING_IN
+    if not (case.wear.is_steady and (case.lubrication is None or case.lubrication.steady)):
+        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+    return _band(case, part, life, clock)
+
+
+def _band(
+    case: Case, part: str, life: Life | LowerBound, clock: WearClock
+) -> tuple[Life | LowerBound, Life | LowerBound]:
+    band = case.drive.wear_band(part, case.wear)
+    return _scaled(life, band.high, case, clock), _scaled(life, band.low, case, clock)
 
 
 def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:

@@ -10,7 +10,6 @@ from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
 from wearsim.input.schema.lubrication_tables import FADES, LASTS, RATES, SCHEDULES
-from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
@@ -111,8 +110,8 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
 def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
     found = drive_life(drive, None, progress)
     lives = part_lives(found)
-    cases = {one.name: one.case for one in drive.sprockets}
     first = drive.driver.case
+    cases = {one.name: one.case for one in drive.sprockets}
     prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
     return LubricatedDrive(
         first,
@@ -129,8 +128,5 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
 
 def _band(case: Case, part: str) -> tuple[float, float]:
     """Return the coefficients at the ends of the band of a part, over that of the case."""
-    if part == CHAIN and isinstance(case.drive, WrapDrive):
-        joint = case.drive.joint
-        if joint.low is not None and joint.high is not None:
-            return joint.low / joint.coefficient, joint.high / joint.coefficient
-    return case.wear.low, case.wear.high
+    low, high, _ = case.drive.wear_band(part, case.wear)
+    return low, high
