@@ -247,7 +247,7 @@ WRAP: dict[str, Any] = {
 @pytest.mark.parametrize(
     ("settings", "part", "ends"),
     [
-        # Of the table of conditions, mm2/N: joints 1.2e-10, 1.8e-10 and 1e-9, teeth 1.7e-10, 5e-10 and 1.5e-9.
+        # Of the conditions, mm2/N: joints 1.2e-10, 1.8e-10 and 1e-9, teeth 1.7e-10, 5e-10 and 1.5e-9.
         (["stop.critical_depth_mm=1"], "chain", (1.8 / 10.0, 1.8 / 1.2)),
         (["stop.critical_depth_mm=0.01"], "sprocket", (5.0 / 15.0, 5.0 / 1.7)),
         (

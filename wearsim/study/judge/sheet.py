@@ -82,12 +82,12 @@ def _percent(share: float) -> str:
     return "" if math.isnan(share) else f"{100 * share:.0f} %"
 
 
-def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
+def judgement_json(found: Judgement, source: str) -> dict[str, Any]:
     """Return the answer as ``wearsim judge --json`` prints it."""
     data = found.data
     return {
         **ANSWER_HEAD,
-        "data": source.name,
+        "data": source,
         "readings": data.wear.size,
         "series_count": len(data.names),
         "held_out_readings": int(data.held_out.sum()),
