@@ -11,9 +11,10 @@ from click.testing import CliRunner
 
 import wearsim
 from wearsim.cli.main import wearsim_command
+from wearsim.quantities import grouped
 from wearsim.study.lubricate.model import case_clock
 from wearsim.study.lubricate.runs import lubricate
-from wearsim.study.lubricate.sheet import lubrication_text
+from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, save_lubrication
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -136,6 +137,72 @@ def test_option_takes_the_place_of_the_lubricant() -> None:
     assert (
         study(tables=tables).cheapest.name == min((first, second), key=lambda plan: plan.cheapest.cost).name
     )
+
+
+DRIP: dict[str, Any] = {"lubricant": "drip", "consumption_ml_per_hour": 5.0, "price_per_litre": 8.0}
+
+
+def test_supply_by_hand() -> None:
+    """5 ml an hour at 8 a litre are 40 in 1000 h, beside 300 a life; dust multiplies the wear by 3.6."""
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "environment": "dust", "option": [DRIP]}}
+    found = study(tables=tables)
+    clean = wearsim.simulate(wearsim.load_case({**STRAND, "lubrication": {"lubricant": "drip"}}))
+    life, low, high = (end.hours_run / 3.6 for end in (clean.life, clean.life_low, clean.life_high))
+    (policy,) = found.plans[1].policies
+    assert policy.lives["sprocket"] == pytest.approx(life, rel=1e-9)
+    assert policy.wear_factor == pytest.approx(3.6)
+    costs = [40.0 + 1000.0 * 300.0 / hours for hours in (life, high, low)]
+    assert [policy.cost, policy.cost_low, policy.cost_high] == pytest.approx(costs, rel=1e-9)
+    text = lubrication_text(found)
+    assert (
+        f"Cost       all the time, {grouped(costs[0])} ({grouped(costs[1])} to {grouped(costs[2])})" in text
+    )
+    assert (found.cheapest.name, "Pays       drip, all the time" in text) == ("drip", True)
+    row = policy_rows(found)[-1]
+    assert (row["lubricant"], row["interval_hours"], row["relubrications_per_1000_h"]) == ("drip", None, 0.0)
+
+
+def test_supply_without_a_price_is_said() -> None:
+    """Its oil may cost what is left to the cheapest interval of the other."""
+    option = {"lubricant": "oil bath"}
+    found = study(tables={**STRAND, "lubrication": {**STRAND["lubrication"], "option": [option]}})
+    applied, supplied = found.plans
+    life = wearsim.simulate(wearsim.load_case({**STRAND, "lubrication": option})).life.hours_run
+    assert supplied.policies[0].cost == pytest.approx(1000.0 * 300.0 / life, rel=1e-9)
+    left = applied.cheapest.cost - 1000.0 * 300.0 / life
+    text = " ".join(lubrication_text(found).split())
+    assert "Cost without its oil: give consumption_ml_per_hour and price_per_litre" in text
+    assert f"oil bath pays where its oil costs less than {grouped(left)} per 1000 h" in text
+    assert found.cheapest is applied
+    assert supplied.cheapest is None
+
+
+def test_applied_one_beside_a_supply_of_the_case(tmp_path: Path) -> None:
+    table = {**DRIP, "labour_cost_per_hour": 30.0, "option": [{**OPTIONS, "lubricant": "manual"}]}
+    found = study(tables={**STRAND, "lubrication": table})
+    alone = {"labour_cost_per_hour": 30.0, **OPTIONS, "lubricant": "manual"}
+    (expected,) = study(tables={**STRAND, "lubrication": alone}).plans
+    assert [plan.supplied for plan in found.plans] == [True, False]
+    assert found.plans[1].cheapest.cost == expected.cheapest.cost
+    json.dumps(lubrication_json(found), allow_nan=False)
+    save_lubrication(found, tmp_path / "out", force=False)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ({**DRIP, "price_per_litre": None}, "consumption_ml_per_hour", "needs price_per_litre too"),
+        ({**DRIP, "consumption_ml_per_hour": None}, "price_per_litre", "needs consumption_ml_per_hour too"),
+        ({**OPTIONS, "price_per_litre": 8.0}, "price_per_litre", "give price_per_application instead"),
+        ({**DRIP, "price_per_application": 2.0}, "price_per_application", "must not be given of a lubricant"),
+    ],
+)
+def test_costs_that_do_not_fit_the_supply_are_named(table: dict[str, Any], key: str, words: str) -> None:
+    option = {name: value for name, value in table.items() if value is not None}
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [option]}}
+    with pytest.raises(wearsim.CaseError, match=words) as caught:
+        study(tables=tables)
+    assert [fault.key for fault in caught.value.faults] == [f"lubrication.option.1.{key}"]
 
 
 def run(*words: str) -> Any:
@@ -292,9 +359,8 @@ def test_missed_one_is_not_told_where_a_part_does_not_outlive_it() -> None:
     assert (plan.missed.lost, plan.missed.cost) == (None, None)
 
 
-@pytest.mark.parametrize("name", ["drip", "dry"])
-def test_option_that_is_not_applied_is_named(name: str) -> None:
-    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS, {"lubricant": name}]}}
+def test_option_without_a_lubricant_is_named() -> None:
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS, {"lubricant": "dry"}]}}
     with pytest.raises(wearsim.CaseError) as caught:
         study(tables=tables)
     assert {fault.key for fault in caught.value.faults} == {"lubrication.option.2.lubricant"}

@@ -16,7 +16,8 @@ from wearsim.lazy import lazy_names
 NAMES = """
 CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError ConvergenceError DriveCase
 DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
-MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult WearsimError
+MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
+WearsimError
 __version__ calibrate check export judge load_case load_drive loads lubricate maintain optimise progress_bar
 remaining select simulate simulate_many sweep uncertainty
 """

@@ -13,6 +13,7 @@ from wearsim.input.schema.lubrication_tables import (
     INTERVAL,
     LASTS,
     SCHEDULES,
+    SUPPLY,
     LubricationPhase,
     LubricationTable,
 )
@@ -66,6 +67,8 @@ class LubricationInput:
     threshold: float = math.inf  # factor on the wear at which contacts are relubricated
     phases: tuple[PhaseInput, ...] = ()
     application_cost: float | None = None  # of a relubrication, work and lubricant; None where none is given
+    supplied: bool = False  # all the time, so that it does not age
+    supply_cost: float | None = None  # of what it uses up in an hour of that; None where that is not given
 
     @property
     def first_hours(self) -> float:
@@ -158,6 +161,8 @@ class _Reader:
             threshold=self._threshold(dirt.excess, dry_factor),
             phases=phases,
             application_cost=self._cost(),
+            supplied=not ages and self.row is not None and self.row.supply == "continuous",
+            supply_cost=self._supply_cost(),
         )
         self._say(found)
         return found
@@ -337,13 +342,33 @@ class _Reader:
             self._fault(
                 "minutes_per_application", "the cost needs labour_cost_per_hour too: give it, or remove this"
             )
-        if hourly is not None and minutes is None:
+        if hourly is not None and minutes is None and not table.option:
             self._fault(
                 "labour_cost_per_hour", "the cost needs minutes_per_application too: give it, or remove this"
             )
+        if self.row is not None and self.row.supply == "continuous":
+            for key in ("price_per_application", "minutes_per_application"):
+                if getattr(table, key) is not None:
+                    self._fault(
+                        key, "must not be given of a lubricant that is supplied all the time: remove it"
+                    )
         if minutes is None and price is None:
             return None
         return (minutes or 0.0) / 60.0 * (hourly or 0.0) + (price or 0.0)
+
+    def _supply_cost(self) -> float | None:
+        """Return what an hour of a supply costs."""
+        given = {key: getattr(self.table, key) for key in SUPPLY if getattr(self.table, key) is not None}
+        if not given:
+            return None
+        for key in given:
+            if self.row is None or self.row.supply != "continuous":
+                text = "needs a lubricant that is supplied all the time: give price_per_application instead"
+                self._fault(key, text)
+            elif len(given) < len(SUPPLY):
+                (other,) = set(SUPPLY) - set(given)
+                self._fault(key, f"the cost needs {other} too: give it, or remove this")
+        return float(1e-3 * math.prod(given.values()))
 
     def _say(self, found: LubricationInput) -> None:
         self.case.assumptions += _assumptions(found)
