@@ -32,6 +32,7 @@ def judgement_text(found: Judgement) -> str:
         ("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         ("Verdict", verdict(found)),
         ("Assumes", numbered_assumptions(ASSUMPTIONS)),
+        ("Warnings", "; ".join(data.warnings) or "none"),
     ]
     return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
 
@@ -100,6 +101,7 @@ def judgement_json(found: Judgement, source: str) -> dict[str, Any]:
         "objections": list(found.objections),
         "laws": [_law(one) for one in found.laws],
         "assumptions": list(ASSUMPTIONS),
+        "warnings": list(data.warnings),
     }
 
 
