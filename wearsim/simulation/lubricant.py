@@ -87,8 +87,7 @@ def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[Lubr
 
 def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
     """Mean path that the loaded stretch of the new flank slides in a cycle of the duty [mm]."""
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+    touch = contact.new_engagement()
     loaded = touch.load_per_width > 0.0
     if not loaded.any():
         return 0.0

@@ -47,7 +47,7 @@ class LubricantPlan:
     # lasts, fades: in the environment of the case [h]
     lasts: float
     fades: float
-    dry_factor: float
+    dry_factor: float  # nan where nothing dries
     parts: tuple[WornPart, ...]
     policies: tuple[RelubricationPolicy, ...]  # intervals rising
     own: RelubricationPolicy | None  # of the case
@@ -146,7 +146,7 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
         supplied=True,
         lasts=math.inf,
         fades=0.0,
-        dry_factor=intervals.law.dry_factor,
+        dry_factor=math.nan,
         parts=tuple(intervals.parts),
         policies=(policy,),
         own=None,

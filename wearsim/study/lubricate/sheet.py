@@ -68,7 +68,7 @@ def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
         "supplied": plan.supplied,
         "lasts_hours": plain(plan.lasts),
         "fades_over_hours": plan.fades,
-        "dry_factor": plan.dry_factor,
+        "dry_factor": plain(plan.dry_factor),
         "own_interval_hours": None if plan.own is None else plan.own.interval,
         "cheapest_interval_hours": None if plan.cheapest is None else plain(plan.cheapest.interval),
         "cheapest_cost_per_1000_h": None if plan.cheapest is None else plan.cheapest.cost,
