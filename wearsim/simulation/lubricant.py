@@ -9,6 +9,7 @@ from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
+from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 from wearsim.result import Life, LowerBound
 from wearsim.wear.lubricant_clock import (
@@ -17,7 +18,14 @@ from wearsim.wear.lubricant_clock import (
     LubricantEvent,
     LubricantLaw,
     LubricantSchedule,
+    LubricatedClock,
 )
+
+_APART = 1e-9
+"""Part of the way between two rows of a history at which a third one is another one."""
+
+_OF_A_CHAIN = ("elongation_percent", "roller_wear_mm")
+"""Columns of the history that begin anew with each chain."""
 
 
 def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
@@ -102,3 +110,25 @@ def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
     # The width of the contact goes with the root of the load.
     greatest = heaviest_block(blocks).tension
     return path * math.fsum(block.share * math.sqrt(block.tension / greatest) for block in blocks)
+
+
+def with_knees(
+    history: dict[str, Vector], constant: Vector, clock: LubricatedClock, cycles_per_hour: float
+) -> dict[str, Vector]:
+    """Return a history with rows where the lubricant gives out or is renewed, on the way to the next row."""
+    times = clock.lubricant.knees(float(history["cycles"][-1]))
+    steady = np.array([clock.steady_cycles(at) for at in times.tolist()])
+    after = np.searchsorted(constant, steady, side="right")
+    inside = (after > 0) & (after < constant.size)
+    times, steady, after = times[inside], steady[inside], after[inside]
+    share = (steady - constant[after - 1]) / (constant[after] - constant[after - 1])
+    apart = (share > _APART) & (share < 1.0 - _APART)
+    times, share, after = times[apart], share[apart], after[apart]
+    before = after - 1
+    renewed = history["chain"][after] != history["chain"][before]
+    rows = {}
+    for name, column in history.items():
+        start = np.where(renewed & (name in _OF_A_CHAIN), 0.0, column[before])
+        rows[name] = start + share * (column[after] - start)
+    rows |= {"cycles": times, "time_hours": times / cycles_per_hour, "chain": history["chain"][after]}
+    return {name: np.insert(column, after, rows[name]) for name, column in history.items()}

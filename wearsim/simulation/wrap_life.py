@@ -16,7 +16,7 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.lubricant import late_relubrication, lubricant_clock
+from wearsim.simulation.lubricant import late_relubrication, lubricant_clock, with_knees
 from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
@@ -54,13 +54,15 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     warnings = [*case.warnings, *rating_warnings(ratings)]
     run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
     warnings += _gave_up(run, horizon)
-    run = replace(run, cycles=clock.running_cycles(run.cycles))
+    constant = run.cycles
+    run = replace(run, cycles=clock.running_cycles(constant))
     chain = _chain_life(case, contact, horizon, clock)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     ended = "chain" if stop == "elongation_percent" else "sprocket"
     low, high = _band(case, ended, life, clock)
     history, flank = _tables(case, contact, drive, run, law)
+    history = with_knees(history, constant, clock, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
     warnings += late_relubrication(case, clock.lubricant, parts)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
