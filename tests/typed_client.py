@@ -53,6 +53,9 @@ def main() -> None:
     ageing = case.with_({"lubrication.lasts_hours": 100, "lubrication.dry_factor": 4})
     often = assert_type(wearsim.lubricate(ageing), wearsim.LubricationResult)
     assert_type(often.intervals, pd.DataFrame)
+    wears = [{"series": "pin", "cycles": n, "wear_um": 2.0 * n} for n in range(1, 7)]
+    judged = assert_type(wearsim.judge(wears, particles=100), wearsim.JudgementResult)
+    assert_type(judged.laws, pd.DataFrame)
     plan = assert_type(wearsim.maintain(case, {"replace_at_percent": [3]}), wearsim.MaintenanceResult)
     assert_type(plan.policies, pd.DataFrame)
     left = assert_type(wearsim.remaining(case, 1000, elongation_percent=1), wearsim.RemainingResult)

@@ -17,6 +17,7 @@ _PUBLIC = {
     "DriveLife": "wearsim.study.whole_drive.model",
     "ExportResult": "wearsim.python.export",
     "GeometryError": "wearsim.errors",
+    "JudgementResult": "wearsim.python.judge",
     "Life": "wearsim.result",
     "LoadsResult": "wearsim.python.loads",
     "LowerBound": "wearsim.result",
@@ -32,6 +33,7 @@ _PUBLIC = {
     "calibrate": "wearsim.python.calibrate",
     "check": "wearsim.python.check",
     "export": "wearsim.python.export",
+    "judge": "wearsim.python.judge",
     "load_case": "wearsim.case.load_case",
     "load_drive": "wearsim.study.whole_drive.keys",
     "loads": "wearsim.python.loads",
@@ -58,6 +60,7 @@ if TYPE_CHECKING:
     from wearsim.python.chain_readings import ChainReadingsResult
     from wearsim.python.check import CheckResult, check
     from wearsim.python.export import ExportResult, export
+    from wearsim.python.judge import JudgementResult, judge
     from wearsim.python.loads import LoadsResult, loads
     from wearsim.python.lubricate import LubricationResult, lubricate
     from wearsim.python.maintain import MaintenanceResult, maintain
@@ -85,6 +88,7 @@ __all__ = [
     "DriveLife",
     "ExportResult",
     "GeometryError",
+    "JudgementResult",
     "Life",
     "LoadsResult",
     "LowerBound",
@@ -101,6 +105,7 @@ __all__ = [
     "calibrate",
     "check",
     "export",
+    "judge",
     "load_case",
     "load_drive",
     "loads",

@@ -58,6 +58,60 @@ def test_json(cli, table):
     assert best["behind"] == 0.0 and best["tied"] and math.isfinite(best["score"])
 
 
+DIP = [f"a,{n},{7 if n == 5 else 2 * n}" for n in range(1, 10)]
+"""10 were to be expected, and 8 were read before."""
+
+FALLING = {
+    "a gauge that knows": ([f"{row},0.1" for row in DIP], "7 of series 'a' is below 8 of line 6"),
+    "a new part": ([*STRAIGHT[:4], "a,5,1", "a,6,2", *STRAIGHT[6:]], "1 of series 'a' is below 4 of line 6"),
+    "a fall": (
+        [f"{name},{n},{12 - 2 * n}" for name in "ab" for n in range(1, 6)],
+        "2 of series 'a' is below 10",
+    ),
+}
+
+
+@pytest.mark.parametrize(("rows", "words"), FALLING.values(), ids=FALLING)
+def test_wear_that_falls_is_warned_of(cli, table, rows, words):
+    head = "series,cycles,wear_um" + ",reading_error" * (rows[0].count(",") - 2)
+    done = cli("judge", table(*rows, head=head), "--particles", "100", "--json")
+    (text, *_) = json.loads(done.out)["warnings"]
+    assert words in text and text.startswith("readings.csv:") and "wear_um: " in text
+    line = int(text.split(":")[1])
+    assert ["# of a day", head, *rows][line - 1].split(",")[2].startswith(words.split()[0])
+    assert text in done.err.replace("\n", " ")
+    shown = cli("judge", table(*rows, head=head), "--particles", "100")
+    assert words in " ".join(shown.out.split())
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [f"{row},1" for row in DIP],
+        [f"{name},{n},{(0.9, 1.2)[n % 2] * n**0.3},0" for name in "abc" for n in range(1, 9)],
+    ],
+    ids=["a coarse gauge", "scatter of 15 %"],
+)
+def test_scatter_is_not_warned_of(cli, table, rows):
+    done = cli(
+        "judge", table(*rows, head="series,cycles,wear_um,reading_error"), "--particles", "100", "--json"
+    )
+    assert json.loads(done.out)["warnings"] == []
+
+
+def test_picture_says_how_many_series_it_draws(table):
+    from wearsim.study.judge.figure import judgement_figure
+    from wearsim.study.judge.model import judge_series
+    from wearsim.study.judge.series_file import read_series
+
+    for count, expected in ((10, ""), (12, "10 of 12 series drawn")):
+        rows = [f"s{name},{n},{2 * n}" for name in range(count) for n in (1, 2, 3)]
+        found = judge_series(read_series(table(*rows)), 100, lambda law, scatter: law == "Archard")
+        legend = judgement_figure(found, "readings").axes[0].get_legend()
+        assert legend.get_title().get_text() == expected
+        assert len(legend.get_texts()) == 10
+
+
 def test_one_reading_tells_nothing_apart(cli, table):
     rows = ["a,1,1.0,0", "a,2,2.0,0", "a,3,3.1,0", "a,4,4.2,1"]
     done = cli("judge", table(*rows, head="series,cycles,wear_um,held_out"), "--particles", "100")

@@ -11,9 +11,10 @@ from click.testing import CliRunner
 
 import wearsim
 from wearsim.cli.main import wearsim_command
+from wearsim.quantities import grouped
 from wearsim.study.lubricate.model import case_clock
 from wearsim.study.lubricate.runs import lubricate
-from wearsim.study.lubricate.sheet import lubrication_text
+from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, save_lubrication
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -138,6 +139,72 @@ def test_option_takes_the_place_of_the_lubricant() -> None:
     )
 
 
+DRIP: dict[str, Any] = {"lubricant": "drip", "consumption_ml_per_hour": 5.0, "price_per_litre": 8.0}
+
+
+def test_supply_by_hand() -> None:
+    """5 ml an hour at 8 a litre are 40 in 1000 h, beside 300 a life; dust multiplies the wear by 3.6."""
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "environment": "dust", "option": [DRIP]}}
+    found = study(tables=tables)
+    clean = wearsim.simulate(wearsim.load_case({**STRAND, "lubrication": {"lubricant": "drip"}}))
+    life, low, high = (end.hours_run / 3.6 for end in (clean.life, clean.life_low, clean.life_high))
+    (policy,) = found.plans[1].policies
+    assert policy.lives["sprocket"] == pytest.approx(life, rel=1e-9)
+    assert policy.wear_factor == pytest.approx(3.6)
+    costs = [40.0 + 1000.0 * 300.0 / hours for hours in (life, high, low)]
+    assert [policy.cost, policy.cost_low, policy.cost_high] == pytest.approx(costs, rel=1e-9)
+    text = lubrication_text(found)
+    assert (
+        f"Cost       all the time, {grouped(costs[0])} ({grouped(costs[1])} to {grouped(costs[2])})" in text
+    )
+    assert (found.cheapest.name, "Pays       drip, all the time" in text) == ("drip", True)
+    row = policy_rows(found)[-1]
+    assert (row["lubricant"], row["interval_hours"], row["relubrications_per_1000_h"]) == ("drip", None, 0.0)
+
+
+def test_supply_without_a_price_is_said() -> None:
+    """Its oil may cost what is left to the cheapest interval of the other."""
+    option = {"lubricant": "oil bath"}
+    found = study(tables={**STRAND, "lubrication": {**STRAND["lubrication"], "option": [option]}})
+    applied, supplied = found.plans
+    life = wearsim.simulate(wearsim.load_case({**STRAND, "lubrication": option})).life.hours_run
+    assert supplied.policies[0].cost == pytest.approx(1000.0 * 300.0 / life, rel=1e-9)
+    left = applied.cheapest.cost - 1000.0 * 300.0 / life
+    text = " ".join(lubrication_text(found).split())
+    assert "Cost without its oil: give consumption_ml_per_hour and price_per_litre" in text
+    assert f"oil bath pays where its oil costs less than {grouped(left)} per 1000 h" in text
+    assert found.cheapest is applied
+    assert supplied.cheapest is None
+
+
+def test_applied_one_beside_a_supply_of_the_case(tmp_path: Path) -> None:
+    table = {**DRIP, "labour_cost_per_hour": 30.0, "option": [{**OPTIONS, "lubricant": "manual"}]}
+    found = study(tables={**STRAND, "lubrication": table})
+    alone = {"labour_cost_per_hour": 30.0, **OPTIONS, "lubricant": "manual"}
+    (expected,) = study(tables={**STRAND, "lubrication": alone}).plans
+    assert [plan.supplied for plan in found.plans] == [True, False]
+    assert found.plans[1].cheapest.cost == expected.cheapest.cost
+    json.dumps(lubrication_json(found), allow_nan=False)
+    save_lubrication(found, tmp_path / "out", force=False)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "words"),
+    [
+        ({**DRIP, "price_per_litre": None}, "consumption_ml_per_hour", "needs price_per_litre too"),
+        ({**DRIP, "consumption_ml_per_hour": None}, "price_per_litre", "needs consumption_ml_per_hour too"),
+        ({**OPTIONS, "price_per_litre": 8.0}, "price_per_litre", "give price_per_application instead"),
+        ({**DRIP, "price_per_application": 2.0}, "price_per_application", "must not be given of a lubricant"),
+    ],
+)
+def test_costs_that_do_not_fit_the_supply_are_named(table: dict[str, Any], key: str, words: str) -> None:
+    option = {name: value for name, value in table.items() if value is not None}
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [option]}}
+    with pytest.raises(wearsim.CaseError, match=words) as caught:
+        study(tables=tables)
+    assert [fault.key for fault in caught.value.faults] == [f"lubrication.option.1.{key}"]
+
+
 def run(*words: str) -> Any:
     return CliRunner().invoke(wearsim_command, ["lubricate", *words], catch_exceptions=True)
 
@@ -161,7 +228,7 @@ def test_shipped_case_answers(tmp_path: Path) -> None:
 
 
 def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
-    table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 100\n'
+    table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 300000\n'
     text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")
     text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace(
         "nodes = 201", "nodes = 101"
@@ -176,8 +243,30 @@ def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     lives = json.loads(
         CliRunner().invoke(wearsim_command, ["life", str(path), "--json"]).stdout.splitlines()[0]
     )
-    at_100 = next(row for row in found["policies"] if math.isclose(row["interval_hours"], 100.0))
-    assert at_100["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
+    own = next(row for row in found["policies"] if math.isclose(row["interval_hours"], 3e5))
+    assert own["chain_life_hours"] == pytest.approx(lives["chain_life_hours"], rel=1e-9)
+    key = "lubrication.interval_hours = 300000 is longer than the life of the"
+    for warnings in (found["warnings"], lives["warnings"]):
+        texts = [text for text in warnings if "never relubricated" in text]
+        assert [text.split(", ")[0] for text in texts] == [
+            f"{key} chain",
+            f"motor: {key} sprocket",
+            f"conveyor: {key} sprocket",
+        ]
+        assert all(text.endswith("gone from 200 h on") for text in texts)
+
+
+def test_late_relubrication_is_named_for_each_lubricant() -> None:
+    """50 and 200 h of the one, 80 and 10 h of the other."""
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS]}}
+    found = study("lubrication.interval_hours=9000", tables=tables)
+    texts = [text for text in found.warnings if "never relubricated" in text]
+    key = "lubrication.interval_hours = 9000 is longer than the life of the flank"
+    assert texts[0].startswith(key)
+    assert texts[0].endswith("gone from 250 h on")
+    assert texts[1].startswith(f"greased: {key}")
+    assert texts[1].endswith("gone from 90 h on")
+    assert all(text in lubrication_text(found).replace("\n             ", " ") for text in texts)
 
 
 def test_ways_of_different_units_are_one_interval() -> None:
@@ -210,6 +299,46 @@ def test_band_is_that_of_the_life(settings: list[str]) -> None:
     assert own.lives_high["sprocket"] == pytest.approx(result.life_high.hours_run, rel=1e-6)
 
 
+WRAP: dict[str, Any] = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 61},
+    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
+    "mechanism": {"phases": 2},
+    "load": {"tension_N": 800, "speed_rpm": 200},
+    "run": {"life_tolerance": 0.1},
+    "lubrication": {"lubricant": "manual", "lasts_hours": 30.0, "interval_hours": 20.0},
+}
+
+
+@pytest.mark.parametrize(
+    ("settings", "part", "ends"),
+    [
+        # Of the conditions, mm2/N: joints 1.2e-10, 1.8e-10 and 1e-9, teeth 1.7e-10, 5e-10 and 1.5e-9.
+        (["stop.critical_depth_mm=1"], "chain", (1.8 / 10.0, 1.8 / 1.2)),
+        (["stop.critical_depth_mm=0.01"], "sprocket", (5.0 / 15.0, 5.0 / 1.7)),
+        (
+            ["stop.critical_depth_mm=1", "joint.specific_wear_rate_mm2_per_N=1.8e-10"],
+            "chain",
+            (5.0 / 15.0, 5.0 / 1.7),
+        ),
+    ],
+    ids=["joints", "teeth", "joints without a band"],
+)
+def test_band_of_a_part_is_the_same_in_life_and_lubricate(
+    settings: list[str], part: str, ends: tuple[float, float]
+) -> None:
+    """Relubricated in time, so that lives go with one over the coefficient of what ends them."""
+    case = wearsim.load_case(WRAP, settings)
+    result = wearsim.simulate(case)
+    assert result.life == result.parts[part]
+    expected = [end * result.life.hours_run for end in ends]
+    assert [result.life_low.hours_run, result.life_high.hours_run] == pytest.approx(expected, rel=1e-9)
+    assert ("joints 1.2e-10 to 1e-09" in result.band) == ("joint." not in str(settings) and part == "chain")
+    own = study(*settings, tables=WRAP).plans[0].own
+    assert [own.lives_low[part], own.lives_high[part]] == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
@@ -230,9 +359,8 @@ def test_missed_one_is_not_told_where_a_part_does_not_outlive_it() -> None:
     assert (plan.missed.lost, plan.missed.cost) == (None, None)
 
 
-@pytest.mark.parametrize("name", ["drip", "dry"])
-def test_option_that_is_not_applied_is_named(name: str) -> None:
-    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS, {"lubricant": name}]}}
+def test_option_without_a_lubricant_is_named() -> None:
+    tables = {**STRAND, "lubrication": {**STRAND["lubrication"], "option": [OPTIONS, {"lubricant": "dry"}]}}
     with pytest.raises(wearsim.CaseError) as caught:
         study(tables=tables)
     assert {fault.key for fault in caught.value.faults} == {"lubrication.option.2.lubricant"}

@@ -9,6 +9,7 @@ import pytest
 import wearsim
 from wearsim.catalogue.catalogues import environments, lubricants
 from wearsim.errors import CaseError
+from wearsim.quantities import grouped
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -256,12 +257,96 @@ def test_contradictory_table_is_named(table: dict[str, Any], key: str, words: st
 
 
 @pytest.mark.parametrize(
-    "changes", [{"interval_hours": 2e6}, {"interval_hours": None, "at_hours": [1.0, 2e6]}]
+    ("changes", "expected"),
+    [
+        (
+            {"interval_hours": 2e6},
+            "lubrication.interval_hours = 2e+06 is longer than the run, run.horizon_hours = 1e+06: contacts "
+            "are never relubricated; the lubricant is gone from 20 h on",
+        ),
+        (
+            {"interval_hours": None, "interval_km": 3e7},
+            "lubrication.interval_km = 3e+07 is longer than the run, run.horizon_hours = 1e+06: contacts "
+            "are never relubricated; the lubricant is gone from 20 h on",
+        ),
+        (
+            {"interval_hours": None, "at_hours": [1.0, 2e6]},
+            "lubrication.at_hours: 1 of 2 relubrications come after the run, run.horizon_hours = 1e+06",
+        ),
+    ],
 )
-def test_relubrication_after_the_run_is_warned_of(changes: dict[str, Any]) -> None:
-    key = next(key for key, value in changes.items() if value is not None)
-    (text,) = (one for one in wearsim.load_case(_with(**changes)).warnings if "longer than the run" in one)
-    assert text.startswith(f"lubrication.{key}: 2e+06 h")
+def test_relubrication_after_the_run_is_warned_of(changes: dict[str, Any], expected: str) -> None:
+    assert wearsim.load_case(_with(**changes)).warnings.count(expected) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "then"),
+    [
+        ({"interval_hours": 3000.0}, "interval_hours = 3000 is longer than", "is gone from 20 h on"),
+        ({"interval_hours": None, "interval_km": 3e4}, "interval_km = 30000 is longer than", "from 20 h on"),
+        (
+            {"interval_hours": None, "interval_sliding_m": 9e5},
+            "interval_sliding_m = 900000 is longer",
+            "from 20 h on",
+        ),
+        (
+            {"interval_hours": None, "at_hours": [3e3, 4e3]},
+            "at_hours = 3000 comes after",
+            "gone from 20 h on",
+        ),
+        (
+            {"interval_hours": 9e3, "lasts_hours": 12.0, "fades_over_hours": 8e3},
+            "= 9000",
+            "fades from 12 h on",
+        ),
+        ({"interval_hours": 9e3, "lasts_hours": 8e3}, "= 9000", "lasts so long"),
+    ],
+)
+def test_life_before_the_first_relubrication_is_warned_of(
+    changes: dict[str, Any], key: str, then: str
+) -> None:
+    """The lubricant keeps its effect for 12 h and loses it over 8 h."""
+    result = wearsim.simulate(wearsim.load_case(_with(**changes)))
+    (text,) = (one for one in result.warnings if "never relubricated" in one)
+    assert text.startswith("lubrication.")
+    assert f"{key}" in text
+    assert f"the life of the flank, {grouped(result.life.hours_run)} h: the flank is never" in text
+    assert text.endswith(then)
+    (batched,) = wearsim.simulate_many([wearsim.load_case(_with(**changes))])
+    assert text in batched.warnings
+
+
+def test_run_before_the_first_relubrication_is_warned_of() -> None:
+    """A fixed horizon, with an interval that is known in hours only when the flank is."""
+    case = wearsim.load_case(
+        _with(interval_hours=None, interval_sliding_m=9e5, lasts_hours=None, lasts_sliding_m=1e5),
+        ["run.horizon_hours=5"],
+    )
+    assert not any("relubricated" in text for text in case.warnings)
+    (text,) = (one for one in wearsim.simulate(case).warnings if "never relubricated" in one)
+    assert text.startswith("lubrication.interval_sliding_m = 900000 is longer than the run of the flank, 5 h")
+    assert text.endswith("lasts so long")
+
+
+def test_relubrication_in_time_is_not_warned_of() -> None:
+    assert not any("relubricated" in text for text in wearsim.simulate(wearsim.load_case(STRAND)).warnings)
+
+
+def test_parts_of_a_wrap_are_warned_of_each() -> None:
+    """The interval lies between the lives of chain and sprocket, all dry from 30 h/2.4 of dusty oil on."""
+    table = {"lubricant": "manual", "environment": "dust", "lasts_hours": 30.0, "interval_hours": 9e4}
+    result = wearsim.simulate(wearsim.load_case({**WRAP, "lubrication": table}))
+    texts = [one for one in result.warnings if "never relubricated" in one]
+    assert texts == [
+        f"lubrication.interval_hours = 90000 is longer than the life of the {part}, "
+        f"{grouped(result.parts[part].hours_run)} h: the {part} is never relubricated; the lubricant "
+        "is gone from 12.5 h on"
+        for part in ("chain", "sprocket")
+    ]
+    between = {**table, "interval_hours": 1.001 * min(life.hours_run for life in result.parts.values())}
+    again = wearsim.simulate(wearsim.load_case({**WRAP, "lubrication": between}))
+    (text,) = (one for one in again.warnings if "never relubricated" in one)
+    assert f"the {min(result.parts, key=lambda name: result.parts[name].hours_run)} is never" in text
 
 
 def test_threshold_that_is_never_reached_is_warned_of() -> None:

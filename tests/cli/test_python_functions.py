@@ -4,6 +4,7 @@ import io
 import json
 import math
 
+import pandas as pd
 import pytest
 
 import wearsim
@@ -256,6 +257,31 @@ def test_lubricate(answer):
     assert done[0] == 0.0 and max(done) <= 1.0
     assert is_shown(found, "intervals", "lubricants")
     assert is_drawn(found.plot())
+
+
+def test_judge(answer, tmp_path):
+    rows = [
+        {"series": name, "cycles": n, "wear_um": rate * n}
+        for name, rate in (("a", 2.0), ("b", 3.0), ("c", 1.5))
+        for n in range(1, 7)
+    ]
+    path = tmp_path / "readings.csv"
+    pd.DataFrame(rows).to_csv(path, index=False)
+    expected, done = answer("judge", path, "--particles", 200), []
+    for given in (path, str(path), rows, pd.DataFrame(rows)):
+        found = wearsim.judge(given, particles=200, progress=done.append)
+        assert found.summary() == expected
+    assert found.headline == "Archard is good enough: its bands hold what they should"
+    assert list(found.laws["score"]) == [law["score"] for law in expected["laws"]]
+    assert (found.forecasts["held_out"].sum(), found.forecasts["wear"].max()) == (9, 18.0)
+    assert set(found.constants["law"]) == set(found.laws["law"])
+    assert done[0] > 0.0 and done[-1] == 1.0
+    assert is_shown(found, "laws", "constants", "forecasts")
+    assert is_drawn(found.plot())
+    with pytest.raises(wearsim.CaseError, match=r"readings:3: wear_um: must be a number above 0"):
+        wearsim.judge([rows[0], {**rows[1], "wear_um": -1.0}])
+    with pytest.raises(wearsim.GeometryError, match="judge: particles must be"):
+        wearsim.judge(rows, particles=10)
 
 
 def test_maintain(answer, wrap, two):

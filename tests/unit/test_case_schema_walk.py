@@ -35,6 +35,8 @@ WITHOUT_EFFECT = {
     "lubrication.minutes_per_application": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
     "lubrication.price_per_application": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
     "lubrication.labour_cost_per_hour": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
+    "lubrication.consumption_ml_per_hour": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
+    "lubrication.price_per_litre": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)",
     **{
         f"lubrication.option.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"
         for key in LubricantOption.model_fields

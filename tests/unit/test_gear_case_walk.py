@@ -23,6 +23,8 @@ WITHOUT_EFFECT = {
             "minutes_per_application",
             "price_per_application",
             "labour_cost_per_hour",
+            "consumption_ml_per_hour",
+            "price_per_litre",
             *(f"option.{name}" for name in LubricantOption.model_fields),
         )
     },

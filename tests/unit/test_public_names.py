@@ -15,9 +15,10 @@ from wearsim.lazy import lazy_names
 
 NAMES = """
 CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError ConvergenceError DriveCase
-DriveLife ExportResult GeometryError Life LoadsResult LowerBound LubricationResult MaintenanceResult
-OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult WearsimError
-__version__ calibrate check export load_case load_drive loads lubricate maintain optimise progress_bar
+DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
+MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
+WearsimError
+__version__ calibrate check export judge load_case load_drive loads lubricate maintain optimise progress_bar
 remaining select simulate simulate_many sweep uncertainty
 """
 """What programs of users may name; one that goes stands in `_FORMER` first: CONTRIBUTING.md says how long."""

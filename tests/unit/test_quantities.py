@@ -57,7 +57,7 @@ CASE = {
 }
 
 CALCULATION_CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
-OTHER_ENDINGS = {"h": "hours", "km/h": "km_per_hour", "t/h": "tonnes_per_hour"}
+OTHER_ENDINGS = {"h": "hours", "km/h": "km_per_hour", "t/h": "tonnes_per_hour", "ml/h": "ml_per_hour"}
 """Endings of names whose unit is written otherwise in the table."""
 WORDS_AFTER_UNIT = ("_at_least", "_low", "_high", "_run")
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.integrate import quad
 
@@ -175,6 +176,8 @@ TABLE = [CASES / "hertz-arc-prescribed.toml"]
 GEARS = [CASES / "fzg-c14-16t-mild.toml", "gear.nodes=61"]
 WRAP = [CASES / "08b-19t-wrap.toml", "sprocket.nodes=101", "mechanism.phases=2", "run.life_tolerance=0.1"]
 
+COARSE = [CASES / "08b-19t-wrap.toml", "sprocket.nodes=51", "mechanism.phases=1", "run.life_tolerance=0.1"]
+
 
 def life(case: list[Any], *settings: str) -> WearResult:
     return wearsim.simulate(wearsim.load_case(case[0], [*case[1:], *settings]))
@@ -209,6 +212,49 @@ def test_lives_go_with_the_clock(case: list[Any]) -> None:
     for part, of in ((name, steady.parts[name]) for name in ("chain", "sprocket") if name in steady.parts):
         expected = by_hand(of.hours_run, 0.05 * hours, 0.08 * hours)
         assert found.parts[part].hours_run == pytest.approx(expected, rel=2e-2)
+
+
+def test_elongation_is_straight_between_the_rows_of_a_history(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every chain grows by the lubricated hours, by hand; an interval ends just after a chain."""
+    settings = ["joint.specific_wear_rate_mm2_per_N=2e-8", "stop.critical_depth_mm=0.008"]
+    steady = life(COARSE, *settings).parts["chain"].hours_run
+    lasts, interval = 0.05 * steady, 0.08002 * steady
+    lubricated = [f"lubrication.lasts_hours={lasts!r}", "lubrication.dry_factor=5"]
+    result = life(COARSE, *settings, *lubricated, f"lubrication.interval_hours={interval!r}")
+    rows, limit = result.history, result.history["elongation_percent"].max()
+
+    def grown(hours: float) -> float:
+        rounds, rest = divmod(hours, interval)
+        worn = rounds * (lasts + 5.0 * (interval - lasts)) + min(rest, lasts) + 5.0 * max(rest - lasts, 0.0)
+        return float(worn / steady)
+
+    assert rows["chain"].max() >= 2
+    assert rows["time_hours"].is_monotonic_increasing and rows["time_hours"].is_unique
+    first = rows[rows["chain"] == 1]
+    at = np.linspace(0.0, first["time_hours"].max(), 500)
+    found = np.interp(at, first["time_hours"], first["elongation_percent"])
+    np.testing.assert_allclose(found, [limit * grown(hours) for hours in at], rtol=1e-6, atol=1e-6 * limit)
+    all_chains = [limit * (grown(row.time_hours) - row.chain + 1.0) for row in rows.itertuples()]
+    np.testing.assert_allclose(rows["elongation_percent"], all_chains, rtol=1e-6, atol=1e-6 * limit)
+    monkeypatch.setattr(LubricantClock, "knees", lambda self, end: np.empty(0))
+    before = life(COARSE, *settings, *lubricated, f"lubrication.interval_hours={interval!r}").history
+    kept = rows[rows["cycles"].isin(before["cycles"])].reset_index(drop=True)
+    pd.testing.assert_frame_equal(kept, before, check_exact=True)
+    assert 0 < len(rows) - len(before) <= 200
+
+
+@pytest.mark.parametrize(
+    ("lasts", "fades", "expected"),
+    [
+        (100.0, 0.0, [100.0, 150.0, 250.0, 300.0]),
+        (100.0, 40.0, [100.0, 110.0, 120.0, 130.0, 140.0, 150.0, 250.0, 260.0, 270.0, 280.0, 290.0, 300.0]),
+        (150.0, 40.0, []),
+    ],
+)
+def test_knees_by_hand(lasts: float, fades: float, expected: list[float]) -> None:
+    clock = LubricantClock(LubricantLaw(5.0, lasts, fades), every(150.0))
+    assert clock.knees(310.0).tolist() == expected
+    assert len(clock.knees(1e9)) <= 200
 
 
 @pytest.mark.parametrize("case", [STRAND, TABLE, GEARS, WRAP], ids=["strand", "table", "gears", "wrap"])

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
-from wearsim.case.lubrication_input import lubrication_input
+from wearsim.case.lubrication_reader import lubrication_input
 from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.table_inputs import (
     contact_modulus_of,

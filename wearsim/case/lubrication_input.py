@@ -1,20 +1,9 @@
-"""How a case is lubricated: [lubrication] with its defaults taken and its contradictions named."""
+"""How a case is lubricated, when again, and what that costs."""
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
-from wearsim.contact.abrasion import abrasion_share
-from wearsim.input.case_record import CaseRecord
-from wearsim.input.schema.lubrication_tables import (
-    FADES,
-    INTERVAL,
-    LASTS,
-    SCHEDULES,
-    LubricationPhase,
-    LubricationTable,
-)
+from wearsim.quantities import grouped
 
 
 @dataclass(frozen=True)
@@ -60,292 +49,31 @@ class LubricationInput:
     dirt: Dirt = Dirt()  # outside phases
     interval: RunningWay | None = None  # between relubrications
     at_hours: tuple[float, ...] = ()  # of relubrications [h]
+    first: str = ""  # key and value, as given, that say when contacts are first relubricated
     threshold: float = math.inf  # factor on the wear at which contacts are relubricated
     phases: tuple[PhaseInput, ...] = ()
     application_cost: float | None = None  # of a relubrication, work and lubricant; None where none is given
+    supplied: bool = False  # all the time, so that it does not age
+    supply_cost: float | None = None  # of what it uses up in an hour of that; None where that is not given
+
+    @property
+    def first_hours(self) -> float:
+        """Running time before the first relubrication, 0 where it is not given as one [h]."""
+        return self.at_hours[0] if self.at_hours else self.interval.hours if self.interval else 0.0
+
+    def never_relubricated(self, end: str, what: str, hours: float, lasts: float, dries: float) -> str:
+        """Say that something ends before its first relubrication, and how its lubricant is by then [h]."""
+        then = f"; the lubricant is gone from {grouped(dries)} h on"
+        if math.isinf(lasts):
+            then = ""
+        elif lasts >= hours:
+            then = "; the lubricant lasts so long"
+        elif dries >= hours:
+            then = f"; the lubricant fades from {grouped(lasts)} h on"
+        word = "comes after" if self.at_hours else "is longer than"
+        return f"{self.first} {word} {end}: {what} never relubricated{then}"
 
     @property
     def steady(self) -> bool:
         """Whether the wear coefficients stay those of the case."""
         return self.lasts is ENDLESS and not self.dirt.excess and not self.phases
-
-
-def lubrication_input(
-    case: CaseRecord, table: LubricationTable | None, km_per_hour: float | None, condition: str | None
-) -> LubricationInput | None:
-    """Return how a case is lubricated; None where it says nothing about it."""
-    if table is None:
-        return None
-    row = lubricants()[table.lubricant] if table.lubricant else None
-    reader = _Reader(case, table, row, km_per_hour)
-    if row is not None:
-        _say_coefficients(case, row, condition)
-    return reader.input()
-
-
-def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -> None:
-    """Say whose coefficients hold where they are not those of the lubricant."""
-    if condition is None:
-        case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
-        return
-    if condition == row.wear_condition:
-        return
-    is_oiled, as_named = (wear_conditions()[name].lubricated for name in (condition, row.wear_condition))
-    if is_oiled == as_named:
-        case.warnings.append(
-            f"wear.condition = {condition!r} is not that of lubrication.lubricant = {row.lubricant!r}, "
-            f"{row.wear_condition!r}: its wear rates hold; remove it to take those of the lubricant"
-        )
-        return
-    words = ("dry or contaminated", "lubricated")
-    case.warnings.append(
-        f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
-        f"contacts are {words[is_oiled]}, with this lubricant they are {words[as_named]}: remove one of both"
-    )
-
-
-class _Reader:
-    """Completes a table of lubrication."""
-
-    def __init__(
-        self, case: CaseRecord, table: LubricationTable, row: Lubricant | None, km_per_hour: float | None
-    ) -> None:
-        self.case, self.table, self.row = case, table, row
-        self.km_per_hour = km_per_hour
-        self.run_hours = float(case.inputs.get("run", {}).get("horizon_hours", math.inf))
-
-    def input(self) -> LubricationInput:
-        """Return all of it."""
-        table = self.table
-        self._check_supply()
-        ages = self._ages()
-        dry_factor = self._value("dry_factor", 1.0, needed=ages)
-        dirt = self._dirt(table, "lubrication")
-        phases = tuple(self._phase(number, phase, dirt) for number, phase in enumerate(table.phase, start=1))
-        renewed = any(getattr(table, key) not in (None, []) for key in SCHEDULES)
-        dirty = any(of.excess > 0.0 for of in (dirt, *(phase.dirt for phase in phases)))
-        found = LubricationInput(
-            name=table.lubricant or "",
-            dry_factor=dry_factor,
-            lasts=self._way(LASTS, "lasts_sliding_m") if ages else ENDLESS,
-            fades=self._way(FADES, "fades_over_sliding_m") if ages else RunningWay(),
-            completeness=self._value("completeness", 1.0) if renewed else 1.0,
-            dirt_removed=self._value("contamination_removed", 1.0) if renewed and dirty else 1.0,
-            dirt=dirt,
-            interval=self._interval(),
-            at_hours=self._times(),
-            threshold=self._threshold(dirt.excess, dry_factor),
-            phases=phases,
-            application_cost=self._cost(),
-        )
-        self._say(found)
-        return found
-
-    def _fault(self, key: str, message: str) -> None:
-        self.case.faults.add(f"lubrication.{key}", message)
-
-    def _given(self, keys: Sequence[str]) -> str | None:
-        return next((key for key in keys if getattr(self.table, key) not in (None, [])), None)
-
-    def _check_supply(self) -> None:
-        """Name a schedule that the lubricant has no use for."""
-        row, key = self.row, self._given(SCHEDULES)
-        if key == "phase" and not any(phase.relubrications for phase in self.table.phase):
-            key = None
-        if row is None or key is None:
-            return
-        if row.supply == "none":
-            self._fault(
-                key, "a relubrication needs a lubricant, not lubricant = 'dry': name one, or remove this"
-            )
-        elif row.supply == "continuous" and key != "phase":
-            self._fault(
-                key,
-                f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one",
-            )
-
-    def _ages(self) -> bool:
-        """Return whether the lubricant ages, and name what is missing for that."""
-        row, given = self.row, self._given(LASTS)
-        if given is not None:
-            if row is not None and row.supply == "none":
-                self._fault(
-                    given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant"
-                )
-            return True
-        if row is not None and row.lasts is not None:
-            return True
-        schedule = self._given((*INTERVAL, "at_hours", "at_km", "when_rate_exceeds"))
-        if schedule is not None and (row is None or row.supply == "applied"):
-            what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
-            self._fault(
-                "lasts_hours",
-                f"{schedule} needs this key, lasts_km or lasts_sliding_m: nothing is known about how long "
-                f"{what} lasts",
-            )
-        fades = self._given(FADES)
-        if fades is not None:
-            self._fault(
-                fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this"
-            )
-        return False
-
-    def _value(self, key: str, default: float, *, needed: bool = False) -> float:
-        """Return a number: given, of the row, or a default that is said."""
-        given: float | None = getattr(self.table, key)
-        if given is not None:
-            return given
-        of_row: float | None = getattr(self.row, key, None)
-        if of_row is not None:
-            if needed or key != "dry_factor":
-                self.case.take(f"lubrication.{key}", of_row, f"lubricant {self.row.lubricant!r}")  # type: ignore[union-attr]
-            return of_row
-        if needed:
-            self._fault(key, "needed where a lubricant ages: dry over lubricated wear coefficient")
-        elif key != "dry_factor":
-            self.case.take(f"lubrication.{key}", default, "default")
-        return default
-
-    def _way(self, keys: Sequence[str], of_row: str) -> RunningWay:
-        key = self._given(keys)
-        if key is not None:
-            return self._running(key, getattr(self.table, key))
-        number = None if self.row is None else getattr(self.row, "lasts" if keys is LASTS else "fades")
-        if number is None or (keys is FADES and self._given(LASTS) is not None):
-            self.case.take(f"lubrication.{keys[0]}", 0.0, "the lubricant is gone at once")
-            return RunningWay()
-        self.case.take(f"lubrication.{of_row}", number, f"lubricant {self.row.lubricant!r}")  # type: ignore[union-attr]
-        return RunningWay(sliding=1000.0 * number)
-
-    def _running(self, key: str, value: float) -> RunningWay:
-        if key.endswith("_sliding_m"):
-            return RunningWay(sliding=1000.0 * value)
-        return RunningWay(self._hours(key, value))
-
-    def _hours(self, key: str, value: float) -> float:
-        """Return a time in hours that may be given in km."""
-        if not key.endswith("km"):
-            return value
-        if self.km_per_hour is None:
-            self._fault(key, "a way in km needs service.km_per_hour: give it, or hours")
-            return math.nan
-        return value / self.km_per_hour
-
-    def _look_at_run(self, key: str, hours: float) -> None:
-        """Warn of a relubrication that comes after the run."""
-        if hours >= self.run_hours:
-            self.case.warnings.append(
-                f"lubrication.{key}: {hours:.6g} h are longer than the run, run.horizon_hours = "
-                f"{self.run_hours:g}: contacts are not relubricated in it"
-            )
-
-    def _interval(self) -> RunningWay | None:
-        key = self._given(INTERVAL)
-        if key is None:
-            return None
-        way = self._running(key, getattr(self.table, key))
-        self._look_at_run(key, way.hours)
-        return way
-
-    def _times(self) -> tuple[float, ...]:
-        key = self._given(("at_hours", "at_km"))
-        if key is None:
-            return ()
-        hours = tuple(self._hours(key, value) for value in getattr(self.table, key))
-        self._look_at_run(key, hours[-1])
-        return hours
-
-    def _threshold(self, excess: float, dry_factor: float) -> float:
-        given = self.table.when_rate_exceeds
-        if given is None:
-            return math.inf
-        if given <= 1.0 + excess:
-            self._fault(
-                "when_rate_exceeds",
-                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant "
-                "does not help",
-            )
-        elif given > dry_factor * (1.0 + excess):
-            self.case.warnings.append(
-                f"lubrication.when_rate_exceeds = {given:g} is never reached: dry contacts wear "
-                f"{dry_factor * (1.0 + excess):g} times as fast, so they are never relubricated"
-            )
-        return given
-
-    def _dirt(self, table: LubricationTable | LubricationPhase, place: str) -> Dirt:
-        """Return what dirt does: given, or as in the environment, which is said."""
-        row = environments()[table.environment or "clean"]
-        given = {"contamination_factor": table.contamination_factor, "ageing_factor": table.ageing_factor}
-        taken = {"contamination_factor": row.factor, "ageing_factor": row.ageing}
-        for key, value in taken.items():
-            if given[key] is None and value != 1.0:
-                span = f": {row.low:g} to {row.high:g}" if key == "contamination_factor" else ""
-                why = f"environment {row.environment!r}{span}; {row.source}"
-                if table is self.table:
-                    self.case.take(f"{place}.{key}", value, why)
-                else:
-                    self.case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
-        excess = (given["contamination_factor"] or row.factor) - 1.0
-        ageing = given["ageing_factor"] or row.ageing
-        return Dirt(self._abrasion(table, place) * excess, ageing)
-
-    def _abrasion(self, table: LubricationTable | LubricationPhase, place: str) -> float:
-        """Return which part of what dirt adds its hardness leaves: all or none."""
-        hardness, surface = table.abrasive_hardness_HV, self.table.surface_hardness_HV
-        if hardness is None or surface is None:
-            return 1.0
-        share = abrasion_share(hardness, surface)
-        scratches = "scratches" if share else "does not scratch"
-        self.case.assumptions.append(
-            f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV, as it must be 1.2 "
-            "times as hard (Hutchings); teeth, pins and bushes have one hardness"
-        )
-        return share
-
-    def _phase(self, number: int, phase: LubricationPhase, dirt: Dirt) -> PhaseInput:
-        key = "km" if phase.hours is None else "hours"
-        place = f"phase.{number}"
-        hours = self._hours(f"{place}.{key}", phase.hours or phase.km or 0.0)
-        own = (phase.environment, phase.contamination_factor, phase.ageing_factor, phase.abrasive_hardness_HV)
-        if any(own):
-            dirt = self._dirt(phase, f"lubrication.{place}")
-        return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
-
-    def _cost(self) -> float | None:
-        """Return what a relubrication costs."""
-        table = self.table
-        minutes, hourly, price = (
-            table.minutes_per_application,
-            table.labour_cost_per_hour,
-            table.price_per_application,
-        )
-        if minutes is not None and hourly is None:
-            self._fault(
-                "minutes_per_application", "the cost needs labour_cost_per_hour too: give it, or remove this"
-            )
-        if hourly is not None and minutes is None:
-            self._fault(
-                "labour_cost_per_hour", "the cost needs minutes_per_application too: give it, or remove this"
-            )
-        if minutes is None and price is None:
-            return None
-        return (minutes or 0.0) / 60.0 * (hourly or 0.0) + (price or 0.0)
-
-    def _say(self, found: LubricationInput) -> None:
-        self.case.assumptions += _assumptions(found)
-
-
-def _assumptions(found: LubricationInput) -> Iterator[str]:
-    """What the state of the lubricant takes for granted."""
-    if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
-        yield (
-            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains "
-            "do not change it"
-        )
-    if found.phases:
-        yield (
-            "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
-            "contaminations in the middle of equal parts; after the last phase the first follows"
-        )
-    if found.at_hours:
-        yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -62,6 +62,10 @@ class Drive:
     def wear_coefficients(self) -> Mapping[str, float]:
         """Wear coefficients of other parts than the flank by their keys."""
         return {}
+
+    def wear_band(self, part: str, wear: "WearInput") -> "WearBand":
+        """Return the band of the coefficient that ends the life of a part."""
+        return WearBand(wear.low, wear.high, wear.band)
 
     @property
     def pitch_line_thickness(self) -> float:
@@ -217,6 +221,15 @@ class WearInput:
         if self.severe_factor != 1.0:
             return "pv_limit_MPa_mm_per_s"
         return "law" if self.law == "t_gamma" else ""
+
+
+class WearBand(NamedTuple):
+    """The ends of the band of a coefficient."""
+
+    # low, high: the coefficient there over that of the case
+    low: float
+    high: float
+    source: str  # where the band comes from
 
 
 @dataclass(frozen=True)

@@ -80,6 +80,11 @@ class FlankContact:
         load, slip, speed, relative = touch
         return Engagement(self.kind, self.arc_length, load, np.ones(x.size), slip, speed, relative)
 
+    def new_engagement(self) -> Engagement:
+        """Return the engagement of the unworn flank."""
+        profile = self.profile
+        return self.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+
 
 class Mechanism(Protocol):
     """What touches a flank, where, how hard and with how much slip."""

@@ -40,7 +40,8 @@ class LubricationResult(DrawnAnswer):
         if best is None or best.cheapest is None:
             return "no cheapest interval known"
         name = f" with {best.name}" if best.name else ""
-        return f"cheapest every {grouped(best.cheapest.interval)} h{name}"
+        when = "all the time" if best.supplied else f"every {grouped(best.cheapest.interval)} h"
+        return f"cheapest {when}{name}"
 
     @property
     def text(self) -> str:

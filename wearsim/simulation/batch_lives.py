@@ -14,6 +14,7 @@ from wearsim.contact.engagement import FlankContact
 from wearsim.errors import WearsimError
 from wearsim.result import Life, LowerBound, life_of
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
+from wearsim.simulation.lubricant import late_relubrication
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.simulation.wear_task import WearTask, wear_tasks
 from wearsim.wear.accuracy import depth_missed
@@ -259,10 +260,12 @@ def _life(case: Case, job: _CaseJob | None) -> CaseLife | WearsimError:
     ]
     if worn.reached:
         warnings += few_cycles(run.cycles)
+    life = life_of(run.cycles, case.cycles_per_hour, worn.reached)
     warnings += low_contact_ratio_in_the_end(settled.mechanism.worn_contact_ratio(worn.x, worn.y))
+    warnings += late_relubrication(case, run.task.clock.lubricant, {"flank": life})
     return CaseLife(
         case.name,
-        life_of(run.cycles, case.cycles_per_hour, worn.reached),
+        life,
         run.task.stop_limits[0].name if worn.reached else "horizon_hours",
         settled.error,
         tuple(warnings),

@@ -34,8 +34,7 @@ def film_ratio(case: Case, film: FilmInput) -> Vector:
         The speeds of the surfaces are not known.
     """
     contact = case.drive.mechanism(case).contact
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+    touch = contact.new_engagement()
     speed = case.drive.entrainment_speed(case, touch)
     loaded = (touch.load_per_width > 0.0) & (speed > 0.0)
     if not loaded.any():

@@ -1,7 +1,7 @@
 """The lubricant of a case as the clock of its wear."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -9,13 +9,23 @@ from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
+from wearsim.geometry.profile_points import Vector
+from wearsim.quantities import grouped
+from wearsim.result import Life, LowerBound
 from wearsim.wear.lubricant_clock import (
     FRESH,
     LubricantClock,
     LubricantEvent,
     LubricantLaw,
     LubricantSchedule,
+    LubricatedClock,
 )
+
+_APART = 1e-9
+"""Part of the way between two rows of a history at which a third one is another one."""
+
+_OF_A_CHAIN = ("elongation_percent", "roller_wear_mm")
+"""Columns of the history that begin anew with each chain."""
 
 
 def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
@@ -44,6 +54,26 @@ def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
     return LubricantClock(law, LubricantSchedule((begin, *times), threshold=given.threshold))
 
 
+def late_relubrication(
+    case: Case, clock: LubricantClock, parts: Mapping[str, Life | LowerBound]
+) -> list[str]:
+    """Return a warning for each part that ends before its first relubrication, or the run before that."""
+    given = case.lubrication
+    if given is None or not given.first or given.first_hours >= case.run.horizon_hours:
+        return []  # the case has said so
+    per_hour = case.cycles_per_hour
+    first = given.at_hours[0] if given.at_hours else clock.repeats / per_hour
+    lasts = clock.law.lasts / per_hour / given.dirt.ageing
+    dries = lasts + clock.law.fades / per_hour / given.dirt.ageing
+    found = []
+    for name, life in parts.items():
+        if life.hours_run < first:
+            kind = "life" if isinstance(life, Life) else "run"
+            end = f"the {kind} of the {name}, {grouped(life.hours_run)} h"
+            found.append(given.never_relubricated(end, f"the {name} is", life.hours_run, lasts, dries))
+    return found
+
+
 def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[LubricantEvent]:
     """Give the events of a programme in the order of time."""
     begin = 0.0
@@ -65,8 +95,7 @@ def _of_phases(given: LubricationInput, cycles_per_hour: float) -> Iterator[Lubr
 
 def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
     """Mean path that the loaded stretch of the new flank slides in a cycle of the duty [mm]."""
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
+    touch = contact.new_engagement()
     loaded = touch.load_per_width > 0.0
     if not loaded.any():
         return 0.0
@@ -81,3 +110,25 @@ def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
     # The width of the contact goes with the root of the load.
     greatest = heaviest_block(blocks).tension
     return path * math.fsum(block.share * math.sqrt(block.tension / greatest) for block in blocks)
+
+
+def with_knees(
+    history: dict[str, Vector], constant: Vector, clock: LubricatedClock, cycles_per_hour: float
+) -> dict[str, Vector]:
+    """Return a history with rows where the lubricant gives out or is renewed, on the way to the next row."""
+    times = clock.lubricant.knees(float(history["cycles"][-1]))
+    steady = np.array([clock.steady_cycles(at) for at in times.tolist()])
+    after = np.searchsorted(constant, steady, side="right")
+    inside = (after > 0) & (after < constant.size)
+    times, steady, after = times[inside], steady[inside], after[inside]
+    share = (steady - constant[after - 1]) / (constant[after] - constant[after - 1])
+    apart = (share > _APART) & (share < 1.0 - _APART)
+    times, share, after = times[apart], share[apart], after[apart]
+    before = after - 1
+    renewed = history["chain"][after] != history["chain"][before]
+    rows = {}
+    for name, column in history.items():
+        start = np.where(renewed & (name in _OF_A_CHAIN), 0.0, column[before])
+        rows[name] = start + share * (column[after] - start)
+    rows |= {"cycles": times, "time_hours": times / cycles_per_hour, "chain": history["chain"][after]}
+    return {name: np.insert(column, after, rows[name]) for name, column in history.items()}

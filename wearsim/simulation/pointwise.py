@@ -13,6 +13,7 @@ from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.simulation.film_ratio import film_assumptions
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
+from wearsim.simulation.lubricant import late_relubrication
 from wearsim.simulation.validity import few_cycles, validity
 from wearsim.simulation.wear_task import (
     WearTask,
@@ -37,6 +38,7 @@ def simulate_points(case: Case) -> WearResult:
     low, high = _band(case, task, run, warnings)
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
+    warnings += late_relubrication(case, task.clock.lubricant, {"flank": _life(case, run)})
     # On the points of the case, as all that is asked of a new flank.
     new_pressure = new_flank_pressure(new.contact)
     fatigue = _fatigue(case, _life(case, run), new_pressure, warnings)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wearsim.case.model import Case, WearInput, heaviest_block
-from wearsim.contact.engagement import ContactKind, Engagement, FlankContact
+from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import CaseError, Fault
@@ -86,7 +86,7 @@ def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
 
 def _check_t_gamma(case: Case, contact: FlankContact) -> None:
     """Raise where the law by T-gamma does not tell how the shape of the new flank goes on."""
-    touch = _new_touch(contact)
+    touch = contact.new_engagement()
     pressure = peak_pressure(touch.load_per_width, np.maximum(touch.relative_curvature, 0.0), contact.modulus)
     energy = t_gamma_energy(mean_pressure_factor(1.0) * pressure, touch.slip, case.wear.friction)
     if on_level_branch(energy[touch.load_per_width > 0.0]):
@@ -97,11 +97,6 @@ def _check_t_gamma(case: Case, contact: FlankContact) -> None:
             "load"
         )
         raise CaseError([Fault(message, "wear.law", case.name)])
-
-
-def _new_touch(contact: FlankContact) -> Engagement:
-    profile = contact.profile
-    return contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(profile.x.size))
 
 
 def _law(case: Case) -> WearLaw:
@@ -164,6 +159,6 @@ def limit_states(
 
 def new_flank_pressure(contact: FlankContact) -> float:
     """Return the highest pressure on a flank that has not worn, by Hertz's theory."""
-    touch = _new_touch(contact)
+    touch = contact.new_engagement()
     relative = np.maximum(touch.relative_curvature, 0.0)
     return float(peak_pressure(touch.load_per_width, relative, contact.modulus).max())

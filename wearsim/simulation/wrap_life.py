@@ -16,7 +16,7 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.lubricant import lubricant_clock
+from wearsim.simulation.lubricant import late_relubrication, lubricant_clock, with_knees
 from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
@@ -24,6 +24,7 @@ from wearsim.wear.law import WearLaw
 from wearsim.wear.lubricant_clock import LubricatedClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
+from wearsim.wear.running_in import NO_RUNNING_IN
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
 from wearsim.wear.wear_clock import WearClock
@@ -53,21 +54,26 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     warnings = [*case.warnings, *rating_warnings(ratings)]
     run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
     warnings += _gave_up(run, horizon)
-    run = replace(run, cycles=clock.running_cycles(run.cycles))
+    constant = run.cycles
+    run = replace(run, cycles=clock.running_cycles(constant))
     chain = _chain_life(case, contact, horizon, clock)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
+    ended = "chain" if stop == "elongation_percent" else "sprocket"
+    low, high = _band(case, ended, life, clock)
     history, flank = _tables(case, contact, drive, run, law)
+    history = with_knees(history, constant, clock, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
+    warnings += late_relubrication(case, clock.lubricant, parts)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
         case=case.name,
         title=case.title,
         life=life,
-        life_low=_scaled(life, case.wear.high, case, clock),
-        life_high=_scaled(life, case.wear.low, case, clock),
-        band=f"{case.wear.band}, of teeth and joints alike",
+        life_low=low,
+        life_high=high,
+        band=drive.wear_band(ended, case.wear).source,
         stop=stop,
         stop_value=stop_value,
         cycles_run=float(run.cycles[-1]),
@@ -197,12 +203,19 @@ def _first(
     return sprocket, "horizon_hours", case.run.horizon_hours
 
 
-def with_coefficients(case: Case, life: Life | LowerBound, factor: float) -> Life | LowerBound:
-    """Return what becomes of a life of a wrapped case with all wear coefficients multiplied."""
-    if case.wear.is_steady and (case.lubrication is None or case.lubrication.steady):
-        return type(life)(life.cycles_run / factor, life.hours_run / factor)
-    *_, clock = wrap_problem(case, wrap_of(case).contact(case))
-    return _scaled(life, factor, case, clock)
+def part_band(case: Case, part: str, life: Life | LowerBound) -> tuple[Life | LowerBound, Life | LowerBound]:
+    """Return the life of chain or sprocket at the high and at the low end of its coefficient."""
+    clock: WearClock = NO_RUNNING_IN
+    if not (case.wear.is_steady and (case.lubrication is None or case.lubrication.steady)):
+        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+    return _band(case, part, life, clock)
+
+
+def _band(
+    case: Case, part: str, life: Life | LowerBound, clock: WearClock
+) -> tuple[Life | LowerBound, Life | LowerBound]:
+    band = case.drive.wear_band(part, case.wear)
+    return _scaled(life, band.high, case, clock), _scaled(life, band.low, case, clock)
 
 
 def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:

@@ -13,6 +13,9 @@ from wearsim.wear.wear_clock import WearClock
 _MOST = 100_000
 """Stretches between two events that a schedule may have before it repeats itself."""
 
+_ALONG_FADING = 5
+"""Ages from where a lubricant fades to where it is gone, between which the wear is nearly straight."""
+
 _SAME = 1e-14
 """Part of the age up to which two states of a lubricant are one."""
 
@@ -319,6 +322,49 @@ class LubricantClock:
         _, rest, stretch = self._place(cycles)
         age = stretch.age + stretch.ageing * max(rest - stretch.begin, 0.0)
         return self.law.factor(age, stretch.dirt)
+
+    def knees(self, end: float, most: int = 200) -> Vector:
+        """Return the times before an end between which the wear is nearly straight, thinned out to so many.
+
+        Examples
+        --------
+        Relubricated every 150 cycles, dry from the hundredth on:
+
+        >>> every = LubricantSchedule((LubricantEvent(150.0, relubricated=True),), 150.0)
+        >>> LubricantClock(LubricantLaw(4.0, 100.0), every).knees(310.0).tolist()
+        [100.0, 150.0, 250.0, 300.0]
+        """
+        once = [at for number in range(self._first) for at in self._bends(number)]
+        again = [at for number in range(self._first, len(self._stretches)) for at in self._bends(number)]
+        later = np.zeros(1)
+        if again and math.isfinite(self._cycles):
+            rounds = max(math.ceil((end - self._stretches[self._first].begin) / self._cycles), 1)
+            kept = np.linspace(0, rounds - 1, min(rounds, max(most // len(again), 1)))
+            later = self._cycles * np.unique(kept.round())
+        found = [*once, *(at + by for by in later.tolist() for at in again)]
+        inside = [at for at in found if 0.0 < at < end]
+        return np.array(inside[:: max(math.ceil(len(inside) / most), 1)])
+
+    def _bends(self, number: int) -> list[float]:
+        """Return the begin of a stretch, where g jumps there, and where its lubricant gives out."""
+        law, stretch, end = self.law, self._stretches[number], self._end(number)
+        before = number - 1 if number > self._first else len(self._stretches) - 1
+        last = self._stretches[before]
+        age = last.age + last.ageing * (self._end(before) - last.begin)
+        jumps = law.factor(age, last.dirt) != law.factor(stretch.age, stretch.dirt)
+        found = [stretch.begin] if jumps else []
+        if law.dry_factor > 1.0 and math.isfinite(law.lasts):
+            parts = np.linspace(0.0, 1.0, _ALONG_FADING) if law.fades else np.zeros(1)
+            ages = law.lasts + law.fades * parts
+            times = stretch.begin + (ages - stretch.age) / stretch.ageing
+            found += [at for at in times.tolist() if stretch.begin < at < end]
+        return found
+
+    def _end(self, number: int) -> float:
+        """Return when a stretch ends; infinite for the last one of a schedule that does not repeat itself."""
+        if number + 1 < len(self._stretches):
+            return self._stretches[number + 1].begin
+        return self._stretches[self._first].begin + self._cycles
 
     @property
     def repeats(self) -> float:

@@ -120,8 +120,7 @@ def check_sawtooth(contact: FlankContact, depth: Vector, cycles: float, depth_li
     if point < 0:
         return
     place = f"wear at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root"
-    profile = contact.profile
-    touch = contact.engage(profile.x.copy(), profile.y.copy(), np.zeros(depth.size))
+    touch = contact.new_engagement()
     given = touch.load_per_width * touch.slip
     if sawtooth(given * (depth.max() / given.max()), depth_limit) >= 0:
         raise ConvergenceError(

@@ -29,6 +29,12 @@ AT = ("at_hours", "at_km")
 SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
 """Keys of which at most one says when contacts are relubricated."""
 
+APPLICATION = ("price_per_application", "minutes_per_application", "labour_cost_per_hour")
+"""Keys of what a relubrication costs."""
+
+SUPPLY = ("consumption_ml_per_hour", "price_per_litre")
+"""Keys of what a lubricant costs that is supplied all the time."""
+
 RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
 """Keys of [wear] that say how fast it wears."""
 
@@ -129,6 +135,8 @@ class _Lubricant(Table):
     contamination_removed: Part | None = None
     minutes_per_application: NotNegative | None = None
     price_per_application: Annotated[Number, Field(ge=0.0)] | None = None
+    consumption_ml_per_hour: NotNegative | None = None
+    price_per_litre: Annotated[Number, Field(ge=0.0)] | None = None
 
     @field_validator("lubricant")
     @classmethod

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from wearsim.case.lubrication_input import lubrication_input
+from wearsim.case.lubrication_reader import lubrication_input
 from wearsim.case.model import Case
 from wearsim.case.table_inputs import (
     FLANK_NODES,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
+from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heaviest_block
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
@@ -115,6 +115,14 @@ class WrapDrive(Drive):
     def wear_coefficients(self) -> Mapping[str, float]:
         """That of the joints."""
         return {JOINT_COEFFICIENT: self.joint.coefficient}
+
+    def wear_band(self, part: str, wear: WearInput) -> WearBand:
+        """Of the chain that of its joints where they have one of their own, else that of the teeth."""
+        joint = self.joint
+        if part != "chain" or joint.low is None or joint.high is None:
+            return WearBand(wear.low, wear.high, f"{wear.band}, of teeth and joints alike")
+        source = f"specific wear rate of the joints {joint.low:g} to {joint.high:g} mm2/N"
+        return WearBand(joint.low / joint.coefficient, joint.high / joint.coefficient, source)
 
     @property
     def heaviest(self) -> WrapLoad:

@@ -51,7 +51,7 @@ def judge(data: Path, particles: int, out: Path | None, force: bool, as_json: bo
     from wearsim.study.judge.sheet import judgement_json, judgement_text, save_judgement
 
     if as_json:
-        print_json(judgement_json(found, data), data)
+        print_json(judgement_json(found, data.name), data, series.warnings)
     else:
         show(judgement_text(found))
     if out is not None:

@@ -45,7 +45,9 @@ def _readings(panel: Axes, found: Judgement) -> None:
     panel.set_xlabel(f"exposure, {data.exposure_unit}")
     panel.set_ylabel(f"wear, {data.wear_unit}")
     panel.grid(alpha=0.3)
-    panel.legend(frameon=False, fontsize=7, ncols=2)
+    count = len(data.names)
+    left_out = f"{shown.size} of {count} series drawn" if shown.size < count else None
+    panel.legend(frameon=False, fontsize=7, ncols=2, title=left_out, title_fontsize=7)
 
 
 def _forecast(panel: Axes, found: Judgement, own: NDArray[np.bool_], colour: str) -> None:

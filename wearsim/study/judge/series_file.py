@@ -8,6 +8,7 @@ from pathlib import Path
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
+from wearsim.study.judge.falling import WearFall, falls
 from wearsim.study.judge.wear_series import WearReading, WearSeries, wear_series
 
 EXPOSURES = {"cycles": "cycles", "time_hours": "h", "distance_km": "km", "distance_m": "m"}
@@ -56,7 +57,7 @@ def read_series(path: Path) -> WearSeries:
         problems = _cell_faults(texts, exposure, wear)
         faults += [Fault(text, column, str(path), line) for column, text in problems]
         if not problems:
-            readings.append(_reading(texts, exposure, wear))
+            readings.append(_reading(texts, exposure, wear, line))
     if len(lines) - 1 > _MOST_ROWS:
         faults.append(_fault(f"must hold at most {_MOST_ROWS} readings: leave some out", path))
     if not faults:
@@ -64,7 +65,17 @@ def read_series(path: Path) -> WearSeries:
         faults = [_fault(text, path) for text in _set_faults(readings, "held_out" in head)]
     if faults:
         raise CaseError(faults)
-    return wear_series(readings, EXPOSURES[exposure], WEARS[wear], "relubricated" in head)
+    found = wear_series(readings, EXPOSURES[exposure], WEARS[wear], "relubricated" in head)
+    return replace(found, warnings=tuple(_fall(fall, path, wear) for fall in falls(readings)))
+
+
+def _fall(fall: WearFall, path: Path, wear: str) -> str:
+    later, earlier = fall
+    return (
+        f"{path.name}:{later.line}: {wear}: {later.wear:g} of series {later.series!r} is below "
+        f"{earlier.wear:g} of line {earlier.line}, by more than gauge and scatter explain: wear does not "
+        "fall, correct it, or give a part that was new in between a series of its own"
+    )
 
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
@@ -135,7 +146,7 @@ def _number(text: str) -> float:
         return math.nan
 
 
-def _reading(texts: dict[str, str], exposure: str, wear: str) -> WearReading:
+def _reading(texts: dict[str, str], exposure: str, wear: str, line: int) -> WearReading:
     return WearReading(
         series=texts["series"],
         exposure=float(texts[exposure]),
@@ -149,6 +160,7 @@ def _reading(texts: dict[str, str], exposure: str, wear: str) -> WearReading:
         t_gamma=float(texts.get("t_gamma_N_per_mm2", "nan")),
         speed=float(texts.get("speed_m_per_s", "nan")),
         held_out=texts.get("held_out") == "1",
+        line=line,
     )
 
 

@@ -32,6 +32,7 @@ def judgement_text(found: Judgement) -> str:
         ("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         ("Verdict", verdict(found)),
         ("Assumes", numbered_assumptions(ASSUMPTIONS)),
+        ("Warnings", "; ".join(data.warnings) or "none"),
     ]
     return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
 
@@ -82,12 +83,12 @@ def _percent(share: float) -> str:
     return "" if math.isnan(share) else f"{100 * share:.0f} %"
 
 
-def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
+def judgement_json(found: Judgement, source: str) -> dict[str, Any]:
     """Return the answer as ``wearsim judge --json`` prints it."""
     data = found.data
     return {
         **ANSWER_HEAD,
-        "data": source.name,
+        "data": source,
         "readings": data.wear.size,
         "series_count": len(data.names),
         "held_out_readings": int(data.held_out.sum()),
@@ -100,6 +101,7 @@ def judgement_json(found: Judgement, source: Path) -> dict[str, Any]:
         "objections": list(found.objections),
         "laws": [_law(one) for one in found.laws],
         "assumptions": list(ASSUMPTIONS),
+        "warnings": list(data.warnings),
     }
 
 

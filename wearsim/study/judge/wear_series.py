@@ -26,6 +26,7 @@ class WearReading:
     t_gamma: float = np.nan  # friction force times slip over the area of contact [N/mm2]
     speed: float = np.nan  # of sliding [m/s]
     held_out: bool = False  # to judge by, not to fit
+    line: int = 0  # of the file that it stands in
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +53,7 @@ class WearSeries:
     speed: Vector  # [m/s]
     held_out: NDArray[np.bool_]
     slots: NDArray[np.intp]  # shape (s, most readings of a series): numbers of readings, -1 for none
+    warnings: tuple[str, ...] = ()  # what is doubtful about the readings
 
     @property
     def fitted(self) -> NDArray[np.bool_]:

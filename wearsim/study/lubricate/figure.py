@@ -2,6 +2,7 @@
 
 import math
 import textwrap
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +15,9 @@ from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy
 _LETTERS = 85
 """In a line of the title."""
 
+_DASH = 4.0
+"""In widths of a line."""
+
 
 def lubrication_figure(study: LubricationStudy) -> Figure:
     """Return the life of every part, and the cost per 1000 h where it is known, against the interval."""
@@ -21,9 +25,12 @@ def lubrication_figure(study: LubricationStudy) -> Figure:
     priced = any(plan.cheapest is not None for plan in study.plans)
     panels = len(names) + priced
     figure = Figure(figsize=(7.0, 1.6 + 2.0 * panels), layout="constrained")
-    axes = figure.subplots(panels, 1, sharex=True, squeeze=False)[:, 0]
+    axes = list(figure.subplots(panels, 1, sharex=True, squeeze=False)[:, 0])
     for number, plan in enumerate(study.plans):
         colour = f"C{number}"
+        if plan.supplied:
+            _draw_supplied(axes, plan, names, number)
+            continue
         at = [policy.interval for policy in plan.policies]
         for axis, name in zip(axes, names, strict=False):
             axis.plot(
@@ -55,6 +62,17 @@ def lubrication_figure(study: LubricationStudy) -> Figure:
         )
     axes[0].set_title(literal(textwrap.fill(study.title, _LETTERS)), fontsize=9, loc="left")
     return figure
+
+
+def _draw_supplied(axes: Sequence[Axes], plan: LubricantPlan, names: Sequence[str], number: int) -> None:
+    """Draw a lubricant that has no interval: dashed, at all of them."""
+    (policy,), colour = plan.policies, f"C{number}"
+    dashes = (_DASH * number, (_DASH, _DASH))  # one behind the other where two are alike
+    for axis, name in zip(axes, names, strict=False):
+        axis.axhline(policy.lives[name], color=colour, linestyle=dashes, label=f"{plan.name}, all the time")
+        axis.axhspan(policy.lives_low[name], policy.lives_high[name], color=colour, alpha=0.12, linewidth=0.0)
+    if plan.cheapest is not None:
+        axes[-1].axhline(policy.cost or math.nan, color=colour, linestyle=dashes)
 
 
 def _draw_cost(axis: Axes, plan: LubricantPlan, at: list[float], colour: str) -> None:

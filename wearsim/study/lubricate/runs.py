@@ -6,11 +6,11 @@ from typing import Any
 
 from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import lubricants
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
-from wearsim.input.schema.lubrication_tables import FADES, LASTS, RATES, SCHEDULES
-from wearsim.mechanisms.wrap.drive import WrapDrive
+from wearsim.input.schema.lubrication_tables import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import simulate
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
@@ -20,8 +20,11 @@ from wearsim.study.whole_drive.model import CHAIN, drive_life
 
 SPROCKET = "sprocket"
 
-_OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed")
+_OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed", *SUPPLY)
 """Keys that do not hold for another lubricant."""
+
+_OF_APPLICATIONS = (*SCHEDULES, *APPLICATION)
+"""Keys that do not hold for a lubricant that is supplied all the time."""
 
 _SCHEDULED = (*SCHEDULES, "lasts_hours")
 """Keys in which a case lacks something that suits its schedule."""
@@ -37,7 +40,8 @@ def lubricate(
         raise CaseError([Fault(text, "", case.name)])
     cases = [case, *_options(given)]
     for number, one in enumerate(cases):
-        check_ages(_first(one), f"lubrication.option.{number}" if number else "lubrication")
+        key = f"lubrication.option.{number}" if number else "lubrication"
+        check_ages(_first(one), key, alone=len(cases) == 1)
     drives = []
     for number, one in enumerate(cases):
 
@@ -57,7 +61,10 @@ def _options(given: GivenInput) -> Iterator[Case | DriveCase]:
     for number, option in enumerate(options, start=1):
         changes: dict[str, Any] = {f"lubrication.{key}": value for key, value in option.items()}
         if "lubricant" in option:
-            changes = {f"lubrication.{key}": None for key in _OF_A_LUBRICANT if key in table} | changes
+            row = lubricants().get(option["lubricant"])
+            supplied = row is not None and row.supply == "continuous"
+            dropped = (*_OF_A_LUBRICANT, *(_OF_APPLICATIONS if supplied else ()))
+            changes = {f"lubrication.{key}": None for key in dropped if key in table} | changes
         other = replace(changed(given, {**changes, "lubrication.option": None}), file=given.file)
         try:
             yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
@@ -71,7 +78,7 @@ def _of_option(fault: Fault, place: str, option: Mapping[str, Any]) -> Fault:
     name = fault.key.removeprefix("lubrication.")
     if name in option or name not in _SCHEDULED:
         return replace(fault, key=f"{place}.{name}", line=0)
-    text = "must be one that is applied now and then, as the others are: remove this option"
+    text = "must be one that is applied now and then, or supplied all the time: remove this option"
     return Fault(text, f"{place}.lubricant", fault.file)
 
 
@@ -111,8 +118,8 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
 def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
     found = drive_life(drive, None, progress)
     lives = part_lives(found)
-    cases = {one.name: one.case for one in drive.sprockets}
     first = drive.driver.case
+    cases = {one.name: one.case for one in drive.sprockets}
     prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
     return LubricatedDrive(
         first,
@@ -129,8 +136,5 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
 
 def _band(case: Case, part: str) -> tuple[float, float]:
     """Return the coefficients at the ends of the band of a part, over that of the case."""
-    if part == CHAIN and isinstance(case.drive, WrapDrive):
-        joint = case.drive.joint
-        if joint.low is not None and joint.high is not None:
-            return joint.low / joint.coefficient, joint.high / joint.coefficient
-    return case.wear.low, case.wear.high
+    low, high, _ = case.drive.wear_band(part, case.wear)
+    return low, high

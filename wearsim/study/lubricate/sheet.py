@@ -1,19 +1,17 @@
 """Intervals of relubrication side by side: text, JSON, CSV and a picture."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
-from wearsim.study.lubricate.model import (
-    LubricantPlan,
-    LubricationStudy,
-    MissedRelubrication,
-    RelubricationPolicy,
-)
+from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy
+from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy
 
 _AT_THE_EDGE = (
     ". The lubricant gives out there, and what it lasts scatters: take a shorter one than the cheapest"
@@ -25,8 +23,8 @@ def policy_rows(study: LubricationStudy) -> list[dict[str, Any]]:
     return [
         {
             "lubricant": plan.name,
-            "interval_hours": policy.interval,
-            "interval_km": None if study.km_per_hour is None else policy.interval * study.km_per_hour,
+            "interval_hours": plain(policy.interval),
+            "interval_km": plain(policy.interval * (study.km_per_hour or math.inf)),
             "mean_wear_factor": policy.wear_factor,
             **_lives(plan, policy),
             "relubrications_per_1000_h": 1000.0 / policy.interval,
@@ -64,21 +62,22 @@ def lubrication_json(study: LubricationStudy) -> dict[str, Any]:
 
 
 def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
-    low, high = plan.cheap or (None, None)
+    (low, high), missed = plan.cheap or (None, None), plan.missed
     return {
         "lubricant": plan.name,
-        "lasts_hours": plan.lasts,
+        "supplied": plan.supplied,
+        "lasts_hours": plain(plan.lasts),
         "fades_over_hours": plan.fades,
-        "dry_factor": plan.dry_factor,
+        "dry_factor": plain(plan.dry_factor),
         "own_interval_hours": None if plan.own is None else plan.own.interval,
-        "cheapest_interval_hours": None if plan.cheapest is None else plan.cheapest.interval,
+        "cheapest_interval_hours": None if plan.cheapest is None else plain(plan.cheapest.interval),
         "cheapest_cost_per_1000_h": None if plan.cheapest is None else plan.cheapest.cost,
         "cheap_from_hours": low,
         "cheap_to_hours": high,
         "no_cheapest_interval": plan.unknown or None,
-        "missed_interval_hours": plan.missed.interval,
-        "missed_lost_hours": plan.missed.lost,
-        "missed_cost": plan.missed.cost,
+        "missed_interval_hours": None if missed is None else missed.interval,
+        "missed_lost_hours": None if missed is None else missed.lost,
+        "missed_cost": None if missed is None else missed.cost,
     }
 
 
@@ -90,7 +89,9 @@ def lubrication_text(study: LubricationStudy) -> str:
     lines.append("")
     best = study.cheapest
     if best is not None and len(study.plans) > 1:
-        lines.append(row("Pays", f"{_named(best)}, {_advice(study, best)}"))
+        lines.append(
+            row("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
+        )
     lines.append(row("Assumes", numbered_assumptions(study.assumptions)))
     lines.append(row("Warnings", "; ".join(study.warnings) or "none"))
     return "\n".join(lines)
@@ -100,24 +101,47 @@ def _named(plan: LubricantPlan) -> str:
     return plan.name or "the lubricant of the case"
 
 
+def _without_oil(study: LubricationStudy) -> Iterator[str]:
+    """Say of each lubricant that is supplied at an unknown price below which one it pays."""
+    best = study.cheapest
+    for plan in study.plans:
+        cost = plan.policies[0].cost
+        if plan.supplied and plan.cheapest is None and cost is not None and best and best.cheapest:
+            left = (best.cheapest.cost or 0.0) - cost
+            yield f"{plan.name} pays where its oil costs less than {grouped(left)} per 1000 h"
+
+
 def _plan_lines(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
+    yield row("Lubricant", _effect(study, plan))
+    yield from _policy_table(study, plan)
+    if plan.supplied:
+        yield row("Cost", plan.unknown or _advice(study, plan))
+        return
+    if plan.cheapest is not None:
+        yield row("Cheapest", _advice(study, plan))
+    else:
+        yield row("Cheapest", f"no interval: {plan.unknown}")
+    if plan.missed is not None:
+        yield row("Missed", _missed(study, plan.missed))
+
+
+def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
+    if plan.supplied:
+        return f"{plan.name}: supplied all the time"
     way = f" ({grouped(plan.lasts * study.km_per_hour)} km)" if study.km_per_hour else ""
     fades = f" and fades over {grouped(plan.fades)} h" if plan.fades > 0.0 else ""
-    yield row(
-        "Lubricant",
+    return (
         f"{_named(plan)}: lasts {grouped(plan.lasts)} h{way}{fades}; dry contacts wear {plan.dry_factor:g} "
-        "times as fast",
+        "times as fast"
     )
+
+
+def _policy_table(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
     head = ["interval", *(part.name for part in plan.parts), "wear factor", "cost per 1000 h"]
     cells = [[*_cells(study, plan, policy)] for policy in plan.policies]
     widths = [max(map(len, column)) for column in zip(head, *cells, strict=True)]
     for line in (head, *cells):
         yield "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
-    if plan.cheapest is not None:
-        yield row("Cheapest", _advice(study, plan))
-    else:
-        yield row("Cheapest", f"no interval: {plan.unknown}")
-    yield row("Missed", _missed(study, plan.missed))
 
 
 def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
@@ -134,20 +158,25 @@ def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
 
 def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:
     best, cheap = plan.cheapest, plan.cheap
-    assert best is not None and cheap is not None and best.cost is not None
-    low, high = (_interval(study, end) for end in cheap)
+    assert best is not None and best.cost is not None
     band = (
         f" ({grouped(best.cost_low)} to {grouped(best.cost_high)})"
         if best.cost_low and best.cost_high
         else ""
     )
+    cost = f"{grouped(best.cost)}{band} per 1000 h"
+    if cheap is None:
+        return f"{_interval(study, best.interval)}, {cost}"
+    low, high = (_interval(study, end) for end in cheap)
     return (
-        f"every {_interval(study, best.interval)}, {grouped(best.cost)}{band} per 1000 h; from {low} to "
+        f"every {_interval(study, best.interval)}, {cost}; from {low} to "
         f"{high} it costs at most 5 % more{_AT_THE_EDGE if plan.gives_out else ''}"
     )
 
 
 def _interval(study: LubricationStudy, interval: float) -> str:
+    if math.isinf(interval):
+        return "all the time"
     way = f" ({grouped(interval * study.km_per_hour)} km)" if study.km_per_hour else ""
     return f"{grouped(interval)} h{way}"
 

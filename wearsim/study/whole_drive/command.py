@@ -171,9 +171,9 @@ def lived(
 
 def _by_sprocket(drives: "Iterable[DriveLife]") -> "dict[str, WearResult]":
     return {
-        f"{one.drive.name} {name}": replace(one.shown(name), case=name, title=f"{one.drive.title}: {name}")
+        f"{one.drive.name} {name}": replace(result, case=name, title=f"{one.drive.title}: {name}")
         for one in drives
-        for name in one.results
+        for name, result in one.results.items()
     }
 
 

@@ -8,14 +8,13 @@ from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from wearsim.case.model import Case
 from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.notebook import html_rows, one_line
 from wearsim.report.answer import hours
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.simulation import simulate
-from wearsim.simulation.wrap_life import with_coefficients
+from wearsim.simulation.wrap_life import part_band
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
@@ -134,43 +133,10 @@ class DriveLife:
         tuple of Life or LowerBound
             The shorter life first.
         """
-        if name != CHAIN:
-            return self.results[name].life_low, self.results[name].life_high
-        return self._chain_band(self.drive.driver.case, self.chain)
-
-    def shown(self, name: str) -> WearResult:
-        """Return the result of a sprocket; where the chain ends its life, with the band of the chain.
-
-        Parameters
-        ----------
-        name : str
-            That of a sprocket.
-
-        Returns
-        -------
-        WearResult
-            Its result, with the ends of the band that hold for it.
-        """
-        result, joint = self.results[name], self.drive.driver.drive.joint
-        if result.stop != "elongation_percent" or joint.low is None or joint.high is None:
-            return result
-        low, high = self._chain_band(self._case(name), result.life)
-        band = f"specific wear rate of the joints {joint.low:g} to {joint.high:g} mm2/N"
-        return replace(result, life_low=low, life_high=high, band=band)
-
-    def _case(self, name: str) -> Case:
-        """Return the case of a sprocket."""
-        return next(one.case for one in self.drive.sprockets if one.name == name)
-
-    def _chain_band(self, case: Case, life: Life | LowerBound) -> tuple[Life | LowerBound, Life | LowerBound]:
-        """Return what becomes of a life of the chain, in cycles of a sprocket, at both ends of its band."""
-        joint, wear = self.drive.driver.drive.joint, self.drive.driver.case.wear
-        if joint.low is None or joint.high is None:
-            factors = wear.high, wear.low
-        else:
-            factors = joint.high / joint.coefficient, joint.low / joint.coefficient
-        low, high = (with_coefficients(case, life, factor) for factor in factors)
-        return low, high
+        if name == CHAIN:
+            return part_band(self.drive.driver.case, CHAIN, self.chain)
+        case = next(one.case for one in self.drive.sprockets if one.name == name)
+        return part_band(case, name, self.sprockets[name])
 
     def chains_with(self, name: str) -> int:
         """Return how many chains run on a sprocket in its life.

@@ -15,7 +15,7 @@ from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan
-from wearsim.study.whole_drive.model import CHAIN, DriveLife
+from wearsim.study.whole_drive.model import DriveLife
 from wearsim.study.whole_drive.sheet import part_ending
 from wearsim.study.whole_drive.wheels import DriveWheel
 
@@ -252,16 +252,11 @@ def _measured(found: DriveLife, life: Life | LowerBound, measure: str) -> str:
 
 
 def _band(found: DriveLife, name: str, life: Life | LowerBound) -> str:
-    """Lives at both ends of the band, of a sprocket in proportion to those of what ends its run first."""
+    """Lives at both ends of the band."""
     if not isinstance(life, Life):
         return "-"
-    if name == CHAIN:
-        ends = [end.hours_run for end in found.band(CHAIN)]
-    else:
-        result = found.results[name]
-        scale = life.hours / result.life.hours_run
-        ends = [scale * end.hours_run for end in (result.life_low, result.life_high)]
-    return f"{grouped(ends[0])} to {grouped(ends[1])} h"
+    low, high = (end.hours_run for end in found.band(name))
+    return f"{grouped(low)} to {grouped(high)} h"
 
 
 def plan_table(plan: DrivePlan) -> PageTable:

@@ -243,8 +243,8 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
         "sprockets": [
-            {"name": name, **found.shown(name).summary(), "chains": found.chains_with(name)}
-            for name in found.results
+            {"name": name, **result.summary(), "chains": found.chains_with(name)}
+            for name, result in found.results.items()
         ],
         "layout": layout_json(drive),
         "warnings": list(found.warnings),

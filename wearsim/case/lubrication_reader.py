@@ -1,0 +1,334 @@
+"""[lubrication] with its defaults taken and its contradictions named."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from wearsim.case.lubrication_input import ENDLESS, Dirt, LubricationInput, PhaseInput, RunningWay
+from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
+from wearsim.contact.abrasion import abrasion_share
+from wearsim.input.case_record import CaseRecord
+from wearsim.input.schema.lubrication_tables import (
+    AT,
+    FADES,
+    INTERVAL,
+    LASTS,
+    SCHEDULES,
+    SUPPLY,
+    LubricationPhase,
+    LubricationTable,
+)
+
+
+def lubrication_input(
+    case: CaseRecord, table: LubricationTable | None, km_per_hour: float | None, condition: str | None
+) -> LubricationInput | None:
+    """Return how a case is lubricated; None where it says nothing about it."""
+    if table is None:
+        return None
+    row = lubricants()[table.lubricant] if table.lubricant else None
+    reader = _Reader(case, table, row, km_per_hour)
+    if row is not None:
+        _say_coefficients(case, row, condition)
+    return reader.input()
+
+
+def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -> None:
+    """Say whose coefficients hold where they are not those of the lubricant."""
+    if condition is None:
+        case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
+        return
+    if condition == row.wear_condition:
+        return
+    is_oiled, as_named = (wear_conditions()[name].lubricated for name in (condition, row.wear_condition))
+    if is_oiled == as_named:
+        case.warnings.append(
+            f"wear.condition = {condition!r} is not that of lubrication.lubricant = {row.lubricant!r}, "
+            f"{row.wear_condition!r}: its wear rates hold; remove it to take those of the lubricant"
+        )
+        return
+    words = ("dry or contaminated", "lubricated")
+    case.warnings.append(
+        f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
+        f"contacts are {words[is_oiled]}, with this lubricant they are {words[as_named]}: remove one of both"
+    )
+
+
+class _Reader:
+    """Completes a table of lubrication."""
+
+    def __init__(
+        self, case: CaseRecord, table: LubricationTable, row: Lubricant | None, km_per_hour: float | None
+    ) -> None:
+        self.case, self.table, self.row = case, table, row
+        self.km_per_hour = km_per_hour
+        self.run_hours = float(case.inputs.get("run", {}).get("horizon_hours", math.inf))
+
+    def input(self) -> LubricationInput:
+        """Return all of it."""
+        table = self.table
+        self._check_supply()
+        ages = self._ages()
+        dry_factor = self._dry_factor() if ages else 1.0
+        dirt = self._dirt(table, "lubrication")
+        phases = tuple(self._phase(number, phase, dirt) for number, phase in enumerate(table.phase, start=1))
+        renewed = any(getattr(table, key) not in (None, []) for key in SCHEDULES)
+        dirty = any(of.excess > 0.0 for of in (dirt, *(phase.dirt for phase in phases)))
+        found = LubricationInput(
+            name=table.lubricant or "",
+            dry_factor=dry_factor,
+            lasts=self._way(LASTS, "lasts_sliding_m") if ages else ENDLESS,
+            fades=self._way(FADES, "fades_over_sliding_m") if ages else RunningWay(),
+            completeness=self._value("completeness", 1.0) if renewed else 1.0,
+            dirt_removed=self._value("contamination_removed", 1.0) if renewed and dirty else 1.0,
+            dirt=dirt,
+            interval=self._interval(),
+            at_hours=self._times(),
+            first=self._first(),
+            threshold=self._threshold(dirt.excess, dry_factor),
+            phases=phases,
+            application_cost=self._cost(),
+            supplied=not ages and self.row is not None and self.row.supply == "continuous",
+            supply_cost=self._supply_cost(),
+        )
+        self._say(found)
+        return found
+
+    def _fault(self, key: str, message: str) -> None:
+        self.case.faults.add(f"lubrication.{key}", message)
+
+    def _given(self, keys: Sequence[str]) -> str | None:
+        return next((key for key in keys if getattr(self.table, key) not in (None, [])), None)
+
+    def _check_supply(self) -> None:
+        """Name a schedule that the lubricant has no use for."""
+        row, key = self.row, self._given(SCHEDULES)
+        if key == "phase" and not any(phase.relubrications for phase in self.table.phase):
+            key = None
+        if row is None or key is None:
+            return
+        if row.supply == "none":
+            self._fault(
+                key, "a relubrication needs a lubricant, not lubricant = 'dry': name one, or remove this"
+            )
+        elif row.supply == "continuous" and key != "phase":
+            self._fault(
+                key,
+                f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one",
+            )
+
+    def _ages(self) -> bool:
+        """Return whether the lubricant ages, and name what is missing for that."""
+        row, given = self.row, self._given(LASTS)
+        if given is not None:
+            if row is not None and row.supply == "none":
+                self._fault(
+                    given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant"
+                )
+            return True
+        if row is not None and row.lasts is not None:
+            return True
+        schedule = self._given((*INTERVAL, *AT, "when_rate_exceeds"))
+        if schedule is not None and (row is None or row.supply == "applied"):
+            what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
+            self._fault(
+                "lasts_hours",
+                f"{schedule} needs this key, lasts_km or lasts_sliding_m: nothing is known about how long "
+                f"{what} lasts",
+            )
+        fades = self._given(FADES)
+        if fades is not None:
+            self._fault(
+                fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this"
+            )
+        return False
+
+    def _own(self, key: str) -> float | None:
+        """Return a number that is given, or that of the row, which is said; None where neither has one."""
+        given: float | None = getattr(self.table, key)
+        of_row: float | None = getattr(self.row, key, None)
+        if given is None and of_row is not None and self.row is not None:
+            self.case.take(f"lubrication.{key}", of_row, f"lubricant {self.row.lubricant!r}")
+        return of_row if given is None else given
+
+    def _value(self, key: str, default: float) -> float:
+        """Return a number, or its default, which is said."""
+        own = self._own(key)
+        if own is None:
+            self.case.take(f"lubrication.{key}", default, "default")
+        return default if own is None else own
+
+    def _dry_factor(self) -> float:
+        """Return the one of a lubricant that ages."""
+        own = self._own("dry_factor")
+        if own is None:
+            self._fault("dry_factor", "needed where a lubricant ages: dry over lubricated wear coefficient")
+        return 1.0 if own is None else own
+
+    def _way(self, keys: Sequence[str], of_row: str) -> RunningWay:
+        key = self._given(keys)
+        if key is not None:
+            return self._running(key, getattr(self.table, key))
+        number = None if self.row is None else getattr(self.row, "lasts" if keys is LASTS else "fades")
+        if number is None or (keys is FADES and self._given(LASTS) is not None):
+            self.case.take(f"lubrication.{keys[0]}", 0.0, "the lubricant is gone at once")
+            return RunningWay()
+        self.case.take(f"lubrication.{of_row}", number, f"lubricant {self.row.lubricant!r}")  # type: ignore[union-attr]
+        return RunningWay(sliding=1000.0 * number)
+
+    def _running(self, key: str, value: float) -> RunningWay:
+        if key.endswith("_sliding_m"):
+            return RunningWay(sliding=1000.0 * value)
+        return RunningWay(self._hours(key, value))
+
+    def _hours(self, key: str, value: float) -> float:
+        """Return a time in hours that may be given in km."""
+        if not key.endswith("km"):
+            return value
+        if self.km_per_hour is None:
+            self._fault(key, "a way in km needs service.km_per_hour: give it, or hours")
+            return math.nan
+        return value / self.km_per_hour
+
+    def _interval(self) -> RunningWay | None:
+        key = self._given(INTERVAL)
+        if key is None:
+            return None
+        return self._running(key, getattr(self.table, key))
+
+    def _times(self) -> tuple[float, ...]:
+        key = self._given(AT)
+        return () if key is None else tuple(self._hours(key, value) for value in getattr(self.table, key))
+
+    def _first(self) -> str:
+        key = self._given((*INTERVAL, *AT))
+        if key is None:
+            return ""
+        value = getattr(self.table, key)
+        return f"lubrication.{key} = {value[0] if key in AT else value:g}"
+
+    def _threshold(self, excess: float, dry_factor: float) -> float:
+        given = self.table.when_rate_exceeds
+        if given is None:
+            return math.inf
+        if given <= 1.0 + excess:
+            self._fault(
+                "when_rate_exceeds",
+                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant "
+                "does not help",
+            )
+        elif given > dry_factor * (1.0 + excess):
+            self.case.warnings.append(
+                f"lubrication.when_rate_exceeds = {given:g} is never reached: dry contacts wear "
+                f"{dry_factor * (1.0 + excess):g} times as fast, so they are never relubricated"
+            )
+        return given
+
+    def _dirt(self, table: LubricationTable | LubricationPhase, place: str) -> Dirt:
+        """Return what dirt does: given, or as in the environment, which is said."""
+        row = environments()[table.environment or "clean"]
+        given = {"contamination_factor": table.contamination_factor, "ageing_factor": table.ageing_factor}
+        taken = {"contamination_factor": row.factor, "ageing_factor": row.ageing}
+        for key, value in taken.items():
+            if given[key] is None and value != 1.0:
+                span = f": {row.low:g} to {row.high:g}" if key == "contamination_factor" else ""
+                why = f"environment {row.environment!r}{span}; {row.source}"
+                if table is self.table:
+                    self.case.take(f"{place}.{key}", value, why)
+                else:
+                    self.case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
+        excess = (given["contamination_factor"] or row.factor) - 1.0
+        ageing = given["ageing_factor"] or row.ageing
+        return Dirt(self._abrasion(table, place) * excess, ageing)
+
+    def _abrasion(self, table: LubricationTable | LubricationPhase, place: str) -> float:
+        """Return which part of what dirt adds its hardness leaves: all or none."""
+        hardness, surface = table.abrasive_hardness_HV, self.table.surface_hardness_HV
+        if hardness is None or surface is None:
+            return 1.0
+        share = abrasion_share(hardness, surface)
+        scratches = "scratches" if share else "does not scratch"
+        self.case.assumptions.append(
+            f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV, as it must be 1.2 "
+            "times as hard (Hutchings); teeth, pins and bushes have one hardness"
+        )
+        return share
+
+    def _phase(self, number: int, phase: LubricationPhase, dirt: Dirt) -> PhaseInput:
+        key = "km" if phase.hours is None else "hours"
+        place = f"phase.{number}"
+        hours = self._hours(f"{place}.{key}", phase.hours or phase.km or 0.0)
+        own = (phase.environment, phase.contamination_factor, phase.ageing_factor, phase.abrasive_hardness_HV)
+        if any(own):
+            dirt = self._dirt(phase, f"lubrication.{place}")
+        return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
+
+    def _cost(self) -> float | None:
+        """Return what a relubrication costs."""
+        table = self.table
+        minutes, hourly, price = (
+            table.minutes_per_application,
+            table.labour_cost_per_hour,
+            table.price_per_application,
+        )
+        if minutes is not None and hourly is None:
+            self._fault(
+                "minutes_per_application", "the cost needs labour_cost_per_hour too: give it, or remove this"
+            )
+        if hourly is not None and minutes is None and not table.option:
+            self._fault(
+                "labour_cost_per_hour", "the cost needs minutes_per_application too: give it, or remove this"
+            )
+        if self.row is not None and self.row.supply == "continuous":
+            for key in ("price_per_application", "minutes_per_application"):
+                if getattr(table, key) is not None:
+                    self._fault(
+                        key, "must not be given of a lubricant that is supplied all the time: remove it"
+                    )
+        if minutes is None and price is None:
+            return None
+        return (minutes or 0.0) / 60.0 * (hourly or 0.0) + (price or 0.0)
+
+    def _supply_cost(self) -> float | None:
+        """Return what an hour of a supply costs."""
+        given = {key: getattr(self.table, key) for key in SUPPLY if getattr(self.table, key) is not None}
+        if not given:
+            return None
+        for key in given:
+            if self.row is None or self.row.supply != "continuous":
+                text = "needs a lubricant that is supplied all the time: give price_per_application instead"
+                self._fault(key, text)
+            elif len(given) < len(SUPPLY):
+                (other,) = set(SUPPLY) - set(given)
+                self._fault(key, f"the cost needs {other} too: give it, or remove this")
+        return float(1e-3 * math.prod(given.values()))
+
+    def _say(self, found: LubricationInput) -> None:
+        self.case.assumptions += _assumptions(found)
+        run, end = self.run_hours, f"the run, run.horizon_hours = {self.run_hours:g}"
+        late = sum(time >= run for time in found.at_hours)
+        if found.first_hours >= run:
+            by_hours = not (found.lasts.sliding or found.fades.sliding)
+            lasts = found.lasts.hours / found.dirt.ageing if by_hours else math.inf
+            dries = lasts + found.fades.hours / found.dirt.ageing
+            self.case.warnings.append(found.never_relubricated(end, "contacts are", run, lasts, dries))
+        elif late:
+            self.case.warnings.append(
+                f"lubrication.{self._given(AT)}: {late} of {len(found.at_hours)} relubrications come after "
+                f"{end}"
+            )
+
+
+def _assumptions(found: LubricationInput) -> Iterator[str]:
+    """What the state of the lubricant takes for granted."""
+    if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
+        yield (
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains "
+            "do not change it"
+        )
+    if found.phases:
+        yield (
+            "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
+            "contaminations in the middle of equal parts; after the last phase the first follows"
+        )
+    if found.at_hours:
+        yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"

@@ -1,0 +1,211 @@
+"""Costs of a drive at any interval between relubrications, and the interval that costs least."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from wearsim.wear.lubricant_clock import LubricantClock, LubricantEvent, LubricantLaw, LubricantSchedule
+
+_SHOWN = (0.25, 0.5, 0.75, 1.0, 1.1, 1.25, 1.5, 2.0, 4.0, 10.0)
+"""Intervals of the table beside the case's own and the cheapest, over what the lubricant lasts."""
+
+_SEARCHED = 801
+"""Intervals among which the cheapest is sought before it is refined."""
+
+_BEFORE = 200
+"""Relubrications before one is left out: the lubricant is as old then as in the long run."""
+
+_EDGE = 1.05
+"""Interval over the cheapest within which the mean wear must not rise as much."""
+
+_NEVER = 1e15
+"""An interval that nothing outlives [h]."""
+
+_ROUNDING = 1e-9
+"""Part of what wears in an interval below which it is nothing."""
+
+_NEARLY = 1.05
+"""Cost over the least up to which an interval is as good as the cheapest."""
+
+
+@dataclass(frozen=True)
+class WornPart:
+    """A part of the drive, and how long it lives while it is well lubricated."""
+
+    name: str  # chain, sprocket, or the name of one
+    hours: float  # of well lubricated contacts [h]
+    reached: bool  # whether its life ends then, or only the run
+    price: float | None  # None where none is given
+    # hours_low, hours_high: the same at the high and at the low end of the wear coefficients
+    hours_low: float
+    hours_high: float
+
+
+@dataclass(frozen=True)
+class RelubricationPolicy:
+    """What an interval between relubrications leads to."""
+
+    interval: float  # [h]; infinite where the lubricant is supplied all the time
+    lives: Mapping[str, float]  # of the parts when new at the begin [h]
+    lives_low: Mapping[str, float]  # at the high end of the wear coefficients
+    lives_high: Mapping[str, float]  # at the low end
+    wear_factor: float  # on the wear of well lubricated contacts in the long run
+    # cost, cost_low, cost_high: per 1000 h in the long run, and at the low and the high end of the wear
+    # coefficients; None where a price is missing
+    cost: float | None
+    cost_low: float | None
+    cost_high: float | None
+
+
+@dataclass(frozen=True)
+class MissedRelubrication:
+    """What it costs to leave out one relubrication of many; None where a part does not outlive that."""
+
+    interval: float  # between the others [h]
+    lost: float | None  # hours that every part loses of its life [h]
+    cost: float | None  # of the parts that wear meanwhile, less the relubrication
+
+
+class LubricationIntervals:
+    """The drive at any interval between relubrications; all times in hours."""
+
+    def __init__(
+        self,
+        law: LubricantLaw,
+        excess: float,
+        ageing: float,
+        parts: Sequence[WornPart],
+        application_cost: float | None,
+    ) -> None:
+        self.law, self.excess, self.ageing = law, excess, ageing
+        self.parts = parts
+        self.application_cost = application_cost
+        self.unknown = self._unknown()
+        # Cost of the parts in an hour of lubricated contacts: as in the case, and at both ends of the band.
+        self.hourly = [
+            math.fsum((part.price or 0.0) / getattr(part, hours) for part in parts)
+            for hours in ("hours", "hours_high", "hours_low")
+        ]
+
+    def _unknown(self) -> str:
+        """Return why no cost is known; empty where it is."""
+        if not all(part.reached for part in self.parts):
+            return "the life of a part is not reached (raise run.horizon_hours)"
+        missing = [f"a price of {part.name}" for part in self.parts if part.price is None]
+        if self.application_cost is None:
+            missing.append("price_per_application or minutes_per_application")
+        return f"it takes {', '.join(missing)}" if missing else ""
+
+    @property
+    def effect(self) -> float:
+        """Hours until the lubricant is gone."""
+        return (self.law.lasts + self.law.fades) / self.ageing
+
+    def clock(self, interval: float) -> LubricantClock:
+        """Return the clock of an interval."""
+        return LubricantClock(self.law, LubricantSchedule.every(interval, self.excess, self.ageing))
+
+    def policy(self, interval: float) -> RelubricationPolicy:
+        """Return what an interval leads to."""
+        clock = self.clock(interval)
+
+        def lives(hours: Callable[[WornPart], float]) -> dict[str, float]:
+            return {part.name: _life(clock, hours(part)) for part in self.parts}
+
+        cost, low, high = (
+            None if self.unknown else self._cost(clock, interval, hourly) for hourly in self.hourly
+        )
+        return RelubricationPolicy(
+            interval=interval,
+            lives=lives(lambda part: part.hours),
+            lives_low=lives(lambda part: part.hours_low),
+            lives_high=lives(lambda part: part.hours_high),
+            wear_factor=clock.lasting_factor,
+            cost=cost,
+            cost_low=low,
+            cost_high=high,
+        )
+
+    def supplied(self, cost_per_hour: float) -> RelubricationPolicy:
+        """Return what a lubricant leads to that is supplied all the time at a cost."""
+        found = self.policy(_NEVER)
+        parts = (found.cost, found.cost_low, found.cost_high)
+        cost, low, high = (None if one is None else one + 1000.0 * cost_per_hour for one in parts)
+        return replace(found, interval=math.inf, cost=cost, cost_low=low, cost_high=high)
+
+    def _cost(self, clock: LubricantClock, interval: float, hourly: float) -> float:
+        return 1000.0 * (clock.lasting_factor * hourly + (self.application_cost or 0.0) / interval)
+
+    @property
+    def longest(self) -> float:
+        """Longest life of a part without any relubrication [h]."""
+        return _life(self.clock(_NEVER), max(part.hours for part in self.parts))
+
+    def shown(self) -> list[float]:
+        """Return the intervals of the table, of two digits."""
+        scale = self.effect if 0.0 < self.effect < self.longest else 0.01 * self.longest
+        return sorted(
+            {float(f"{scale * part:.2g}") for part in _SHOWN if scale * part < max(self.longest, scale)}
+        )
+
+    def cheapest(self) -> tuple[RelubricationPolicy | None, tuple[float, float] | None, str]:
+        """Return the cheapest interval and those that cost hardly more, or why there is none."""
+        from scipy.optimize import minimize_scalar  # takes 0.2 s
+
+        if self.unknown:
+            return None, None, self.unknown
+        if not self.application_cost:
+            return None, None, "a relubrication costs nothing: the more often, the better"
+        longest = self.longest
+        tried = np.geomspace(1e-4 * longest, longest, _SEARCHED)
+
+        def cost(interval: float) -> float:
+            return self._cost(self.clock(interval), interval, self.hourly[0])
+
+        costs = np.array([cost(interval) for interval in tried])
+        at = int(costs.argmin())
+        if at == _SEARCHED - 1:
+            return None, None, "never within a life: a relubrication costs more than it saves"
+        if at == 0:
+            return None, None, f"less than {tried[0]:.3g} h: hardly anything to pay for a relubrication"
+        near = tried[at - 1], tried[at + 1]
+        best = float(
+            minimize_scalar(cost, bounds=near, method="bounded", options={"xatol": 1e-9 * near[1]}).x
+        )
+        if costs[at] < cost(best):
+            best = float(tried[at])
+        dear = np.flatnonzero(costs > _NEARLY * cost(best))
+        # Only those without a dearer one between them and the cheapest.
+        first = max((int(one) + 1 for one in dear if one < at), default=0)
+        last = min((int(one) - 1 for one in dear if one > at), default=_SEARCHED - 1)
+        cheap = (min(float(tried[min(first, at)]), best), max(float(tried[max(last, at)]), best))
+        return self.policy(best), cheap, ""
+
+    def gives_out_beyond(self, policy: RelubricationPolicy) -> bool:
+        """Return whether the mean wear rises fast just beyond an interval."""
+        beyond = self.clock(_EDGE * policy.interval).lasting_factor
+        return beyond > _EDGE * policy.wear_factor
+
+    def missed(self, interval: float) -> MissedRelubrication:
+        """Return what one relubrication left out costs, once the schedule repeats itself."""
+        clock = self.clock(interval)
+        events = (
+            LubricantEvent(0.0, held=self.excess, ageing=self.ageing),
+            *(LubricantEvent(number * interval, relubricated=True) for number in range(1, _BEFORE + 1)),
+            LubricantEvent((_BEFORE + 2) * interval, relubricated=True),
+        )
+        left_out = LubricantClock(self.law, LubricantSchedule(events))
+        end = (_BEFORE + 2) * interval
+        more = left_out.steady_cycles(end) - clock.steady_cycles(end)
+        more = more if more > _ROUNDING * clock.steady_cycles(interval) else 0.0
+        if 2.0 * interval > min(_life(clock, part.hours) for part in self.parts):
+            return MissedRelubrication(interval, None, None)
+        cost = None if self.unknown else more * self.hourly[0] - (self.application_cost or 0.0)
+        return MissedRelubrication(interval, more / clock.lasting_factor, cost)
+
+
+def _life(clock: LubricantClock, lubricated: float) -> float:
+    """Return the hours in which so many of well lubricated contacts wear off."""
+    return float(clock.running_cycles(np.array([lubricated]))[0])
