@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 import wearsim
 from wearsim.cli.main import wearsim_command
-from wearsim.study.lubricate.model import case_clock
+from wearsim.simulation import case_clock
 from wearsim.study.lubricate.runs import lubricate
 from wearsim.study.lubricate.sheet import lubrication_text
 

@@ -10,8 +10,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_steady_coefficient
-from wearsim.simulation import simulate
-from wearsim.simulation.wear_task import case_clock
+from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import wrap_of
 
 
@@ -158,8 +157,7 @@ def _chain(case: Case, reading: SingleReading) -> _PartHistory:
         raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     drive = wrap_of(case)
     contact = drive.contact(case)
-    clock = case_clock(case, contact.sliding_per_cycle)
-    [cycles] = clock.running_cycles(np.array([contact.cycles_per_chain])).tolist()
+    [cycles] = case_clock(case).running_cycles(np.array([contact.cycles_per_chain])).tolist()
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _PartHistory(
         hours=np.array([0.0, life.hours]),
