@@ -90,11 +90,9 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
 
 def _state(case: Case | DriveCase, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
     """Return what a log says, by the clock of the wear as it ran and goes on."""
-    cycles_per_chain, per_hour = (
-        wrap_of(as_logged).contact(as_logged).cycles_per_chain,
-        as_logged.cycles_per_hour,
-    )
-    clock, today = case_clock(as_logged), log.relubrications.today
+    cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_chain
+    clock, per_hour = case_clock(as_logged), as_logged.cycles_per_hour
+    today = log.relubrications.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
     prior = FactorPrior(as_logged.wear.low, as_logged.wear.high)

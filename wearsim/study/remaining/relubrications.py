@@ -121,13 +121,15 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
 
 def _check_interval(case: Case, log: RelubricationLog) -> None:
     """Raise where the mean interval is one at which nobody relubricates."""
-    law = case_clock(case).lubricant.law
-    effect = (law.lasts + law.fades) / case.cycles_per_hour
+    law, given = case_clock(case).lubricant.law, case.lubrication
+    assert given is not None
+    effect = (law.lasts + law.fades) / (case.cycles_per_hour * given.dirt.ageing)
     if log.mean_interval < _LEAST * effect < math.inf:
         text = (
-            f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later in the mean, a thousandth of the "
-            f"{grouped(effect)} h after which the lubricant is gone, is every {log.mean_interval:.3g} h: remove "
-            "the row if the part was new then, which is lubricated, or correct its time"
+            f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later in the mean, a thousandth of "
+            f"the {grouped(effect)} h after which the lubricant is gone, but comes every "
+            f"{log.mean_interval:.3g} h: remove this row if the part was new, as that is lubricated, or "
+            "correct its time"
         )
         raise _fault(log, log.column, text)
 
