@@ -8,6 +8,7 @@ from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
 from wearsim.study.calibrate.observations import ReadingResidual
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ class Calibration:
     freedom: int  # its degrees of freedom
     scale: float  # what the stated errors were multiplied by
     readings: int  # their number
+    relubrications: RelubricationLog
     # line of every profile, and how it was moved: turn [rad], shifts along x and y [mm]
     moves: tuple[tuple[int, float, float, float], ...]
     shown: tuple[ReadingResidual, ...]  # every value beside its prediction

@@ -46,6 +46,9 @@ def _readings(found: Calibration) -> Figure:
         panel.set_title(f"points: {read}, lines: fitted", fontsize=8, loc="left")
         panel.set_xlabel("along the new flank, mm" if along else "running time, h")
         panel.set_ylabel(_AXES[name])
+        times = found.relubrications.hours
+        if not along and times:
+            panel.plot(times, [0.0] * len(times), "|", color="C2", markersize=14, label="relubricated")
         if not along:
             panel.set_xlim(left=0.0)
             panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))

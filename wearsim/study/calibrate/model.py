@@ -5,10 +5,11 @@ from pathlib import Path
 
 from wearsim.case.load_case import load_case
 from wearsim.input.document import CaseSource, read_document
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
+from wearsim.runner.scaled_percentiles import check_no_running_in
 from wearsim.runner.scatter import plain_document
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.case_fit import CaseFit
+from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.reading_checks import check_readings
 from wearsim.study.calibrate.readings import read_readings
 
@@ -28,8 +29,8 @@ def calibrate(
     options = options or CalibrationOptions()
     document = read_document(source, overrides)
     case = load_case(source, overrides)
-    check_steady_coefficient(case, "calibrate")
-    readings = read_readings(measurements, case)
+    check_no_running_in(case, "calibrate")
+    readings, log = read_readings(measurements, case)
     check_readings(case, readings, options, str(measurements))
     tables = plain_document(document, case).data
-    return CaseFit(case, tables, readings, options, str(measurements)).calibration()
+    return CaseFit(case, tables, readings, options, LubricatedTime.of(case, log)).calibration()

@@ -10,6 +10,7 @@ from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.remaining.chain_readings import GAUGE, GO, NO_GO, ChainReading
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""
@@ -36,7 +37,7 @@ def chain_text(found: ChainState) -> str:
             for label, form in [_WORDS[one.name]]
         ),
         ("Readings", counted_readings(found)),
-        *([("Lubricated", _relubrications(found))] if found.log.relubrications.hours else []),
+        *relubrication_rows(found.log.relubrications),
         ("Assumes", numbered_assumptions(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
@@ -53,10 +54,13 @@ def counted_readings(found: ChainState) -> str:
     )
 
 
-def _relubrications(found: ChainState) -> str:
-    """Return how often the chain was relubricated."""
-    log = found.log.relubrications
-    return f"{len(log.hours)} times, every {grouped(log.mean_interval)} h in the mean, and so on from here"
+def relubrication_rows(log: RelubricationLog) -> list[tuple[str, str]]:
+    """Return how often a part was relubricated; nothing where it was not."""
+    if not log.hours:
+        return []
+    count = "once" if len(log.hours) == 1 else f"{len(log.hours)} times"
+    every = grouped(log.mean_interval)
+    return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]
 
 
 def chain_json(found: ChainState) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
+from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import wrap_of
 
@@ -101,8 +101,13 @@ def remaining_life(
     long as the coefficient does not change otherwise.
     """
     exponent = case.wear.cycles_exponent
+    instead = (
+        "give a table of readings, which takes it into account: of the chain to this command, of the teeth "
+        "to wearsim calibrate"
+    )
+    check_steady_lubricant(case, "remaining", instead)
     if exponent == 1.0:
-        check_steady_coefficient(case, "remaining")
+        check_no_running_in(case, "remaining")
     if not 0.0 < reading.error < reading.value:
         raise _fault(
             case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"

@@ -40,6 +40,11 @@ class RelubricationLog:
         """Running time of the next one, at the mean interval; today where that is overdue [h]."""
         return max(self.hours[-1] + self.mean_interval, self.today)
 
+    def until(self, end: float) -> list[float]:
+        """Return running times as logged, and then at the mean interval before an end [h]."""
+        count = max(math.ceil((end - self.to_come) / self.mean_interval), 0)
+        return [*self.hours, *(self.to_come + number * self.mean_interval for number in range(count))]
+
 
 def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
     """Give every cell that cannot be in rows that are no readings."""
