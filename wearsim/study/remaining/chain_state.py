@@ -17,7 +17,7 @@ from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.study.remaining.relubrications import relubricated
-from wearsim.study.whole_drive.keys import DriveCase
+from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""
@@ -40,7 +40,7 @@ class Quantiles:
 class ChainState:
     """What readings say about a chain."""
 
-    case: Case | DriveCase
+    case: Case
     log: ChainLog
     limit: float  # elongation at which its life ends [%]
     expected: tuple[float, ...]  # elongation at each reading with the case's own coefficient [%]
@@ -77,18 +77,18 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     CaseError
         What is wrong with case or readings, or a reading beyond the limit.
     """
-    first = case if isinstance(case, Case) else case.driver.case
+    first = chain_case(case)
     if not first.drive.wear_coefficients:
         text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
-        raise CaseError([Fault(text, "mechanism.kind", case.name)])
+        raise CaseError([Fault(text, "mechanism.kind", first.name)])
     drive = wrap_of(first)
     limit = 100.0 * drive.joint.elongation_limit
-    log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
+    log = read_chain_log(path, first.inputs, drive.chain.pitch, usual_error)
     _check_within(log, limit)
-    return _state(case, relubricated(case, log.relubrications), log, limit)
+    return _state(first, relubricated(case, log.relubrications), log, limit)
 
 
-def _state(case: Case | DriveCase, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
+def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
     """Return what a log says, by the clock of the wear as it ran and goes on."""
     cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_chain
     clock, per_hour = case_clock(as_logged), as_logged.cycles_per_hour
@@ -120,7 +120,7 @@ def _state(case: Case | DriveCase, as_logged: Case, log: ChainLog, limit: float)
     )
 
 
-def _left(case: Case | DriveCase, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
+def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
     """Give what is left from the last row on, in the measures that the case knows."""
     today = log.relubrications.today
     left = tuple(max(one - today, 0.0) for one in lives)

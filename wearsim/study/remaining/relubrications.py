@@ -10,7 +10,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
 from wearsim.study.remaining.dated_rows import DatedRows, ServiceTime
-from wearsim.study.whole_drive.keys import DriveCase
+from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 NEW, RELUBRICATION = "new", "relubrication"
 EVENTS = (NEW, RELUBRICATION)
@@ -77,7 +77,7 @@ def relubrication_log(table: DatedRows, time: ServiceTime) -> RelubricationLog:
 
 
 def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
-    """Return a case, or that of the driver of a drive, relubricated as logged and then at the mean interval.
+    """Return a case, or that of the chain of a drive, relubricated as logged and then at the mean interval.
 
     Without a log it is as it was.
 
@@ -86,7 +86,7 @@ def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
     CaseError
         The case does not know what a relubrication does, or they are too many to be meant.
     """
-    first = case if isinstance(case, Case) else case.driver.case
+    first = chain_case(case)
     if not log.hours:
         return first
     given = _as_logged(case, first, log)
@@ -119,7 +119,7 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
     except CaseError as error:
         where = f"{log.file}: {RELUBRICATION}, which sets lubrication.at_hours"
         raise CaseError([replace(fault, file=where) for fault in error.faults]) from None
-    found = (changed if isinstance(changed, Case) else changed.driver.case).lubrication
+    found = chain_case(changed).lubrication
     assert found is not None
     return found
 
