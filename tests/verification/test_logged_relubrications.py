@@ -132,10 +132,19 @@ def test_a_schedule_goes_on_at_its_interval_by_hand():
 BAD = [
     ({"time_hours": 0.0001, "quantity": "relubrication"}, r"readings:2: time_hours: relubrication must come"),
     ({"time_hours": 0, "quantity": "relubrication"}, r"readings:2: .*must be later than 0"),
-    ({"time_hours": -1, "quantity": "relubrication"}, r"readings:2: time_hours: must be a number of at least"),
-    ({"time_hours": 5, "quantity": "relubrication", "value": 2}, r"readings:2: value: must be empty for relu"),
+    (
+        {"time_hours": -1, "quantity": "relubrication"},
+        r"readings:2: time_hours: must be a number of at least",
+    ),
+    (
+        {"time_hours": 5, "quantity": "relubrication", "value": 2},
+        r"readings:2: value: must be empty for relu",
+    ),
     ({"time_hours": 5, "quantity": "new"}, r"readings:2: quantity: new must be the first row, at time 0"),
-    ({"time_hours": 5, "quantity": "oiled", "error": 1}, r"must be one of .*new, relubrication \(got 'oiled'"),
+    (
+        {"time_hours": 5, "quantity": "oiled", "error": 1},
+        r"must be one of .*new, relubrication \(got 'oiled'",
+    ),
 ]
 
 
