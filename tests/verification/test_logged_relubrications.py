@@ -1,4 +1,4 @@
-"""Readings of drives whose relubrications were logged: data by small steps of the state, coefficients back."""
+"""Logged relubrications: data by small steps of the state of the lubricant give coefficients back."""
 
 import csv
 import itertools

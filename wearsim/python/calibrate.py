@@ -126,8 +126,8 @@ def calibrate(
         One sprocket or a gear pair, or a whole drive whose chain was read.
     readings : path, pandas.DataFrame or sequence of mapping
         Columns ``quantity``, ``value``, ``error``, one of ``time_hours``, ``distance_km`` and ``date``,
-        and those that a quantity needs; paths in them are relative to the file, else to the working
-        directory.
+        and those that a quantity needs; rows ``relubrication`` have a time only. Paths are relative to
+        the file, else to the working directory.
     fit : sequence of str
         Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``.
     register : str

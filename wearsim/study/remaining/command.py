@@ -103,7 +103,8 @@ def remaining(
     coefficient is constant, so the answer is exact as long as the coefficient is.
 
     Or READINGS (.csv), all that was read of one chain by hours, km or date: chain_length_mm over links,
-    elongation_percent, gauge_percent with go or no-go. The answer has intervals of 50 and 90 %.
+    elongation_percent, gauge_percent with go or no-go, and when it was relubricated. The answer has
+    intervals of 50 and 90 %. Of a whole drive the chain can be read.
     """
     values = (depth_mm, over_pins_mm, elongation)
     given = [value for value in values if value is not None]
