@@ -73,7 +73,8 @@ def calibrate(
     gauge_percent with result, or profile with a points_file), value and error, its standard
     deviation. Rows with the quantity relubrication say when the lubricant of [lubrication] began
     anew, in place of its schedule. Of a whole drive the chain can be read. The folder holds fit.csv,
-    fitted_values.csv, summary.md, pictures, and the case with what was fitted. Needs pandera (pip install 'wearsim[study]').
+    fitted_values.csv, summary.md, pictures, and the case with what was fitted. Needs pandera
+    (pip install 'wearsim[study]').
     """
     from wearsim.extras import check_installed
 
