@@ -46,6 +46,9 @@ _ENOUGH = 2.0
 _AT_END = 0.1
 """How near the logarithm of a life may come to an end of those that are searched."""
 
+_POINTS = 400
+"""Times at which the elongation of the fit is told."""
+
 _TRIED = 45
 """Lives that the search starts from, about a factor of 2 apart."""
 
@@ -109,6 +112,7 @@ class CaseFit:
             relubrications=self.time.log,
             moves=tuple(one.moved for one in self.observations if isinstance(one, ProfileObservation)),
             shown=shown,
+            chain_course=self._chain_course(state),
             runs=self.parameters.predictions.runs,
             tables=self._fitted_tables(values, parts),
             assumptions=(
@@ -120,6 +124,13 @@ class CaseFit:
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
+
+    def _chain_course(self, state: PredictedState) -> tuple[Vector, Vector]:
+        """Return the elongation [%] over the time of the readings of the chain [h]."""
+        if not self.parameters.chain:
+            return np.empty(0), np.empty(0)
+        hours = np.linspace(0.0, self._last(teeth=False), _POINTS)
+        return hours, np.array([state.elongation(one) for one in hours.tolist()])
 
     def _observed(self, state: PredictedState | None) -> list[Observation]:
         """Return the readings, profiles registered by what is known of the wear."""
