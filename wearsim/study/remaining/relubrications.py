@@ -16,6 +16,8 @@ NEW, RELUBRICATION = "new", "relubrication"
 EVENTS = (NEW, RELUBRICATION)
 """Rows that are no readings."""
 
+_AT = "lubrication.at_hours"
+
 _LEAST = 1e-3
 """Mean interval over what the lubricant lasts below which nobody relubricates."""
 
@@ -115,10 +117,14 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
         text = f"{RELUBRICATION} must be later than 0, as a new part is lubricated: remove the row"
         raise _fault(log, log.column, text)
     try:
-        changed = case.with_({"lubrication.at_hours": list(log.hours)})
+        changed = case.with_({_AT: list(log.hours)})
     except CaseError as error:
-        where = f"{log.file}: {RELUBRICATION}, which sets lubrication.at_hours"
-        raise CaseError([replace(fault, file=where) for fault in error.faults]) from None
+        faults = []
+        for fault in error.faults:
+            what = "" if fault.key == _AT else f"{fault.key}: "
+            text = f"{RELUBRICATION} sets {_AT}: {what}{fault.message}"
+            faults.append(Fault(text, "quantity", log.file, log.line))
+        raise CaseError(faults) from None
     found = chain_case(changed).lubrication
     assert found is not None
     return found
