@@ -33,7 +33,7 @@ def pytest_addoption(parser):
 
 
 def pytest_sessionstart(session):
-    """Let programs be interrupted, and have all kernels compiled before workers would compile each its own."""
+    """Let programs be interrupted; have all kernels compiled before workers would compile each its own."""
     # A shell that starts the tests in its background has them, and what they start, ignore the interrupt.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     config = session.config

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 import wearsim
 from wearsim.cli.main import wearsim_command
 from wearsim.quantities import grouped
-from wearsim.study.lubricate.model import case_clock
+from wearsim.simulation import case_clock
 from wearsim.study.lubricate.runs import lubricate
 from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, save_lubrication
 

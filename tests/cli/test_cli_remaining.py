@@ -109,7 +109,7 @@ def test_text_of_a_table_tells_what_the_json_holds(cli, chain):
     text = " ".join(done.out.split())
     assert text.startswith("Wrapped test drive Remaining ")
     assert "1 measured, 1 by a gauge" in text
-    assert "1 times, every 472 h" in text
+    assert "once, every 472 h" in text
     rows = {row["quantity"]: row for row in found["intervals"]}
     assert list(rows) == [
         *("remaining_hours", "remaining_km", "end_date"),

@@ -374,7 +374,7 @@ def test_not_one_reading_is_refused(wrap, two):
         wearsim.remaining(wrap, 0, depth=0.01)
     with pytest.raises(wearsim.CaseError, match=r"larger than its error of 0\.02"):
         wearsim.remaining(wrap, 100, depth=0.01)
-    with pytest.raises(wearsim.CaseError, match="one sprocket for remaining"):
+    with pytest.raises(wearsim.CaseError, match="on the teeth of one sprocket"):
         wearsim.remaining(two, 100, depth=0.1)
 
 

@@ -20,6 +20,7 @@ from wearsim.study.calibrate import predicted_history as courses
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import Reading
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 STRAND = {
     "format_version": 1,
@@ -64,7 +65,8 @@ def once(monkeypatch):
         return known[key]
 
     monkeypatch.setattr(blend, "simulate", simulate)
-    monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: rows)
+    nothing = RelubricationLog("", "time_hours", 0, (), 0.0)
+    monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: (rows, nothing))
 
 
 def readings(rows, scans=(), kind=None):

@@ -361,7 +361,10 @@ def test_days_before_the_chain_was_new_are_named(table):
 )
 def test_a_log_of_a_lubricant_that_is_not_renewed_is_named(table, given, message):
     rows = table("150,relubrication,,,,", "400,elongation_percent,1.0,,,")
-    with pytest.raises(wearsim.CaseError, match=f"readings.csv: relubrication, which sets.*{message}"):
+    with pytest.raises(
+        wearsim.CaseError,
+        match=f"readings.csv:2: quantity: relubrication sets lubrication.at_hours:.*{message}",
+    ):
         chain_state(case(lubrication=given), rows)
 
 

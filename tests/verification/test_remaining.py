@@ -159,7 +159,7 @@ def test_a_reading_out_of_the_band_is_doubted():
 @pytest.mark.parametrize("command", ["maintain", "remaining"])
 def test_running_in_is_refused(command: str) -> None:
     """Lives scale with the coefficient only where it is constant."""
-    from wearsim.runner.scaled_percentiles import check_steady_coefficient
+    from wearsim.runner.scaled_percentiles import check_no_running_in
 
     tables = {
         "format_version": 1,
@@ -170,4 +170,4 @@ def test_running_in_is_refused(command: str) -> None:
         "wear": {"specific_wear_rate_mm2_per_N": 1e-9, "running_in_factor": 2, "running_in_distance_mm": 10},
     }
     with pytest.raises(wearsim.CaseError, match=f"{command}.*constant"):
-        check_steady_coefficient(wearsim.load_case(tables), command)
+        check_no_running_in(wearsim.load_case(tables), command)

@@ -357,11 +357,11 @@ def test_a_duty_refuses_severity() -> None:
 
 @pytest.mark.parametrize("command", ["maintain", "calibrate"])
 def test_scaled_lives_refuse_a_power_of_the_cycles(command: str) -> None:
-    from wearsim.runner.scaled_percentiles import check_steady_coefficient
+    from wearsim.runner.scaled_percentiles import check_no_running_in
 
     case = wearsim.load_case(WRAP, ["wear.cycles_exponent=0.5", "wear.reference_hours=50"])
     with pytest.raises(CaseError, match=f"cycles_exponent.*{command}"):
-        check_steady_coefficient(case, command)
+        check_no_running_in(case, command)
 
 
 def test_every_law_of_the_registry_is_known_to_the_engine() -> None:

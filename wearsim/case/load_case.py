@@ -47,10 +47,11 @@ def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     if is_whole_drive(document.data):
         text = (
             "must be one [sprocket] here: a whole drive, [[sprocket]] twice, is for wearsim check, life, "
-            "compare, report, maintain, sweep, uncertainty, loads, profile, export, animate and ui: run one "
-            "of these (sweep for what matters and what is best, maintain for what is replaced when), load it "
-            "by load_drive in Python, or give the case of one sprocket, [sprocket] with drive.mate_teeth for "
-            "the other one"
+            "compare, report, maintain, lubricate, remaining, calibrate, sweep, uncertainty, loads, profile, "
+            "export, animate and ui: run one of these (sweep for what matters and what is best, maintain for "
+            "what is replaced when, lubricate for when it is oiled again, remaining and calibrate for "
+            "readings of its chain), load it by load_drive in Python, or give the case of one sprocket, "
+            "[sprocket] with drive.mate_teeth for the other one"
         )
         document.faults.add("sprocket", text)
         document.faults.check()

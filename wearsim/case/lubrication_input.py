@@ -47,7 +47,7 @@ class LubricationInput:
     completeness: float = 1.0  # part of its age that a relubrication takes away
     dirt_removed: float = 1.0  # part of what dirt adds that a relubrication takes away
     dirt: Dirt = Dirt()  # outside phases
-    interval: RunningWay | None = None  # between relubrications
+    interval: RunningWay | None = None  # between relubrications, after `at_hours` where there are some
     at_hours: tuple[float, ...] = ()  # of relubrications [h]
     first: str = ""  # key and value, as given, that say when contacts are first relubricated
     threshold: float = math.inf  # factor on the wear at which contacts are relubricated

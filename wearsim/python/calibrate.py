@@ -5,18 +5,18 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.python.answer import DrawnAnswer, table_of
-from wearsim.python.case_input import CaseInput, given_input
+from wearsim.python.case_input import CaseInput, given_input, loaded
 from wearsim.python.readings_file import readings_file
 from wearsim.quantities import grouped
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
 from wearsim.study.calibrate.sheet import calibration_json, calibration_text, readings_table
+from wearsim.study.whole_drive.keys import DriveCase
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -57,9 +57,9 @@ class CalibrationResult(DrawnAnswer):
         return calibration_text(self.found)
 
     @property
-    def case(self) -> Case:
-        """The case with the fitted values."""
-        return load_case(self.found.tables)
+    def case(self) -> Case | DriveCase:
+        """The case, or the whole drive, with the fitted values."""
+        return loaded(self.found.tables)
 
     @property
     def values(self) -> "pd.DataFrame":
@@ -122,12 +122,12 @@ def calibrate(
 
     Parameters
     ----------
-    case : Case, path or mapping
-        One sprocket or a gear pair.
+    case : Case, DriveCase, path or mapping
+        One sprocket or a gear pair, or a whole drive whose chain was read.
     readings : path, pandas.DataFrame or sequence of mapping
         Columns ``quantity``, ``value``, ``error``, one of ``time_hours``, ``distance_km`` and ``date``,
-        and those that a quantity needs; paths in them are relative to the file, else to the working
-        directory.
+        and those that a quantity needs; rows ``relubrication`` have a time only. Paths are relative to
+        the file, else to the working directory.
     fit : sequence of str
         Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``.
     register : str

@@ -28,16 +28,6 @@ def loaded(source: CaseInput | GivenInput) -> Case | DriveCase:
     return load_case(document.given)
 
 
-def loaded_case(source: CaseInput, what: str) -> Case:
-    """Return the case of one sprocket or gear pair, for what takes no whole drive."""
-    case = loaded(source)
-    if isinstance(case, DriveCase):
-        raise CaseError(
-            [Fault(f"must be the case of one sprocket for {what}, but is a whole drive", "", case.name)]
-        )
-    return case
-
-
 def given_input(source: CaseInput) -> GivenInput:
     """Return what a study reads its cases from."""
     case = loaded(source)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 from wearsim.case.model import Case
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.python.answer import Answer, table_of
-from wearsim.python.case_input import CaseInput, loaded_case
+from wearsim.python.case_input import CaseInput, loaded
 from wearsim.python.chain_readings import ChainReadingsResult
 from wearsim.python.readings_file import readings_file
 from wearsim.python.study_run import Progress, silent
@@ -24,6 +24,7 @@ from wearsim.study.remaining.model import (
     remaining_life,
 )
 from wearsim.study.remaining.sheet import remaining_json, remaining_text
+from wearsim.study.whole_drive.keys import chain_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -153,8 +154,8 @@ def remaining(
 
     Parameters
     ----------
-    case : Case, path or mapping
-        One sprocket or a gear pair.
+    case : Case, DriveCase, path or mapping
+        One sprocket or a gear pair, or a whole drive whose chain was read.
     hours : float, optional
         Running hours of the part that was measured, since it was new [h]; of one reading.
     depth : float, optional
@@ -226,7 +227,7 @@ def remaining(
             raise TypeError("remaining: readings hold hours and values, must be given without others")
         check_ranges("remaining", {"error": error}, {"error": _ABOVE_0})
         with readings_file(readings) as file:
-            state = chain_state(loaded_case(case, "remaining"), file, _USUAL if error is None else error)
+            state = chain_state(loaded(case), file, _USUAL if error is None else error)
         return ChainReadingsResult(state)
     if hours is None:
         raise TypeError("remaining: must be given hours and one reading, or readings")
@@ -238,8 +239,8 @@ def remaining(
     ((name, value),) = values
     quantity, usual_error = _READINGS[name]
     reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
-    found = loaded_case(case, "remaining")
-    return RemainingResult(found, remaining_life(found, reading, progress))
+    found = loaded(case)
+    return RemainingResult(chain_case(found), remaining_life(found, reading, progress))
 
 
 _ABOVE_0 = Range(above=0.0, optional=True)

@@ -33,14 +33,18 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
     return [result.life.hours * value / float(coefficient) for coefficient in coefficients]
 
 
-def check_steady_coefficient(case: Case, command: str) -> None:
-    """Raise where the wear coefficient of a case changes with the cycles run, or with its lubricant."""
+def check_steady_lubricant(case: Case, command: str, instead: str) -> None:
+    """Raise where the wear coefficient of a case changes with its lubricant, and say what works instead."""
     if case.lubrication is not None and not case.lubrication.steady:
         message = (
             f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or "
-            "see what relubrication does with wearsim lubricate"
+            f"{instead}"
         )
         raise CaseError([Fault(message, "lubrication", case.name)])
+
+
+def check_no_running_in(case: Case, command: str) -> None:
+    """Raise where the wear coefficient of a case changes with the cycles run."""
     if case.wear.is_steady:
         return
     runs_in = case.wear.running_in_factor != 1.0

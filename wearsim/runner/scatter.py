@@ -136,8 +136,14 @@ def plain_document(document: Document, case: Case) -> Document:
         data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
         for key, value in case.drive.wear_coefficients.items():
             data = replaced(data, key.split("."), value)
+    data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
+    return with_whole_paths(replace(document, data=data))
+
+
+def with_whole_paths(document: Document) -> Document:
+    """Return an input whose files are named by their whole paths."""
+    data = document.data
     for place in file_paths(data):
         path = (document.folder / value_at(data, ".".join(place))).resolve()
         data = replaced(data, place, str(path))
-    data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     return replace(document, data=data)

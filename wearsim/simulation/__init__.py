@@ -8,6 +8,7 @@ from wearsim.result import WearResult
 
 if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
+    from wearsim.wear.lubricant_clock import LubricatedClock
 
 __all__ = ["simulate", "verify_grid"]
 
@@ -73,6 +74,18 @@ def verify_grid(case: Case) -> "GridStudy":
     from wearsim.simulation.pointwise import points_grid_study
 
     return points_grid_study(case, max(_TIGHTER * tolerance, _TIGHTEST))
+
+
+def case_clock(case: Case) -> "LubricatedClock":
+    """Return the clock of the wear of a case, in its cycles, without a run."""
+    if case.drive.rests:
+        from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+
+        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+        return clock
+    from wearsim.simulation.wear_task import wear_task
+
+    return wear_task(case, case.drive.mechanism(case).contact).clock
 
 
 def new_peak_pressure(case: Case) -> float:

@@ -47,11 +47,12 @@ def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
     if given.phases:
         whole = math.fsum(phase.hours for phase in given.phases) * case.cycles_per_hour
         return LubricantClock(law, LubricantSchedule(tuple(_of_phases(given, case.cycles_per_hour)), whole))
-    if given.interval is not None:
-        return LubricantClock(law, LubricantSchedule.every(cycles(given.interval), dirt.excess, dirt.ageing))
+    every = math.inf if given.interval is None else cycles(given.interval)
+    if given.interval is not None and not given.at_hours:
+        return LubricantClock(law, LubricantSchedule.every(every, dirt.excess, dirt.ageing))
     begin = LubricantEvent(0.0, held=dirt.excess, ageing=dirt.ageing)
     times = (LubricantEvent(hours * case.cycles_per_hour, relubricated=True) for hours in given.at_hours)
-    return LubricantClock(law, LubricantSchedule((begin, *times), threshold=given.threshold))
+    return LubricantClock(law, LubricantSchedule((begin, *times), math.inf, given.threshold, every))
 
 
 def late_relubrication(

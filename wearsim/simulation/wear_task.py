@@ -72,11 +72,10 @@ def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
         _check_t_gamma(case, contact)
     changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
     sliding = sliding_per_cycle(case, contact) if changes else 0.0
-    running_in = case_clock(case, sliding)
-    clock = LubricatedClock(running_in, lubricant_clock(case, sliding))
+    clock = contact_clock(case, sliding, sliding)
     return WearTask(
         contact,
-        replace(law, running_in=running_in),
+        replace(law, running_in=clock.part),
         case.drive.stop_limits(case, contact),
         clock,
         clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
@@ -137,8 +136,13 @@ def clock_assumptions(clock: WearClock) -> tuple[str, ...]:
     return () if clock.is_steady else (clock.assumption(),)
 
 
-def case_clock(case: Case, sliding_per_cycle: float) -> WearClock:
-    """Return how the coefficient of a case changes with the cycles."""
+def contact_clock(case: Case, sliding: float, of_lubricant: float) -> LubricatedClock:
+    """Return the clock of contacts, from what they and those of the lubricant slide in a cycle [mm]."""
+    return LubricatedClock(_part_clock(case, sliding), lubricant_clock(case, of_lubricant))
+
+
+def _part_clock(case: Case, sliding_per_cycle: float) -> WearClock:
+    """Return how the coefficient of a new part changes with the cycles."""
     wear = case.wear
     if wear.cycles_exponent != 1.0:
         return CyclesPower(wear.cycles_exponent, wear.reference_hours * case.cycles_per_hour)

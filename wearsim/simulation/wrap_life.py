@@ -16,8 +16,8 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.lubricant import late_relubrication, lubricant_clock, with_knees
-from wearsim.simulation.wear_task import case_clock, clock_assumptions, limit_states, wear_law
+from wearsim.simulation.lubricant import late_relubrication, with_knees
+from wearsim.simulation.wear_task import clock_assumptions, contact_clock, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
@@ -109,10 +109,9 @@ def wrap_problem(
     case: Case, contact: WrapContact
 ) -> tuple[WearLaw, tuple[StopLimit, ...], float, LubricatedClock]:
     """Return what a wrap asks of the wear engine."""
-    running_in = case_clock(case, contact.sliding_per_cycle)
-    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=running_in)
+    clock = contact_clock(case, contact.sliding_per_cycle, contact.joint_sliding_per_cycle)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=clock.part)
     stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
-    clock = LubricatedClock(running_in, lubricant_clock(case, contact.joint_sliding_per_cycle))
     horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
     return law, stop_limits, horizon, clock
 

@@ -132,6 +132,7 @@ class LubricantSchedule:
     repeats: float = math.inf  # [cycles]
     # factor g at which contacts are relubricated after the last event; above what dirt alone gives
     threshold: float = math.inf
+    then_every: float = math.inf  # interval at which they are relubricated after the last event [cycles]
 
     @classmethod
     def every(cls, interval: float, dirt: float, ageing: float) -> "LubricantSchedule":
@@ -198,7 +199,7 @@ class LubricantClock:
         if schedule.events:
             state = self._rounds(schedule, state)
         if math.isinf(schedule.repeats):
-            self._afterwards(schedule.threshold, state)
+            self._afterwards(schedule, state)
         self._begins = np.array([stretch.begin for stretch in self._stretches])
         self._wears = np.array([stretch.worn for stretch in self._stretches])
 
@@ -215,9 +216,14 @@ class LubricantClock:
                 self._repeat(first, start, state)
                 return state
 
-    def _afterwards(self, threshold: float, state: _Stretch) -> None:
-        """Go on after the last event, with relubrications wherever the wear asks for them."""
-        age = self.law.age_of(threshold, state.dirt)
+    def _afterwards(self, schedule: LubricantSchedule, state: _Stretch) -> None:
+        """Go on after the last event, with relubrications at an interval or where the wear asks for them."""
+
+        def age_at_end(state: _Stretch) -> float:
+            at_interval = state.age + state.ageing * schedule.then_every
+            return min(self.law.age_of(schedule.threshold, state.dirt), at_interval)
+
+        age = age_at_end(state)
         while age < math.inf:
             start, first = state, len(self._stretches)
             state = self._run(state, state.begin + max(age - state.age, 0.0) / state.ageing)
@@ -225,7 +231,7 @@ class LubricantClock:
             if state.near(start, age):
                 self._repeat(first, start, state)
                 return
-            age = self.law.age_of(threshold, state.dirt)
+            age = age_at_end(state)
         self._keep(state)
 
     def _repeat(self, first: int, start: _Stretch, end: _Stretch) -> None:

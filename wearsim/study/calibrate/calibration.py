@@ -6,8 +6,10 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
+from wearsim.geometry.profile_points import Vector
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
 from wearsim.study.calibrate.observations import ReadingResidual
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 
 @dataclass(frozen=True)
@@ -71,9 +73,11 @@ class Calibration:
     freedom: int  # its degrees of freedom
     scale: float  # what the stated errors were multiplied by
     readings: int  # their number
+    relubrications: RelubricationLog
     # line of every profile, and how it was moved: turn [rad], shifts along x and y [mm]
     moves: tuple[tuple[int, float, float, float], ...]
     shown: tuple[ReadingResidual, ...]  # every value beside its prediction
+    chain_course: tuple[Vector, Vector]  # of the fit [h], [%]; empty where no chain was read
     runs: int  # runs of the case that were needed
     tables: Mapping[str, Any]  # of the case with the fitted values, files by their whole paths
     assumptions: tuple[str, ...]  # what was taken for granted, and what the user should look at

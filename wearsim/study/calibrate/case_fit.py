@@ -10,11 +10,12 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
+from wearsim.input.schema.lubrication_tables import SCHEDULES
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions, FittedCoefficient, PartLife
-from wearsim.study.calibrate.fit_warnings import fit_warnings, warnings_of_runs
+from wearsim.study.calibrate.fit_warnings import fit_assumptions, fit_warnings, warnings_of_runs
 from wearsim.study.calibrate.history_interpolation import PredictedHistories
 from wearsim.study.calibrate.least_squares import (
     LeastSquaresFit,
@@ -23,6 +24,7 @@ from wearsim.study.calibrate.least_squares import (
     profile_interval,
     stated_at,
 )
+from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.measured_profiles import ProfileObservation, observation
 from wearsim.study.calibrate.observations import Observation, PredictedState
 from wearsim.study.calibrate.parameters import JOINT, FitParameters, shape_values
@@ -44,6 +46,9 @@ _ENOUGH = 2.0
 _AT_END = 0.1
 """How near the logarithm of a life may come to an end of those that are searched."""
 
+_POINTS = 400
+"""Times at which the elongation of the fit is told."""
+
 _TRIED = 45
 """Lives that the search starts from, about a factor of 2 apart."""
 
@@ -57,10 +62,10 @@ class CaseFit:
         tables: Mapping[str, Any],
         readings: Sequence[Reading],
         options: CalibrationOptions,
-        file: str,
+        time: LubricatedTime,
     ) -> None:
-        self.tables = tables
-        self.case, self.readings, self.options, self.file = case, readings, options, file
+        self.tables, self.time = tables, time
+        self.case, self.readings, self.options, self.file = case, readings, options, time.log.file
         chain = any(reading.of_chain for reading in readings)
         joint, rate, self.chain_hours = _joints(case)
         self.parameters = FitParameters(
@@ -71,7 +76,8 @@ class CaseFit:
             teeth=any(not reading.of_chain for reading in readings),
             chain=chain,
             shapes={key: shape_values(case)[key] for key in options.shapes},
-            last=self._last(teeth=True),
+            last=max((time.lubricated(one.hours) for one in readings if not one.of_chain), default=math.nan),
+            time=time,
             ratio=1.0,
         )
         self.settled = True
@@ -84,7 +90,7 @@ class CaseFit:
                 f"but holds {self.freedom + self.parameters.size}: measure more, or fit less"
                 + (" (a gauge fixes no value, but wearsim remaining takes it alone)" if gauges else "")
             )
-            raise CaseError([Fault(text, "", file)])
+            raise CaseError([Fault(text, "", self.file)])
 
     def calibration(self) -> Calibration:
         """Return the whole answer."""
@@ -103,16 +109,28 @@ class CaseFit:
             freedom=self.freedom,
             scale=found.scale,
             readings=len(self.readings),
+            relubrications=self.time.log,
             moves=tuple(one.moved for one in self.observations if isinstance(one, ProfileObservation)),
             shown=shown,
+            chain_course=self._chain_course(state),
             runs=self.parameters.predictions.runs,
             tables=self._fitted_tables(values, parts),
-            assumptions=self._assumptions(),
+            assumptions=(
+                *fit_assumptions(self.case, self.readings, self.options, self.time.log),
+                *self.case.assumptions,
+            ),
             warnings=(
                 *fit_warnings(self.case, values, correlation, found, self.observations, self.freedom),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
+
+    def _chain_course(self, state: PredictedState) -> tuple[Vector, Vector]:
+        """Return the elongation [%] over the time of the readings of the chain [h]."""
+        if not self.parameters.chain:
+            return np.empty(0), np.empty(0)
+        hours = np.linspace(0.0, self._last(teeth=False), _POINTS)
+        return hours, np.array([state.elongation(one) for one in hours.tolist()])
 
     def _observed(self, state: PredictedState | None) -> list[Observation]:
         """Return the readings, profiles registered by what is known of the wear."""
@@ -205,8 +223,9 @@ class CaseFit:
             raise CaseError([Fault(text, "time_hours", self.file)])
         if found.point[0] > high[0] - _AT_END:
             least = profile_interval(self._problem(), found, 0, self.options.confidence)
+            life = self.time.running(math.exp(least.low))
             text = (
-                f"must show wear, but go with none: the life is at least {math.exp(least.low):.4g} h "
+                f"must show wear, but go with none: the life is at least {life:.4g} h "
                 f"({100 * self.options.confidence:g} %); measure later or better"
             )
             raise CaseError([Fault(text, "value", self.file)])
@@ -242,48 +261,25 @@ class CaseFit:
             tables = replaced(tables, ("wear", "band_factor"), band)
         longest = max(part.life for part in parts)
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
+        if self.time.log.hours:
+            given = {key: value for key, value in tables["lubrication"].items() if key not in SCHEDULES}
+            tables = {**tables, "lubrication": {**given, "at_hours": self.time.log.until(longest)}}
         return replaced(tables, ("run", "horizon_hours"), horizon)
 
     def _parts(self, found: LeastSquaresFit, values: Sequence[FittedCoefficient]) -> tuple[PartLife, ...]:
         parts = []
         if self.parameters.teeth:
-            interval = profile_interval(self._problem(), found, 0, self.options.confidence)
+            interval = profile_interval(self._problem(), found, 0, self.options.confidence).scaled(1.0)
             name = "pinion" if "gear" in self.case.inputs else "sprocket"
-            parts.append(
-                PartLife(name, self._last(teeth=True), math.exp(found.point[0]), interval.scaled(1.0))
-            )
+            life = self.time.running(math.exp(found.point[0]))
+            parts.append(PartLife(name, self._last(teeth=True), life, interval.mapped(self.time.running)))
         if self.parameters.chain:
             (joints,) = (value for value in values if value.key == JOINT)
             whole = self.chain_hours * joints.given
-            hours = self._last(teeth=False)
-            parts.append(PartLife("chain", hours, whole / joints.value, joints.interval.inverse(whole)))
+            hours, interval = self._last(teeth=False), joints.interval.inverse(whole)
+            life = self.time.running(whole / joints.value)
+            parts.append(PartLife("chain", hours, life, interval.mapped(self.time.running)))
         return tuple(parts)
-
-    def _assumptions(self) -> tuple[str, ...]:
-        found = [
-            "the coefficients are constant over the whole life, load and lubrication stay as they were",
-            "errors of the readings are normal, independent and as stated; intervals hold them only, not "
-            "errors of the model",
-        ]
-        moved = {
-            "none": "not moved",
-            "turn": "turned about the axis (a datum that is off it by some hundredths of a millimetre can "
-            "cost more than the intervals, see --register free)",
-            "free": "turned and shifted",
-        }
-        if any(reading.x.size for reading in self.readings):
-            found.append(
-                f"measured profiles are {moved[self.options.freedom]} to fit and smoothed by the Gaussian "
-                f"filter of ISO 16610-21, cut-off {self.options.cutoff:g} mm; the model is smoothed alike"
-            )
-        parameters = self.parameters
-        if self.case.drive.wear_coefficients and parameters.teeth:
-            found.append(
-                "the runs take the joints' wear over that of the teeth as it came out, without its error"
-                if parameters.chain
-                else "joints wear as much more or less than their coefficient says as teeth do"
-            )
-        return (*found, *self.case.assumptions)
 
 
 def _joints(case: Case) -> tuple[float, float, float]:

@@ -71,8 +71,10 @@ def calibrate(
     A row of the table is a reading: time_hours (or distance_km, or date), quantity (max_depth_mm,
     depth_mm at arc_length_mm, over_pins_mm, elongation_percent, chain_length_mm over links,
     gauge_percent with result, or profile with a points_file), value and error, its standard
-    deviation. The folder holds fit.csv, fitted_values.csv, summary.md, pictures, and the case with
-    what was fitted. Needs pandera (pip install 'wearsim[study]').
+    deviation. Rows with the quantity relubrication say when the lubricant of [lubrication] began
+    anew, in place of its schedule. Of a whole drive the chain can be read. The folder holds fit.csv,
+    fitted_values.csv, summary.md, pictures, and the case with what was fitted. Needs pandera
+    (pip install 'wearsim[study]').
     """
     from wearsim.extras import check_installed
 

@@ -41,11 +41,16 @@ def _readings(found: Calibration) -> Figure:
         along = name == PROFILE
         for index, (label, line) in enumerate(_lines(shown)):
             x = [one.arc_length if along else one.hours for one in line]
-            _line(panel, x, line, f"C{index}", label)
+            _points(panel, x, line, f"C{index}")
+            fitted = found.chain_course if name in (ELONGATION, GAUGE) else _between(x, line)
+            panel.plot(*fitted, "-", color=f"C{index}", label=label)
         read = "marks of gauges, go below and no-go above" if name == GAUGE else "measured"
         panel.set_title(f"points: {read}, lines: fitted", fontsize=8, loc="left")
         panel.set_xlabel("along the new flank, mm" if along else "running time, h")
         panel.set_ylabel(_AXES[name])
+        times = found.relubrications.hours
+        if not along and times:
+            panel.plot(times, [0.0] * len(times), "|", color="C2", markersize=14, label="relubricated")
         if not along:
             panel.set_xlim(left=0.0)
             panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))
@@ -67,10 +72,13 @@ def _lines(shown: list[ReadingResidual]) -> Iterator[tuple[str, list[ReadingResi
         yield "" if place == "nan" else f"at {float(place):g} mm", list(line)
 
 
-def _line(panel: Axes, x: list[float], line: list[ReadingResidual], colour: str, label: str) -> None:
-    fitted = [one.predicted for one in line]
+def _between(x: list[float], line: list[ReadingResidual]) -> tuple[list[float], list[float]]:
+    """Return what is predicted from one reading to the next."""
     start = [] if line[0].quantity == PROFILE else [0.0]
-    panel.plot([*start, *x], [*start, *fitted], "-", color=colour, label=label)
+    return [*start, *x], [*start, *(one.predicted for one in line)]
+
+
+def _points(panel: Axes, x: list[float], line: list[ReadingResidual], colour: str) -> None:
     panel.errorbar(
         x,
         [one.value for one in line],

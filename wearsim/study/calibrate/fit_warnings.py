@@ -1,4 +1,4 @@
-"""What the user of a calibration should look at."""
+"""What a calibration takes for granted, and what its user should look at."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -8,10 +8,12 @@ from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile_points import Vector
-from wearsim.study.calibrate.calibration import FittedCoefficient, PartLife
+from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import LeastSquaresFit
 from wearsim.study.calibrate.observations import Observation
 from wearsim.study.calibrate.parameters import EXPONENT, SHAPES
+from wearsim.study.calibrate.readings import Reading
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 _TOGETHER = 0.95
 """Correlation above which two values are looked at together."""
@@ -23,6 +25,53 @@ _TOO_GOOD = 0.001
 
 _MANY = 0.25
 """Part of the points of a profile above which it matters that they are left out."""
+
+
+def fit_assumptions(
+    case: Case, readings: Sequence[Reading], options: CalibrationOptions, log: RelubricationLog
+) -> Iterator[str]:
+    """Give what a fit takes for granted."""
+    yield _conditions(case, log)
+    yield (
+        "errors of the readings are normal, independent and as stated; intervals hold them only, not "
+        "errors of the model"
+    )
+    moved = {
+        "none": "not moved",
+        "turn": "turned about the axis (a datum that is off it by some hundredths of a millimetre can "
+        "cost more than the intervals, see --register free)",
+        "free": "turned and shifted",
+    }
+    if any(reading.x.size for reading in readings):
+        yield (
+            f"measured profiles are {moved[options.freedom]} to fit and smoothed by the Gaussian "
+            f"filter of ISO 16610-21, cut-off {options.cutoff:g} mm; the model is smoothed alike"
+        )
+    chain, teeth = (any(one.of_chain == of_chain for one in readings) for of_chain in (True, False))
+    if chain and teeth and log.hours:
+        yield "sprocket and chain were both new at time 0 of the log"
+    if case.drive.wear_coefficients and teeth:
+        yield (
+            "the runs take the joints' wear over that of the teeth as it came out, without its error"
+            if chain
+            else "joints wear as much more or less than their coefficient says as teeth do"
+        )
+
+
+def _conditions(case: Case, log: RelubricationLog) -> str:
+    """Say what stays as it was."""
+    if log.hours:
+        return (
+            "the coefficients of lubricated contacts are constant over the whole life, the load stays as it "
+            f"was, and contacts are relubricated every {log.mean_interval:.4g} h as before, in place of what "
+            "[lubrication] says"
+        )
+    if case.lubrication is not None and not case.lubrication.steady:
+        return (
+            "the coefficients of lubricated contacts are constant over the whole life, the load stays as it "
+            "was, and contacts are relubricated as [lubrication] says, from a new part on"
+        )
+    return "the coefficients are constant over the whole life, load and lubrication stay as they were"
 
 
 def fit_warnings(

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from wearsim.case.load_case import load_case
@@ -97,7 +97,9 @@ class PredictedHistories:
             tables = self._tables
             for name, value in key:
                 tables = replaced(tables, name.split("."), value)
-            predicted = PredictedHistory(simulate(load_case(tables)))
+            # How the lubricant ages is a matter of time alone, which readings are held against.
+            case = replace(load_case(tables), lubrication=None)
+            predicted = PredictedHistory(simulate(case))
             if not predicted.reached:
                 raise ConvergenceError(
                     f"calibrate: the limit must be reached for a life to be scaled, but is not in "

@@ -65,6 +65,10 @@ class ConfidenceInterval:
         low, high = start * math.exp(self.low), start * math.exp(self.high)
         return ConfidenceInterval(low, high, self.low_known, self.high_known)
 
+    def mapped(self, rising: Callable[[float], float]) -> "ConfidenceInterval":
+        """Return the interval of a value that rises with this one."""
+        return ConfidenceInterval(rising(self.low), rising(self.high), self.low_known, self.high_known)
+
     def inverse(self, whole: float) -> "ConfidenceInterval":
         """Return the interval of a value that is inverse to this one."""
         return ConfidenceInterval(whole / self.high, whole / self.low, self.high_known, self.low_known)

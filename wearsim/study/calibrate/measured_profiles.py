@@ -122,5 +122,5 @@ class ProfileObservation:
 def _recess(reading: Reading, state: PredictedState) -> Vector:
     """How far the worn flank lies behind the new one at the time of a profile [mm]."""
     assert state.predicted is not None
-    part, kind = reading.hours / state.life, reading.gap_kind or 1
+    part, kind = state.part(reading.hours), reading.gap_kind or 1
     return state.predicted.mean(lambda one: one.recess(part, kind))

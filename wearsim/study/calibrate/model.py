@@ -4,13 +4,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from wearsim.case.load_case import load_case
-from wearsim.input.document import CaseSource, read_document
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
-from wearsim.runner.scatter import plain_document
+from wearsim.input.document import CaseSource, is_whole_drive, read_document
+from wearsim.runner.scaled_percentiles import check_no_running_in
+from wearsim.runner.scatter import plain_document, with_whole_paths
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.case_fit import CaseFit
-from wearsim.study.calibrate.reading_checks import check_readings
+from wearsim.study.calibrate.lubricated_time import LubricatedTime
+from wearsim.study.calibrate.reading_checks import check_of_chain, check_readings
 from wearsim.study.calibrate.readings import read_readings
+from wearsim.study.whole_drive.keys import DriveCase, chain_case, load_drive
 
 
 def calibrate(
@@ -23,13 +25,19 @@ def calibrate(
 
     The coefficient of the teeth is fitted where there are readings of the teeth, that of the
     joints where there are elongations, and what the options name besides: bounded least squares
-    of the residuals over their stated errors, intervals by the profile of the likelihood.
+    of the residuals over their stated errors, intervals by the profile of the likelihood. Of a whole
+    drive its chain can be read.
     """
     options = options or CalibrationOptions()
     document = read_document(source, overrides)
-    case = load_case(source, overrides)
-    check_steady_coefficient(case, "calibrate")
-    readings = read_readings(measurements, case)
+    given = load_drive(source, overrides) if is_whole_drive(document.data) else load_case(source, overrides)
+    case = chain_case(given)
+    check_no_running_in(case, "calibrate")
+    readings, log = read_readings(measurements, case)
+    if isinstance(given, DriveCase):
+        check_of_chain(readings, str(measurements))
+        tables = with_whole_paths(document).data
+    else:
+        tables = plain_document(document, case).data
     check_readings(case, readings, options, str(measurements))
-    tables = plain_document(document, case).data
-    return CaseFit(case, tables, readings, options, str(measurements)).calibration()
+    return CaseFit(case, tables, readings, options, LubricatedTime.of(given, log)).calibration()

@@ -7,6 +7,7 @@ import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.calibrate.history_interpolation import WeightedHistory
+from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import DEEPEST, POINT, Reading
 from wearsim.study.remaining.chain_readings import ELONGATION, side_of_mark
@@ -18,8 +19,17 @@ class PredictedState:
     """A drive with one set of coefficients."""
 
     predicted: WeightedHistory | None  # how its teeth wear; None where that is not asked for
-    life: float  # of the teeth [h], nan with that
-    elongation_rate: float  # of its chain [%/h]
+    life: float  # of the teeth [lubricated h], nan with that
+    elongation_rate: float  # of its chain [%/lubricated h]
+    time: LubricatedTime
+
+    def part(self, hours: float) -> float:
+        """Return which part of the life of the teeth has gone after so many hours run."""
+        return self.time.lubricated(hours) / self.life
+
+    def elongation(self, hours: float) -> float:
+        """Return the elongation of the chain after so many hours run [%]."""
+        return self.elongation_rate * self.time.lubricated(hours)
 
 
 @dataclass(frozen=True)
@@ -77,9 +87,9 @@ class GaugeReading:
     def predicted(self, state: PredictedState) -> float:
         """Return what the reading should be, in its unit."""
         if self.reading.quantity == ELONGATION:
-            return state.elongation_rate * self.reading.hours
+            return state.elongation(self.reading.hours)
         assert state.predicted is not None
-        part = self.reading.hours / state.life
+        part = state.part(self.reading.hours)
         return state.predicted.mean(lambda one: self._of_teeth(one, part))
 
     def _of_teeth(self, predicted: PredictedHistory, part: float) -> float:
@@ -136,13 +146,13 @@ class GoNoGoReading:
     def residuals(self, state: PredictedState) -> Vector:
         """Return the residual, not negative."""
         reading = self.reading
-        predicted = np.array([state.elongation_rate * reading.hours])
+        predicted = np.array([state.elongation(reading.hours)])
         side = side_of_mark(reading.row, reading.hours, reading.value, reading.result, reading.error)
         return np.sqrt(-2.0 * log_probability(side, predicted))
 
     def shown(self, state: PredictedState) -> list[ReadingResidual]:
         """Return the mark beside the prediction."""
-        reading, predicted = self.reading, state.elongation_rate * self.reading.hours
+        reading, predicted = self.reading, state.elongation(self.reading.hours)
         return [
             ReadingResidual(
                 reading.row,

@@ -15,6 +15,7 @@ from wearsim.study.calibrate.history_interpolation import (
     PredictedHistories,
     WeightedHistory,
 )
+from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.observations import PredictedState
 
 JOINT = "joint.specific_wear_rate_mm2_per_N"
@@ -43,11 +44,12 @@ class FitParameters:
     predictions: PredictedHistories  # runs of the case
     coefficient: float  # that of the teeth in the case
     joint: float  # that of the joints in the case; nan where no chain wears
-    elongation_rate: float  # of the chain with that [%/h]; nan where no chain wears
+    elongation_rate: float  # of the chain with that [%/lubricated h]; nan where no chain wears
     teeth: bool  # whether the coefficients of the teeth and of the joints are fitted
     chain: bool  # whether the coefficients of the teeth and of the joints are fitted
     shapes: Mapping[str, float]  # keys that are fitted besides, with their values in the case
-    last: float  # hours of the last reading of the teeth [h]; nan where there is none
+    last: float  # of the last reading of the teeth [lubricated h]; nan where there is none
+    time: LubricatedTime
     # coefficient of the joints over that of the teeth in the runs, as a factor of that in the case
     ratio: float
 
@@ -96,8 +98,8 @@ class FitParameters:
         joints = math.exp(point[int(self.teeth)]) if self.chain else 1.0
         rate = joints * self.elongation_rate
         if not self.teeth:
-            return PredictedState(None, math.nan, rate)
-        return PredictedState(self.predicted(point), math.exp(point[0]), rate)
+            return PredictedState(None, math.nan, rate, self.time)
+        return PredictedState(self.predicted(point), math.exp(point[0]), rate, self.time)
 
     def swapped(self, point: Vector) -> Vector:
         """Return logarithms with the coefficient of the teeth for their life, or the other way round."""

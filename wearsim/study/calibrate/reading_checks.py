@@ -35,6 +35,23 @@ def check_readings(case: Case, readings: Sequence[Reading], options: Calibration
         raise CaseError(faults)
 
 
+def check_of_chain(readings: Sequence[Reading], file: str) -> None:
+    """Raise where readings of a whole drive are of its teeth, as they say not of which sprocket."""
+    faults = [
+        Fault(
+            f"{one.quantity} is read on the teeth of one sprocket: give the case of that one, [sprocket] "
+            "with drive.mate_teeth for the other one; of a whole drive give what was read of its chain",
+            "quantity",
+            file,
+            one.row,
+        )
+        for one in readings
+        if not one.of_chain
+    ]
+    if faults:
+        raise CaseError(faults)
+
+
 def _not_known(case: Case, reading: Reading) -> Iterator[str]:
     wrap, name = case.drive.rests, reading.quantity
     if (reading.of_chain or name in (LENGTH, OVER_PINS)) and not wrap:

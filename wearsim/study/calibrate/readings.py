@@ -23,6 +23,7 @@ from wearsim.study.remaining.dated_rows import (
     read_dated_rows,
     service_time,
 )
+from wearsim.study.remaining.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,12 +60,13 @@ class Reading:
         return self.quantity in (ELONGATION, GAUGE)
 
 
-def read_readings(path: Path, case: Case) -> tuple[Reading, ...]:
-    """Read a table of measurements; [service] of the case turns km and days into hours."""
-    rows = read_dated_rows(path, REQUIRED, OPTIONAL)
-    time = service_time(rows, case.inputs)
+def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], RelubricationLog]:
+    """Read measurements and relubrications; [service] of the case turns km and days into hours."""
+    whole = read_dated_rows(path, REQUIRED, OPTIONAL)
+    time = service_time(whole, case.inputs)
+    rows = replace(whole, rows=tuple(row for row in whole.rows if row[1]["quantity"] not in EVENTS))
     table = _table(rows)
-    faults = [*_bad_cells(table, _common(time), path)]
+    faults = [*event_faults(whole, time), *_bad_cells(table, _common(time), path)]
     for quantity, some in table.groupby("quantity"):
         if quantity in QUANTITIES:
             faults += _bad_cells(some, _of_quantity(str(quantity)), path)
@@ -76,7 +78,8 @@ def read_readings(path: Path, case: Case) -> tuple[Reading, ...]:
     found = [_reading(int(str(row)), cells, time, points[row]) for row, cells in table.iterrows()]
     if not found:
         raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
-    return tuple(_elongation(one, cells, case) for one, (_, cells) in zip(found, rows.rows, strict=True))
+    readings = tuple(_elongation(one, cells, case) for one, (_, cells) in zip(found, rows.rows, strict=True))
+    return readings, relubrication_log(whole, time)
 
 
 def _elongation(reading: Reading, cells: Mapping[str, str], case: Case) -> Reading:
@@ -122,7 +125,7 @@ def _columns(rules: Mapping[str, tuple[Holds, str]]) -> Any:
 
 
 def _common(time: ServiceTime) -> Any:
-    words = ", ".join(QUANTITIES)
+    words = ", ".join((*QUANTITIES, *EVENTS))
     hours = f"must be a number above 0, from {_LEAST_HOURS:g} to {_MAX_HOURS:g} h"
     return _columns(
         {

@@ -15,6 +15,7 @@ from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
+from wearsim.study.remaining.chain_sheet import relubrication_rows
 
 
 def calibration_text(found: Calibration) -> str:
@@ -49,6 +50,7 @@ def calibration_text(found: Calibration) -> str:
             f"{found.readings} readings, chi-square {found.chi_square:.4g} with {found.freedom} degrees "
             f"of freedom{widened}",
         ),
+        *relubrication_rows(found.relubrications),
         *(
             ("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
             for line, turn, x, y in found.moves
@@ -73,6 +75,7 @@ def calibration_json(found: Calibration) -> dict[str, Any]:
             for one in found.moves
         ],
         "readings": found.readings,
+        "relubrications": len(found.relubrications.hours),
         "chi_square": found.chi_square,
         "degrees_of_freedom": found.freedom,
         "error_scale": found.scale,

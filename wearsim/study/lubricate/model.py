@@ -14,8 +14,7 @@ from wearsim.case.lubrication_input import ENDLESS, LubricationInput
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.wear_task import wear_task
-from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+from wearsim.simulation import case_clock
 from wearsim.study.lubricate.intervals import (
     LubricationIntervals,
     MissedRelubrication,
@@ -156,14 +155,6 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
         gives_out=False,
         missed=None,
     )
-
-
-def case_clock(case: Case) -> LubricatedClock:
-    """Return the clock of the wear of a case, in its cycles."""
-    if case.drive.rests:
-        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
-        return clock
-    return wear_task(case, case.drive.mechanism(case).contact).clock
 
 
 def _part(drive: LubricatedDrive, clock: LubricatedClock, name: str) -> WornPart:

@@ -9,7 +9,7 @@ from wearsim.errors import CaseError, ContactError, ConvergenceError, WearsimErr
 from wearsim.input.schema import MaintenanceTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
+from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.maintain.reversed_sprocket import reversed_life
@@ -117,7 +117,8 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     and the chain at the end of the first.
     """
     drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'")
-    check_steady_coefficient(case, "maintain")
+    check_steady_lubricant(case, "maintain", "see what relubrication does with wearsim lubricate")
+    check_no_running_in(case, "maintain")
     table = MaintenanceTable(**case.inputs.get("maintenance", {}))
     limit: float = case.inputs["stop"]["elongation_percent"]
     elongations = table.replace_at_percent or [*(e for e in POLICIES if e < limit), limit]

@@ -15,9 +15,16 @@ from wearsim.study.remaining.dated_rows import (
     read_dated_rows,
     service_time,
 )
+from wearsim.study.remaining.relubrications import (
+    EVENTS,
+    NEW,
+    RELUBRICATION,
+    RelubricationLog,
+    event_faults,
+    relubrication_log,
+)
 
 LENGTH, ELONGATION, GAUGE = "chain_length_mm", "elongation_percent", "gauge_percent"
-NEW, RELUBRICATION = "new", "relubrication"
 READINGS = (LENGTH, ELONGATION, GAUGE)
 _WORDS = (NEW, *READINGS, RELUBRICATION)
 GO, NO_GO = "go", "no-go"
@@ -25,7 +32,6 @@ GO, NO_GO = "go", "no-go"
 _OF_TEETH = ("max_depth_mm", "depth_mm", "over_pins_mm", "profile")
 
 _MOST_PERCENT = 10.0
-_MOST_HOURS = 1e9
 _BELOW_NEW = 3.0
 """Errors by which a reading may lie below 0."""
 
@@ -63,8 +69,7 @@ class ChainLog:
     file: str
     time: ServiceTime
     readings: tuple[ChainReading, ...]
-    relubricated: tuple[float, ...]  # running time [h]
-    today: float  # running time of the last row [h]
+    relubrications: RelubricationLog
 
 
 def elongation_over(length: float, links: int, pitch: float) -> float:
@@ -130,9 +135,9 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     """
     table = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result"))
     time = service_time(table, inputs)
-    faults = [*_bad_cells(table, time), *_backwards(table, time)]
+    faults = [*_bad_cells(table, time), *event_faults(table, time), *_backwards(table, time)]
     if faults:
-        raise CaseError(faults)
+        raise CaseError(sorted(faults, key=lambda fault: fault.line))
     rows = [(line, time.hours(cells[table.time]), cells) for line, cells in table.rows]
     readings = tuple(
         _reading(line, hours, cells, pitch, usual_error)
@@ -143,20 +148,15 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
         text = f"must hold at least one reading of the chain: {', '.join(READINGS)}"
         raise CaseError([Fault(text, "quantity", table.file)])
     log = ChainLog(
-        file=table.file,
-        time=time,
-        readings=readings,
-        relubricated=tuple(hours for _, hours, cells in rows if cells["quantity"] == RELUBRICATION),
-        today=rows[-1][1],
+        file=table.file, time=time, readings=readings, relubrications=relubrication_log(table, time)
     )
     _check_times(log)
     return log
 
 
 def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
-    """Give every cell that cannot be."""
+    """Give every cell that cannot be in a row that is a reading."""
     rules: Rules = {
-        table.time: (lambda text: 0.0 <= time.hours(text) <= _MOST_HOURS, f"must be {time.must}"),
         "quantity": (lambda text: text in _WORDS, f"must be one of {', '.join(_WORDS)}"),
         "error": (
             lambda text: text == "" or 0.0 < number(text) <= 1e6,
@@ -164,33 +164,29 @@ def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
         ),
     }
     for line, cells in table.rows:
-        more = chain_cells(cells["quantity"]) if cells["quantity"] in _WORDS else {}
+        quantity = cells["quantity"]
+        if quantity in EVENTS:
+            continue
+        wrong = time.fault(cells[table.time])
+        if wrong:
+            yield Fault(wrong, table.time, table.file, line)
+        more = chain_cells(quantity) if quantity in READINGS else {}
         for name, (holds, must) in {**rules, **more}.items():
             text = cells.get(name, "")
             if not holds(text):
-                yield Fault(f"{must} (got {text!r}){_hint(name, text, time)}", name, table.file, line)
-
-
-def _hint(name: str, text: str, time: ServiceTime) -> str:
-    if name == DATE and time.start is not None and time.hours(text) < 0.0:
-        return f", not before service.start_date = {time.start}, when the chain was new"
-    if name == "quantity" and text in _OF_TEETH:
-        return ": wearsim calibrate takes readings of the teeth"
-    return ""
+                hint = ": wearsim calibrate takes readings of the teeth" if text in _OF_TEETH else ""
+                yield Fault(f"{must} (got {text!r}){hint}", name, table.file, line)
 
 
 def _backwards(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
-    """Give every row that comes before the one above it, and a chain that is new twice."""
+    """Give every row that comes before the one above it."""
     last, above = 0.0, ""
-    for number_of_row, (line, cells) in enumerate(table.rows):
+    for line, cells in table.rows:
         text = cells[table.time]
         hours = time.hours(text)
         if hours < last:
             message = f"must not go backwards: {text} comes after {above}; sort the rows, one chain a file"
             yield Fault(message, table.time, table.file, line)
-        if cells["quantity"] == NEW and (number_of_row or hours > 0.0):
-            message = f"{NEW} must be the first row, at time 0: begin a file for each chain"
-            yield Fault(message, "quantity", table.file, line)
         last, above = (hours, text) if hours >= last else (last, above)
 
 

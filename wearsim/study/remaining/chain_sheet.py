@@ -10,7 +10,7 @@ from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.remaining.chain_readings import GAUGE, GO, NO_GO, ChainReading
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
-from wearsim.study.remaining.relubrications import mean_interval
+from wearsim.study.remaining.relubrications import RelubricationLog
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""
@@ -27,7 +27,7 @@ _WORDS = {
 def chain_text(found: ChainState) -> str:
     """Return the answer as ``wearsim remaining`` prints it with a table of readings."""
     left = found.of("remaining_hours")
-    today = grouped(found.log.today)
+    today = grouped(found.log.relubrications.today)
     rows = [
         ("Remaining", f"{_shown(left)[2]} h of the chain after {today} h{_intervals(left)}"),
         *(
@@ -37,7 +37,7 @@ def chain_text(found: ChainState) -> str:
             for label, form in [_WORDS[one.name]]
         ),
         ("Readings", counted_readings(found)),
-        *([("Lubricated", _relubrications(found))] if found.log.relubricated else []),
+        *relubrication_rows(found.log.relubrications),
         ("Assumes", numbered_assumptions(found.assumptions)),
         ("Warnings", "; ".join(found.warnings) or "none"),
     ]
@@ -54,10 +54,13 @@ def counted_readings(found: ChainState) -> str:
     )
 
 
-def _relubrications(found: ChainState) -> str:
-    """Return how often the chain was relubricated."""
-    count, every = len(set(found.log.relubricated)), grouped(mean_interval(found.log))
-    return f"{count} times, every {every} h in the mean, and so on from here"
+def relubrication_rows(log: RelubricationLog) -> list[tuple[str, str]]:
+    """Return how often a part was relubricated; nothing where it was not."""
+    if not log.hours:
+        return []
+    count = "once" if len(log.hours) == 1 else f"{len(log.hours)} times"
+    every = grouped(log.mean_interval)
+    return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]
 
 
 def chain_json(found: ChainState) -> dict[str, Any]:
@@ -68,14 +71,14 @@ def chain_json(found: ChainState) -> dict[str, Any]:
         "case": found.case.name,
         "title": found.case.title,
         "part": "chain",
-        "reading_hours": found.log.today,
+        "reading_hours": found.log.relubrications.today,
         "life_hours": life.middle,
         "remaining_hours": left.middle,
         "remaining_hours_low": left.values[0],
         "remaining_hours_high": left.values[-1],
         "intervals": interval_rows(found),
         "readings": reading_rows(found),
-        "relubrications": len(found.log.relubricated),
+        "relubrications": len(found.log.relubrications.hours),
         "error_scale": found.posterior.scale,
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),

@@ -11,13 +11,13 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
-from wearsim.mechanisms.wrap.contact import WrapContact
-from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+from wearsim.simulation import case_clock
+from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
-from wearsim.study.remaining.relubrications import as_before, as_logged, check_relubrications, mean_interval
-from wearsim.wear.wear_clock import WearClock
+from wearsim.study.remaining.relubrications import relubricated
+from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""
@@ -56,7 +56,7 @@ class ChainState:
         return next(one for one in self.quantiles if one.name == name)
 
 
-def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState:
+def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -> ChainState:
     """Return the state of a chain from a table of dated readings.
 
     The elongation is the case's own rate times the running time times one factor on the coefficient.
@@ -65,8 +65,8 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
 
     Parameters
     ----------
-    case : Case
-        With a chain that wraps its sprocket.
+    case : Case or DriveCase
+        With a chain that wraps its sprocket, or a whole drive.
     path : Path
         CSV file of readings.
     usual_error : float
@@ -77,39 +77,38 @@ def chain_state(case: Case, path: Path, usual_error: float = 0.05) -> ChainState
     CaseError
         What is wrong with case or readings, or a reading beyond the limit.
     """
-    if not case.drive.wear_coefficients:
+    first = chain_case(case)
+    if not first.drive.wear_coefficients:
         text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
-        raise CaseError([Fault(text, "mechanism.kind", case.name)])
-    drive = wrap_of(case)
+        raise CaseError([Fault(text, "mechanism.kind", first.name)])
+    drive = wrap_of(first)
     limit = 100.0 * drive.joint.elongation_limit
-    log = read_chain_log(path, case.inputs, drive.chain.pitch, usual_error)
+    log = read_chain_log(path, first.inputs, drive.chain.pitch, usual_error)
     _check_within(log, limit)
-    check_relubrications(case, log)
-    return _state(case, log, limit)
+    return _state(first, relubricated(case, log.relubrications), log, limit)
 
 
-def _state(case: Case, log: ChainLog, limit: float) -> ChainState:
-    """Return what a log says: the clock of the wear as it ran, then as it goes on."""
-    contact, per_hour = wrap_of(case).contact(case), case.cycles_per_hour
-    clock = _clock(as_logged(case, log), contact)
-    rate = limit / contact.cycles_per_chain
+def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
+    """Return what a log says, by the clock of the wear as it ran and goes on."""
+    cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_chain
+    clock, per_hour = case_clock(as_logged), as_logged.cycles_per_hour
+    today = log.relubrications.today
+    rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    prior = FactorPrior(case.wear.low, case.wear.high)
+    low, high, _ = as_logged.drive.wear_band("chain", as_logged.wear)
+    prior = FactorPrior(low, high)
     posterior = factor_posterior(log.readings, expected, prior)
     factors = np.array(posterior.quantiles)
-    steady = contact.cycles_per_chain / factors[::-1]
-    # As no state of the lubricant wears less than fresh, no life has more hours than these.
-    going_on = _clock(as_before(case, log, float(steady[-1]) / per_hour), contact)
-    lives = tuple((going_on.running_cycles(steady) / per_hour).tolist())
-    now = rate * clock.steady_cycles(log.today * per_hour) * factors
-    hours = np.linspace(0.0, _BEYOND * max(lives[-1], log.today), _POINTS)
+    lives = tuple((clock.running_cycles(cycles_per_chain / factors[::-1]) / per_hour).tolist())
+    now = rate * clock.steady_cycles(today * per_hour) * factors
+    hours = np.linspace(0.0, _BEYOND * max(lives[-1], today), _POINTS)
     return ChainState(
         case=case,
         log=log,
         limit=limit,
         expected=expected,
         course_hours=hours,
-        course=rate * np.array([going_on.steady_cycles(float(one) * per_hour) for one in hours]),
+        course=rate * np.array([clock.steady_cycles(float(one) * per_hour) for one in hours]),
         posterior=posterior,
         quantiles=(
             *_left(case, log, lives),
@@ -124,14 +123,15 @@ def _state(case: Case, log: ChainLog, limit: float) -> ChainState:
 
 def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
     """Give what is left from the last row on, in the measures that the case knows."""
-    left = tuple(max(one - log.today, 0.0) for one in lives)
+    today = log.relubrications.today
+    left = tuple(max(one - today, 0.0) for one in lives)
     service = case.inputs.get("service") or {}
     yield Quantiles("remaining_hours", left)
     if "km_per_hour" in service:
         yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
     start = date.fromisoformat(service["start_date"]) if "start_date" in service else log.time.start
     if start is not None:
-        ends = [log.today + one for one in left]
+        ends = [today + one for one in left]
         each = service["hours_per_day"]
         yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
 
@@ -152,17 +152,11 @@ def _check_within(log: ChainLog, limit: float) -> None:
         raise CaseError(faults)
 
 
-def _clock(case: Case, contact: WrapContact) -> WearClock:
-    """Return the clock of the wear of a case."""
-    *_, clock = wrap_problem(case, contact)
-    return clock
-
-
 def _assumptions(log: ChainLog, prior: FactorPrior) -> Iterator[str]:
-    if log.relubricated:
+    if log.relubrications.hours:
         yield (
-            f"the load stays as it was, and the chain is relubricated every {mean_interval(log):.4g} h as "
-            "before, in place of what [lubrication] says"
+            f"the load stays as it was, and the chain is relubricated every "
+            f"{log.relubrications.mean_interval:.4g} h as before, in place of what [lubrication] says"
         )
     else:
         yield "load and lubrication stay as they were"
@@ -189,7 +183,7 @@ def _warnings(
             "them, the load and the lubrication; their errors are taken as so much larger"
         )
     yield from _contradictions(log)
-    if lives[0] <= log.today:
+    if lives[0] <= log.relubrications.today:
         yield "the limit may be reached already: measure again, with a smaller error"
 
 

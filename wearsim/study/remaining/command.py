@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -19,6 +20,10 @@ from wearsim.command.options import (
     working,
 )
 from wearsim.errors import WearsimError
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.study.whole_drive.keys import DriveCase
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -98,7 +103,8 @@ def remaining(
     coefficient is constant, so the answer is exact as long as the coefficient is.
 
     Or READINGS (.csv), all that was read of one chain by hours, km or date: chain_length_mm over links,
-    elongation_percent, gauge_percent with go or no-go. The answer has intervals of 50 and 90 %.
+    elongation_percent, gauge_percent with go or no-go, and when it was relubricated. The answer has
+    intervals of 50 and 90 %. Of a whole drive the chain can be read.
     """
     values = (depth_mm, over_pins_mm, elongation)
     given = [value for value in values if value is not None]
@@ -113,19 +119,20 @@ def remaining(
         raise click.UsageError("give exactly one of --depth-mm, --over-pins-mm, --elongation")
     if out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
-    (loaded,) = load_cases([case], settings, as_json)
+    loaded = _loaded(case, settings, as_json)
     from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
     from wearsim.study.remaining.sheet import remaining_json, remaining_text
+    from wearsim.study.whole_drive.keys import chain_case
 
     quantity = DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
     error = reading_error_percent if elongation is not None else reading_error_mm
     with _failing(case, as_json), working(f"wearing {loaded.title}") as report_progress:
         found = remaining_life(loaded, SingleReading(quantity, given[0], error, hours), report_progress)
     if as_json:
-        content = remaining_json(found, loaded.inputs)
+        content = remaining_json(found, chain_case(loaded).inputs)
         print_json(content, case, found.warnings)
     else:
-        show(remaining_text(found, loaded.inputs))
+        show(remaining_text(found, chain_case(loaded).inputs))
 
 
 def _of_chain(
@@ -142,7 +149,7 @@ def _of_chain(
         from wearsim.files import check_folder
 
         check_folder(out, force)
-    (loaded,) = load_cases([case], settings, as_json)
+    loaded = _loaded(case, settings, as_json)
     from wearsim.study.remaining.chain_sheet import chain_json, chain_text, save_chain
     from wearsim.study.remaining.chain_state import chain_state
 
@@ -155,6 +162,16 @@ def _of_chain(
     if out is not None:
         save_chain(found, out, force)
         warn(f"written to {out}")
+
+
+def _loaded(case: Path, settings: tuple[str, ...], as_json: bool) -> "Case | DriveCase":
+    """Return a case, or a whole drive, whose chain can be read."""
+    from wearsim.study.whole_drive.command import is_drive, loaded_drive
+
+    if is_drive(case):
+        return loaded_drive(case, settings, as_json)
+    (loaded,) = load_cases([case], settings, as_json)
+    return loaded
 
 
 @contextmanager

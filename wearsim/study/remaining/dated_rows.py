@@ -14,6 +14,8 @@ from wearsim.input.csv_tables import header_faults
 HOURS, KM, DATE = "time_hours", "distance_km", "date"
 TIMES = (HOURS, KM, DATE)
 
+_MOST_HOURS = 1e9
+
 
 @dataclass(frozen=True)
 class DatedRows:
@@ -51,6 +53,22 @@ class ServiceTime:
         if self.column != DATE or self.start is None:
             return f"{hours / self.hours_each:g}"
         return day_after(self.start, hours / self.hours_each)
+
+    def fault(self, text: str) -> str:
+        """Return what is wrong with a cell; empty where nothing is.
+
+        Examples
+        --------
+        >>> ServiceTime(HOURS, 1.0, None).fault("-5")
+        "must be a number of at least 0 (got '-5')"
+        """
+        hours = self.hours(text)
+        if 0.0 <= hours <= _MOST_HOURS:
+            return ""
+        when = ""
+        if self.column == DATE and self.start is not None and hours < 0.0:
+            when = f", not before service.start_date = {self.start}, when it was new"
+        return f"must be {self.must} (got {text!r}){when}"
 
     @property
     def must(self) -> str:

@@ -25,11 +25,11 @@ def chain_figure(found: ChainState) -> Figure:
     panel.fill_between(hours, lower, upper, color="C0", alpha=0.3, linewidth=0, label="50 %")
     panel.plot(hours, middle, color="C0", label="median")
     panel.axhline(found.limit, color="C3", linewidth=1.0, label=f"limit, {found.limit:g} %")
-    panel.axvline(found.log.today, color="0.5", linewidth=0.8, linestyle=":", label="last row")
+    panel.axvline(found.log.relubrications.today, color="0.5", linewidth=0.8, linestyle=":", label="last row")
     _measured([one for one in found.log.readings if one.measured], panel)
     _gauges([one for one in found.log.readings if not one.measured], panel)
-    if found.log.relubricated:
-        times = found.log.relubricated
+    times = found.log.relubrications.hours
+    if times:
         panel.plot(times, [0.0] * len(times), "|", color="C2", markersize=14, label="relubricated")
     panel.set_xlim(0.0, float(hours[-1]))
     panel.set_ylim(0.0, 1.25 * found.limit)

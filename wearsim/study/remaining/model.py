@@ -9,10 +9,10 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
-from wearsim.runner.scaled_percentiles import check_steady_coefficient
-from wearsim.simulation import simulate
-from wearsim.simulation.wear_task import case_clock
+from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
+from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import wrap_of
+from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 
 def ambiguous_reading(over_pins: Vector, error: float) -> str:
@@ -90,7 +90,7 @@ class _PartHistory:
 
 
 def remaining_life(
-    case: Case, reading: SingleReading, progress: Callable[[float], None] = lambda part: None
+    case: Case | DriveCase, reading: SingleReading, progress: Callable[[float], None] = lambda part: None
 ) -> RemainingLife:
     """Return the life that remains after a reading in service.
 
@@ -101,19 +101,30 @@ def remaining_life(
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
     long as the coefficient does not change otherwise.
     """
+    if isinstance(case, DriveCase):
+        if reading.quantity != ELONGATION:
+            text = (
+                "is read on the teeth of one sprocket: give the case of that one, [sprocket] with "
+                "drive.mate_teeth for the other one; of a whole drive give what was read of its chain"
+            )
+            raise _fault(reading, text)
+        case = chain_case(case)
     exponent = case.wear.cycles_exponent
+    instead = (
+        "give a table of readings, which takes it into account: of the chain to this command, of the teeth "
+        "to wearsim calibrate"
+    )
+    check_steady_lubricant(case, "remaining", instead)
     if exponent == 1.0:
-        check_steady_coefficient(case, "remaining")
+        check_no_running_in(case, "remaining")
     if not 0.0 < reading.error < reading.value:
-        raise _fault(
-            case, reading, f"must be larger than its error of {reading.error:g}: measure later or better"
-        )
+        raise _fault(reading, f"must be larger than its error of {reading.error:g}: measure later or better")
     history = _chain(case, reading) if reading.quantity == ELONGATION else _teeth(case, reading, progress)
     greatest = float(history.values.max())
     reached = isinstance(history.life, Life)
     if reading.value > greatest * (1.0 + 1e-12):
         what = "the limit is reached" if reached else "the run ends at run.horizon_hours"
-        raise _fault(case, reading, f"must be at most {greatest:.6g}, where {what}")
+        raise _fault(reading, f"must be at most {greatest:.6g}, where {what}")
     model = history.hours_of(reading.value)
     low = history.hours_of(min(reading.value + reading.error, greatest))
     high = history.hours_of(reading.value - reading.error)
@@ -148,18 +159,17 @@ def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | L
     return type(life)(life.cycles_run / life.hours_run * left, left)
 
 
-def _fault(case: Case, reading: SingleReading, message: str) -> CaseError:
+def _fault(reading: SingleReading, message: str) -> CaseError:
     return CaseError([Fault(f"{reading.value:g} {message}", reading.quantity, "reading")])
 
 
 def _chain(case: Case, reading: SingleReading) -> _PartHistory:
     """Elongation of a chain: linear in cycles of constant coefficient, so that no run is needed."""
     if not case.drive.wear_coefficients:
-        raise _fault(case, reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
+        raise _fault(reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     drive = wrap_of(case)
     contact = drive.contact(case)
-    clock = case_clock(case, contact.sliding_per_cycle)
-    [cycles] = clock.running_cycles(np.array([contact.cycles_per_chain])).tolist()
+    [cycles] = case_clock(case).running_cycles(np.array([contact.cycles_per_chain])).tolist()
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _PartHistory(
         hours=np.array([0.0, life.hours]),
@@ -177,12 +187,12 @@ def _teeth(case: Case, reading: SingleReading, progress: Callable[[float], None]
     result = simulate(case, progress)
     columns = result.history_columns
     if reading.quantity not in columns:
-        raise _fault(case, reading, "needs a sprocket with gaps: set kind = 'wrap'")
+        raise _fault(reading, "needs a sprocket with gaps: set kind = 'wrap'")
     values = columns[reading.quantity]
     if reading.quantity == OVER_PINS:
         ambiguous = ambiguous_reading(values, reading.error)
         if ambiguous:
-            raise _fault(case, reading, ambiguous)
+            raise _fault(reading, ambiguous)
         values = values[0] - values
     joints = ("joints wear as much more or less than their coefficient says as teeth do",)
     return _PartHistory(

@@ -1,67 +1,149 @@
 """Relubrications as they were logged, and as they go on from there."""
 
-from collections.abc import Sequence
-from dataclasses import replace
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
+from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.study.remaining.chain_readings import RELUBRICATION, ChainLog
+from wearsim.quantities import grouped
+from wearsim.simulation import case_clock
+from wearsim.study.remaining.dated_rows import DatedRows, ServiceTime
+from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
-_MOST = 100_000
-"""Relubrications to come that are counted."""
+NEW, RELUBRICATION = "new", "relubrication"
+EVENTS = (NEW, RELUBRICATION)
+"""Rows that are no readings."""
+
+_AT = "lubrication.at_hours"
+
+_LEAST = 1e-3
+"""Mean interval over what the lubricant lasts below which nobody relubricates."""
 
 
-def check_relubrications(case: Case, log: ChainLog) -> None:
-    """Raise where the case does not know what a relubrication does."""
-    if not log.relubricated:
-        return
-    if case.lubrication is None:
+@dataclass(frozen=True)
+class RelubricationLog:
+    """When a part was relubricated since it was new."""
+
+    file: str
+    column: str  # of the times
+    line: int  # of the first relubrication; 0 without one
+    hours: tuple[float, ...]  # running times, rising, those of one day once [h]
+    today: float  # running time of the last row of the file [h]
+
+    @property
+    def mean_interval(self) -> float:
+        """Mean time between relubrications, the first counted from the new part [h]."""
+        return self.hours[-1] / len(self.hours)
+
+    @property
+    def to_come(self) -> float:
+        """Running time of the next one, at the mean interval; today where that is overdue [h]."""
+        return max(self.hours[-1] + self.mean_interval, self.today)
+
+    def until(self, end: float) -> list[float]:
+        """Return running times as logged, and then at the mean interval before an end [h]."""
+        count = max(math.ceil((end - self.to_come) / self.mean_interval), 0)
+        return [*self.hours, *(self.to_come + number * self.mean_interval for number in range(count))]
+
+
+def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
+    """Give every cell that cannot be in rows that are no readings."""
+    for number, (line, cells) in enumerate(table.rows):
+        event = cells["quantity"]
+        if event not in EVENTS:
+            continue
+        for name, text in cells.items():
+            if name not in (table.time, "quantity") and text:
+                yield Fault(f"must be empty for {event} (got {text!r})", name, table.file, line)
+        wrong = time.fault(cells[table.time])
+        if wrong:
+            yield Fault(wrong, table.time, table.file, line)
+        elif event == NEW and (number or time.hours(cells[table.time]) > 0.0):
+            text = f"{NEW} must be the first row, at time 0: begin a file for each part"
+            yield Fault(text, "quantity", table.file, line)
+
+
+def relubrication_log(table: DatedRows, time: ServiceTime) -> RelubricationLog:
+    """Return the relubrications of a table whose cells are checked."""
+    rows = [(time.hours(cells[table.time]), line, cells["quantity"]) for line, cells in table.rows]
+    relubricated = sorted((hours, line) for hours, line, quantity in rows if quantity == RELUBRICATION)
+    return RelubricationLog(
+        file=table.file,
+        column=table.time,
+        line=relubricated[0][1] if relubricated else 0,
+        hours=tuple(sorted({hours for hours, _ in relubricated})),
+        today=max((hours for hours, *_ in rows), default=0.0),
+    )
+
+
+def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
+    """Return a case, or that of the chain of a drive, relubricated as logged and then at the mean interval.
+
+    Without a log it is as it was.
+
+    Raises
+    ------
+    CaseError
+        The case does not know what a relubrication does, or they are too many to be meant.
+    """
+    first = chain_case(case)
+    if not log.hours:
+        return first
+    given = _as_logged(case, first, log)
+    going_on = replace(given, at_hours=(*log.hours, log.to_come), interval=RunningWay(log.mean_interval))
+    found = replace(first, lubrication=going_on)
+    _check_interval(found, log)
+    return found
+
+
+def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> LubricationInput:
+    """Return how the case is lubricated with the logged times in the place of its schedule."""
+    given = first.lubrication
+    if given is None:
         text = (
             f"{RELUBRICATION} needs [lubrication] in the case, with a lubricant and how long it lasts: give "
             "them, or remove these rows"
         )
-        raise CaseError([Fault(text, "quantity", log.file)])
-    if case.lubrication.phases:
+        raise _fault(log, "quantity", text)
+    if given.phases:
         text = (
             f"{RELUBRICATION} takes the place of a schedule, but the case has a programme of its own: "
             "remove [[lubrication.phase]], or these rows"
         )
-        raise CaseError([Fault(text, "quantity", log.file)])
-    if not log.relubricated[0] > 0.0:
-        text = f"{RELUBRICATION} must be later than 0, as a new chain is lubricated: remove the row"
-        raise CaseError([Fault(text, log.time.column, log.file)])
-
-
-def mean_interval(log: ChainLog) -> float:
-    """Return the mean time between relubrications, the first counted from the new chain [h]."""
-    return log.relubricated[-1] / len(set(log.relubricated))
-
-
-def as_logged(case: Case, log: ChainLog) -> Case:
-    """Return the case relubricated when the log says, and never again; as it is without a log."""
-    return _relubricated(case, log, log.relubricated)
-
-
-def as_before(case: Case, log: ChainLog, hours: float) -> Case:
-    """Return the case relubricated as logged and then, up to some hours, at the mean interval.
-
-    Where the next one is overdue on the day of the last row it happens then.
-    """
-    if not log.relubricated:
-        return case
-    interval, end = mean_interval(log), min(hours, 0.999 * case.run.horizon_hours)
-    first = max(log.relubricated[-1] + interval, log.today)
-    count = min(max(int((end - first) / interval) + 1, 0), _MOST)
-    to_come = (first + number * interval for number in range(count))
-    return _relubricated(case, log, [*log.relubricated, *to_come])
-
-
-def _relubricated(case: Case, log: ChainLog, hours: Sequence[float]) -> Case:
-    """Return the case with other times of relubrication; those of one day are one."""
-    if not hours:
-        return case
+        raise _fault(log, "quantity", text)
+    if not log.hours[0] > 0.0:
+        text = f"{RELUBRICATION} must be later than 0, as a new part is lubricated: remove the row"
+        raise _fault(log, log.column, text)
     try:
-        return case.with_({"lubrication.at_hours": sorted(set(hours))})
+        changed = case.with_({_AT: list(log.hours)})
     except CaseError as error:
-        where = f"{log.file}: {RELUBRICATION}, which sets lubrication.at_hours"
-        raise CaseError([replace(fault, file=where) for fault in error.faults]) from None
+        faults = []
+        for fault in error.faults:
+            what = "" if fault.key == _AT else f"{fault.key}: "
+            text = f"{RELUBRICATION} sets {_AT}: {what}{fault.message}"
+            faults.append(Fault(text, "quantity", log.file, log.line))
+        raise CaseError(faults) from None
+    found = chain_case(changed).lubrication
+    assert found is not None
+    return found
+
+
+def _check_interval(case: Case, log: RelubricationLog) -> None:
+    """Raise where the mean interval is one at which nobody relubricates."""
+    law, given = case_clock(case).lubricant.law, case.lubrication
+    assert given is not None
+    effect = (law.lasts + law.fades) / (case.cycles_per_hour * given.dirt.ageing)
+    if log.mean_interval < _LEAST * effect < math.inf:
+        text = (
+            f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later in the mean, a thousandth of "
+            f"the {grouped(effect)} h after which the lubricant is gone, but comes every "
+            f"{log.mean_interval:.3g} h: remove this row if the part was new, as that is lubricated, or "
+            "correct its time"
+        )
+        raise _fault(log, log.column, text)
+
+
+def _fault(log: RelubricationLog, column: str, text: str) -> CaseError:
+    return CaseError([Fault(text, column, log.file, log.line)])

@@ -134,6 +134,19 @@ class DriveCase:
         return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
 
 
+def chain_case(case: Case | DriveCase) -> Case:
+    """Return the case of a chain: of a whole drive that of its driver, under the title of the drive."""
+    if isinstance(case, Case):
+        return case
+    return replace(
+        case.driver.case,
+        name=case.name,
+        title=case.title,
+        assumptions=case.assumptions,
+        warnings=case.warnings,
+    )
+
+
 def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     """Return the drive of an input file, of its text or of a mapping with the same tables.
 
