@@ -24,7 +24,7 @@ def row(label: str, text: str, most_lines: int | None = None) -> str:
     >>> row("Stops", "x" * 84 + " 1 803 h").splitlines()[1].strip()
     '1 803 h'
     >>> row("Stops", "x" * 70 + " 1 803 h and so on", 1).removeprefix("  Stops" + " " * 6 + "x" * 70)
-    ' 1 803 h ...'
+    ' 1 803 h and ...'
     """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
@@ -60,6 +60,25 @@ def listed(names: Sequence[str]) -> str:
     """
     *others, last = names
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def table_lines(rows: Iterable[Sequence[str]], words: int = 0) -> list[str]:
+    """Return rows of cells in columns as wide as they need: some of words, then those of numbers.
+
+    Examples
+    --------
+    >>> table_lines([("part", "life"), ("chain", "9 h"), ("roll", "1 803 h")], words=1)
+    ['part      life', 'chain      9 h', 'roll   1 803 h']
+    """
+    lines = list(rows)
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(width) if place < words else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(line, widths, strict=True))
+        )
+        for line in lines
+    ]
 
 
 def numbered_assumptions(assumptions: tuple[str, ...]) -> str:

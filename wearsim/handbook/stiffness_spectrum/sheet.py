@@ -9,7 +9,7 @@ from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics
 from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -152,11 +152,7 @@ def _table(lines: list[SpectrumLine], spectrum: StiffnessSpectrum) -> list[str]:
         columns["C one-sided, N/mm"] = lambda line: f"{line.stiffness:.4g}"
     ordered = sorted(lines, key=lambda line: line.harmonic)
     cells = [[name, *(show(line) for line in ordered)] for name, show in columns.items()]
-    widths = [max(map(len, column)) for column in cells]
-    return [
-        "  ".join([f"{first:<{widths[0]}}", *map(str.rjust, rest, widths[1:])])
-        for first, *rest in zip(*cells, strict=True)
-    ]
+    return table_lines(zip(*cells, strict=True), words=1)
 
 
 def _statics_text(statics: MeshStatics) -> list[str]:
