@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COUNTED = {
-    "pairs": "only teeth that mate touch, while both are in their pulses of contact",
+    "pairs": "only teeth that mate touch, and only while both are in their pulses of contact",
     "double_sum": "every tooth in its pulse touches every such tooth of the other wheel, as the source "
     "sums: two pairs in mesh count as four contacts",
 }
 _ASSUMPTIONS = (
-    "a pitch error moves the pulse of its tooth and changes neither its length nor the load shared",
-    "standard spur teeth without profile shift: contact between the tip circles",
-    "two-sided: |S| of exp(2 pi j f t); one-sided: amplitude 2|S| of the cosine",
+    "a pitch error moves the pulse of its tooth but changes neither its length nor the load sharing",
+    "the teeth are standard spur teeth without profile shift, in contact between the tip circles",
+    "two-sided is |S| of exp(2 pi j f t), one-sided the amplitude 2|S| of the cosine",
 )
 
 
