@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
+from wearsim.study.whole_drive.drive_text import drive_text
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.sheet import drive_text
 
 from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source
 

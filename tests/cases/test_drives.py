@@ -1,15 +1,16 @@
 """Shipped whole drives: each is complete, says what practice reports, and gives every part a life."""
 
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 from wearsim.result import Life
+from wearsim.study.whole_drive.drive_text import drive_text
 from wearsim.study.whole_drive.keys import DriveCase, load_drive
 from wearsim.study.whole_drive.model import DriveLife, drive_life
-from wearsim.study.whole_drive.sheet import drive_text
 
 PATHS = {path.stem: path for path in sorted((Path(__file__).parents[2] / "cases" / "drives").glob("*.toml"))}
 
@@ -65,9 +66,68 @@ def _lives_as_practice_has_it(found: DriveLife, name: str) -> None:
     chains = [result.parts["chain"].hours_run for result in found.results.values()]
     assert chains == pytest.approx([chains[0]] * len(chains), rel=1e-9)
     assert len(found.sprockets) == len(found.drive.sprockets)
-    text = drive_text(found, str(PATHS[name]))
-    assert text.splitlines()[0] == found.drive.title
-    assert "First" in text
+    assert_short(found)
+
+
+def assert_short(found: DriveLife) -> list[str]:
+    """The answer takes twelve lines at most, none of its findings more than 100 columns."""
+    lines = drive_text(found, "drive.toml").splitlines()
+    assert lines[0] == found.drive.title
+    labels = [line.split()[0] for line in lines[1:] if line[2] != " "]
+    assert labels[0] == "Chain"
+    rest = ("First", "Then", "Band", "Ratings", "Worn", "Warnings", "Assumes", "Next")
+    assert [label for label in labels if label in rest] == [
+        one for one in rest if one != "Then" or "Then" in labels
+    ]
+    assert len(lines) <= 12, "\n".join(lines)
+    assert max(map(len, lines[1:])) <= 100
+    return lines
+
+
+OVERLOADED = (
+    ("bicycle-cassette", "load.power_kW=2"),
+    ("camshaft-loop", "load.power_kW=15"),
+    ("escalator-duplex", "chain.strands=1"),
+    ("motorcycle-520", "load.power_kW=40"),
+    ("packaging-conveyor", "chain.designation=08B-1"),
+)
+"""Ten times the power or half of the chain, or as much more as the chain can be run with."""
+
+
+@pytest.mark.parametrize(("name", "setting"), [*((name, None) for name in PATHS), *OVERLOADED])
+def test_the_answer_takes_twelve_lines(name: str, setting: str | None) -> None:
+    """A short run, with lives of its parts that are all of different length and all shorter than the run."""
+    quick = ["run.life_tolerance=0.1", "mechanism.phases=1", "run.horizon_hours=20", "sprocket.1.nodes=31"]
+    nodes = [f"sprocket.{i}.nodes=31" for i in range(2, len(loaded(name).wheels) + 1)]
+    found = drive_life(load_drive(PATHS[name], [*quick, *nodes, *([setting] if setting else [])]))
+    assert_short(found)
+    chain = Life(1e6, 1803.456)
+    lives = [Life(1e8, 33_333.33 + 1234.567 * place) for place in range(len(found.results))]
+    aged = {
+        part: replace(result, parts={"chain": chain, "sprocket": life}, warnings=("a doubt " * 40, "another"))
+        for (part, result), life in zip(found.results.items(), lives, strict=True)
+    }
+    lines = assert_short(DriveLife(found.drive, aged))
+    assert len(lines) == 12
+    assert any(line.startswith("  Then  ") for line in lines)
+    (warned,) = [line for line in lines if line.startswith("  Warnings")]
+    assert warned.startswith("  Warnings   2 (--explain), the first: a doubt")
+    (ratings,) = [line for line in lines if line.startswith("  Ratings")]
+    assert ("OVERLOADED: " in ratings) == bool(found.overloaded)
+    if name == "bicycle-cassette":
+        # 33 333.33 + 1234.567 h and so on: 34 567.9, 35 802.5, 37 037.0 up to 46 913.6 h.
+        eleven = "11T dies first at 34 570 h, then 12T at 35 800 h; 9 more, 37 040 h to 46 910 h"
+        assert f"  cassette   {eleven}" in lines
+    if setting is not None:
+        assert re.search(r"OVERLOADED: [a-z ]+ \(indicative\) [\d ]+\.?\d* % and \d more; ", ratings)
+
+
+def test_the_worst_rating_is_named_and_the_rest_are_counted() -> None:
+    """GOST joint pressure 216.9 % is the worst of three: see the ratings that `check` prints."""
+    quick = ["run.life_tolerance=0.1", "mechanism.phases=1", "run.horizon_hours=5"]
+    text = drive_text(drive_life(load_drive(PATHS["packaging-conveyor"], quick)), "drive.toml")
+    worst = "joint pressure (indicative) 216.9 % and 2 more; the hours are for wear only"
+    assert f"  Ratings    OVERLOADED: {worst}\n" in text
 
 
 def test_the_conveyor_says_that_it_is_overloaded() -> None:

@@ -54,7 +54,7 @@ def test_text(cli):
         "a pitch point 20.0000 0.0000 4.6770 -10.0853 7.2794 8.7215 8.7215",
         "b pitch point 20.0000 0.0000 -16.4111 5.6950",
         "ratio 1.0988 (0.5565 before the pitch point, 0.5423 after it); involute 1.5977",
-        "radius 8.722 mm at the pitch point as of the involute pair, best 35.5 mm at l = 6.616 mm",
+        "radius 8.722 mm at the pitch point, as for the involute pair; best 35.5 mm at l = 6.616 mm",
         "(2) rho_1b < 0 holds (arc of 10 mm, at the pitch point below 17.97 mm)",
         "(5) rho_2b > 0 holds (with every arc)",
         "arc of 16.1837 mm about (14.9012, -6.2686) mm, off by 0.0176 mm",

@@ -85,7 +85,7 @@ def test_too_few_slices_are_told(cli):
     settings = ("--set", "pair.slices=20", "--set", "misalignment.fixed_misalignment_um=2000")
     done = cli("face-load", CASE, *settings)
     assert done.code == 0
-    assert "slices carry all, K_Hbeta is rough: raise pair.slices" in done.err
+    assert "slices carry the whole load, so K_Hbeta is rough: raise pair.slices" in done.err
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def test_page_shows_what_is_printed(cli):
 def test_json(cli):
     done = cli("synthesise", SEGMENTS, "--json")
     assert done.code == 0
-    assert "phase 2: the pressure angle comes to 40.4 deg" in done.err
+    assert "phase 2: the pressure angle reaches 40.4 deg" in done.err
     found = json.loads(done.out)
     assert (found["schema_version"], found["case"]) == (1, "synthesise-two-segments")
     assert found["least_pitch_point_stress_MPa"] == pytest.approx(364.1190949303)
@@ -230,7 +230,7 @@ def test_schema(cli):
 def test_involute_that_interferes_is_left_out(cli):
     setting = "phase=[{first_pitch_point_distance_mm = -19, last_pitch_point_distance_mm = 0}]"
     done = cli("synthesise", POLE, "--json", "--set", setting)
-    assert "phase 1: the involute interferes on a part of these distances" in done.err
+    assert "phase 1: the involute interferes over part of these distances" in done.err
     rows = json.loads(done.out)["indices"]
     assert rows[0]["involute_contact_stress_MPa"] is None
     assert rows[-1]["involute_contact_stress_MPa"] == pytest.approx(454.1608627, abs=1e-6)

@@ -208,6 +208,7 @@ OWN_CHANGES = {
     "load.regime": [("regime", "III")],
     "load.duty_file": [("two", "duty.csv", "load.duty_file")],
     "load.duty_bins": [("two", [4, 4], "load.duty_bins")],
+    "duty.1.power_share": [("loop duty", {"pump": 0.2, "fan": 0.8})],
     "duty.1.power_share.pump": [("loop duty", 0.2, "duty.1.power_share")],
     "duty.1.power_share.gear": [("loop duty", 0.2, "duty.1.power_share.gear")],
     "duty.2.power_kW": [("loop duty", 1.0)],

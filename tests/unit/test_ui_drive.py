@@ -15,10 +15,13 @@ from wearsim.page.drive_answer import drive_headline, taken_inputs
 from wearsim.page.drive_panel import DrivePanel
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
+from wearsim.page.form_panel import FormPanel
+from wearsim.page.toml_source import parsed_tables, shown_values, with_value
 from wearsim.study.whole_drive import model
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
 
+SHARES = "duty.1.power_share"
 DRIVE = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
@@ -41,10 +44,25 @@ def test_empty_fields_show_what_a_drive_takes():
         ("sprocket.3.name", "camshaft"),
         ("sprocket.3.teeth", 42),
         ("sprocket.4.form", "min"),
-        ("mechanism.phases", 8),
+        ("mechanism.phases", 6),
         ("run.horizon_hours", 100 * 365.25 * 1.5),
     ):
         assert key in shown and value_at(taken, key) == value
+
+
+def test_the_shares_of_a_duty_block_are_one_field():
+    """They have names of sprockets for keys, and no fields of their own."""
+    text = "sprocket = [{}]\n[[duty]]\npower_share = {pump = 0.7, fan = 0.3}\n"
+    typed = []
+    with Client(page("/form")) as client:
+        form = FormPanel(lambda field, value: typed.append((field, value)), print, print)
+        form.show(parsed_tables(text), shown_values(text), "")
+        (shares,) = [one for one in client.elements.values() if one.props.get("data-key") == SHARES]
+        assert shares.value == "{pump = 0.7, fan = 0.3}"
+        shares.value = '{pump = 0.6, "cooling fan" = 0.4}'
+    ((field, value),) = typed
+    after = parsed_tables(with_value(text, field.key, value, field.is_text))
+    assert after["duty"] == [{"power_share": {"pump": 0.6, "cooling fan": 0.4}}]
 
 
 @pytest.mark.parametrize(

@@ -39,9 +39,9 @@ def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, F
     (True, True)
     """
     for name, field in model.model_fields.items():
-        if any(get_origin(part) is dict for part in parts(field.annotation)):
-            continue
         tables = list(tables_in(field.annotation))
+        if tables and is_dict(field.annotation):
+            continue
         many = "[]" if any(get_origin(part) is list for part in parts(field.annotation)) else ""
         for table in tables:
             yield from schema_fields(table, f"{prefix}{name}{many}.")
@@ -87,6 +87,11 @@ def parts(annotation: Any) -> Iterator[Any]:
     if get_origin(annotation) is not Literal:
         for inner in get_args(annotation):
             yield from parts(inner)
+
+
+def is_dict(annotation: Any) -> bool:
+    """Tell whether a key holds names of its own, each with a value or a table."""
+    return any(get_origin(part) is dict for part in parts(annotation))
 
 
 def tables_in(annotation: Any) -> Iterator[type[Table]]:

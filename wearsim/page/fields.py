@@ -7,7 +7,7 @@ from typing import Any, get_origin
 from pydantic.fields import FieldInfo
 
 from wearsim.catalogue.catalogues import catalogue_rows, chains, environments, lubricants, wear_conditions
-from wearsim.input.keys import parts, schema_fields, schema_of, tables_in, words
+from wearsim.input.keys import is_dict, parts, schema_fields, schema_of, tables_in, words
 from wearsim.input.schema import Table
 from wearsim.quantities import quantities
 
@@ -157,7 +157,7 @@ def _field(key: str, info: FieldInfo) -> Field:
         meaning=quantity.meaning,
         choices=one_word,
         proposals=_proposals(key),
-        is_text=str in kinds or (bool(one_word) and bool not in kinds),
+        is_text=(str in kinds and not is_dict(info.annotation)) or (bool(one_word) and bool not in kinds),
         required=info.is_required(),
         default="" if default in (None, "") else _word(default),
     )

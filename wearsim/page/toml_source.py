@@ -105,6 +105,8 @@ def _holder(document: Any, key: str) -> tuple[Any, str]:
 def _leaves(table: Any, prefix: str) -> Iterator[tuple[str, str]]:
     for name, value in table.items():
         if isinstance(value, Mapping):
+            if isinstance(value, InlineTable):
+                yield f"{prefix}{name}", value.as_string()
             yield from _leaves(value, f"{prefix}{name}.")
         elif isinstance(value, list) and value and isinstance(value[0], Mapping):
             for number, entry in enumerate(value, start=1):

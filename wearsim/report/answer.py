@@ -147,22 +147,26 @@ def overload_text(result: WearResult) -> str:
     """Return by how much a drive is outside the ratings of its load."""
     if not result.overloaded:
         return ""
-    used = ", ".join(
-        f"{_rating_name(finding)} {grouped(100.0 * finding.used)} %"
-        for finding in result.overloaded
-        if not finding.at_least
-    )
-    short = [
-        f"{_rating_name(finding)} {finding.value:.3g}, at least {finding.limit:.3g}"
-        for finding in result.overloaded
-        if finding.at_least
-    ]
+    used = ", ".join(used_text(finding) for finding in result.overloaded if not finding.at_least)
+    short = [used_text(finding) for finding in result.overloaded if finding.at_least]
     found = "; ".join([f"{used} of the rating"] * bool(used) + short)
     return f"{found}; the hours are for wear only"
 
 
-def _rating_name(finding: RatingFinding) -> str:
-    return f"{finding.name} (indicative)" if finding.note else finding.name
+def used_text(finding: RatingFinding) -> str:
+    """Return in words how far a rating is used.
+
+    Examples
+    --------
+    >>> used_text(RatingFinding("joint pressure", 27.0, 22.5, "MPa", "GOST practice", "indicative"))
+    'joint pressure (indicative) 120 %'
+    >>> used_text(RatingFinding("safety", 6.0, 7.0, "", "iwis", at_least=True))
+    'safety 6, at least 7'
+    """
+    name = f"{finding.name} (indicative)" if finding.note else finding.name
+    if finding.at_least:
+        return f"{name} {finding.value:.3g}, at least {finding.limit:.3g}"
+    return f"{name} {grouped(100.0 * finding.used)} %"
 
 
 def _removed(result: WearResult) -> str:

@@ -16,13 +16,15 @@ _NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
 
-def row(label: str, text: str) -> str:
-    """Return one line of an answer, folded under its label, but not within a number.
+def row(label: str, text: str, most_lines: int | None = None) -> str:
+    """Return one line of an answer, folded under its label, but not within a number, and cut on request.
 
     Examples
     --------
     >>> row("Stops", "x" * 84 + " 1 803 h").splitlines()[1].strip()
     '1 803 h'
+    >>> row("Stops", "x" * 70 + " 1 803 h and so on", 1).removeprefix("  Stops" + " " * 6 + "x" * 70)
+    ' 1 803 h and ...'
     """
     lead = f"  {label:<{_LABEL - 2}}" + ("" if len(label) < _LABEL - 2 else "  ")
     return textwrap.fill(
@@ -32,6 +34,8 @@ def row(label: str, text: str) -> str:
         subsequent_indent=" " * _LABEL,
         break_on_hyphens=False,
         break_long_words=False,
+        max_lines=most_lines,
+        placeholder=" ...",
     ).replace("\u00a0", " ")
 
 
@@ -44,6 +48,37 @@ def unbroken(text: str) -> str:
     [['at'], ['1', '803'], ['h']]
     """
     return _GROUP.sub("\u00a0", text)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as a sentence lists them.
+
+    Examples
+    --------
+    >>> listed(["idler"]), listed(["idler", "pump"]), listed(["idler", "pump", "fan"])
+    ('idler', 'idler and pump', 'idler, pump and fan')
+    """
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def table_lines(rows: Iterable[Sequence[str]], words: int = 0) -> list[str]:
+    """Return rows of cells in columns as wide as they need: some of words, then those of numbers.
+
+    Examples
+    --------
+    >>> table_lines([("part", "life"), ("chain", "9 h"), ("roll", "1 803 h")], words=1)
+    ['part      life', 'chain      9 h', 'roll   1 803 h']
+    """
+    lines = list(rows)
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(width) if place < words else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(line, widths, strict=True))
+        )
+        for line in lines
+    ]
 
 
 def numbered_assumptions(assumptions: tuple[str, ...]) -> str:

@@ -28,13 +28,13 @@ from wearsim.report.text_lines import numbered_assumptions, row
 _POINTS = 101
 
 _ASSUMPTIONS = (
-    "line of action of two arcs after Bosansky (2015); eq. (1) there has a wrong sign in y, what "
-    "stands here follows its listing",
-    "curvatures by Euler and Savary, the source gives their signs only",
-    "addendum, root and backlash are not in the source; backlash turns the flanks about the axis, "
-    "its listing shifts them along x, which only a rack allows",
-    "the involute pair has the same module, teeth, addendum and centre distance, its pressure angle "
-    "is that at the pitch point; its path ends at the base circles where those come before the tips",
+    "the line of action has two arcs, after Bosansky (2015); its eq. (1) has a wrong sign in y, so the "
+    "flank here follows its listing",
+    "curvatures follow Euler and Savary; the source gives only their signs",
+    "addendum, root and backlash are not in the source; backlash turns the flanks about the axis here, "
+    "while its listing shifts them along x, which only a rack allows",
+    "the involute pair has the same module, teeth, addendum and centre distance, and the pressure angle "
+    "at the pitch point; its path ends at the base circles where these come before the tips",
 )
 
 
@@ -267,7 +267,7 @@ def _reduced(layout: PairLayout) -> str:
     best = max((one for one in layout.contacts if one.place == "best"), key=_radius)
     against = f", where the involute pair has {best.involute_radius:.4g} mm"
     return (
-        f"radius {_radius(pitch_point):.4g} mm at the pitch point as of the involute pair, best "
+        f"radius {_radius(pitch_point):.4g} mm at the pitch point, as for the involute pair; best "
         f"{_radius(best):.4g} mm "
         f"at l = {float(best.zone.pinion.path_coordinate(best.alpha)):.4g} mm"
         + ("" if math.isnan(best.involute_radius) else against)

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ASSUMPTIONS = (
-    "reconstruction: of Vinogradov and Fedin (2015) only the abstract survives",
-    "slices of the face on an elastic foundation, not coupled with each other (ISO 6336-1 method C); "
-    "the gap is that under load, with what shafts and bodies deflect",
-    "Archard's law with one slip for the whole height of the teeth; every tooth of the pinion meets "
-    "every tooth of the wheel",
+    "the equations are a reconstruction: only the abstract of Vinogradov and Fedin (2015) survives",
+    "the slices of the face lie on an elastic foundation and are not coupled (ISO 6336-1 method C); "
+    "the gap is that under load and includes the deflection of shafts and bodies",
+    "wear follows Archard's law with one slip for the whole height of the teeth; every tooth of the "
+    "pinion meets every tooth of the wheel",
 )
 
 _FEWEST_SLICES = 10
@@ -82,7 +82,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Cal
 
 def _pivot(found: FaceLoad) -> str:
     follows = "only the mean gap" if found.lever is None else "every mesh beyond its friction"
-    return f"a self-aligning pinion is rocked into balance by starts and changes; it follows {follows}"
+    return f"starts and changes of load rock a self-aligning pinion into balance; it then follows {follows}"
 
 
 def _runs(found: FaceLoad) -> Iterator[tuple[str, FaceRunningIn]]:
@@ -138,8 +138,9 @@ def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumpt
         for one in states
     ]
     notes = (
-        "K_Hbeta: greatest load per width of any mesh over the mean one; as F_beta: linear gap with that "
-        "factor; loaded: least part of the face that carries; worn off: most of both flanks together"
+        "K_Hbeta: greatest load per width in any mesh, over the mean; as F_beta: the linear gap with that "
+        "factor; loaded: the least part of the face that carries load; worn off: the greatest depth, both "
+        "flanks together"
     )
     return "\n".join([*lines, "", row("Columns", notes), row("Assumes", numbered_assumptions(assumptions))])
 
@@ -161,11 +162,12 @@ def _warnings(found: FaceLoad) -> list[str]:
         carrying = min(int((state.loads > 0.0).sum(axis=-1).min()) for state in run.states)
         if carrying < _FEWEST_SLICES:
             warnings.append(
-                f"{pinion}: at worst {carrying} slices carry all, K_Hbeta is rough: raise pair.slices"
+                f"{pinion}: at worst {carrying} slices carry the whole load, so K_Hbeta is rough: raise "
+                "pair.slices"
             )
         if _loaded_share(found, new) < 1.0:
             warnings.append(
-                f"{pinion}: only {_loaded_share(found, new):.0%} of the new face carry in the worst mesh"
+                f"{pinion}: only {_loaded_share(found, new):.0%} of the new face carry load in the worst mesh"
             )
         if after.factor > 1.05 * worn.factor:
             warnings.append(

@@ -12,9 +12,9 @@ Rows = Sequence[Mapping[str, Any]]
 _REFERENCES = {"larger": "the larger of both", "hertz": "Hertz", "finite_elements": "the finite elements"}
 
 ASSUMPTIONS = (
-    "one pair of teeth carries all of the load, at the pitch point, the same all along the face",
-    "smooth elastic cylinders in plane strain; friction is left out (it moves nothing where both "
-    "bodies have the same elastic constants)",
+    "one pair of teeth carries the whole load at the pitch point, evenly along the face",
+    "the teeth are smooth elastic cylinders in plane strain; friction is left out (it changes nothing "
+    "where both bodies have the same elastic constants)",
 )
 
 
@@ -175,5 +175,5 @@ def _meshes(rows: Rows) -> list[str]:
         f"{one['time_s']:7.1f} s"
         for one in rows
     ]
-    said = "per a: elements along the half-width a; surface and below: von Mises in MPa"
+    said = "per a: number of elements along the half-width a; surface and below: von Mises in MPa"
     return [*lines, row("", said)]

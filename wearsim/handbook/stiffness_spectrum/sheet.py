@@ -9,21 +9,21 @@ from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics
 from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
 _COUNTED = {
-    "pairs": "only teeth that mate touch, while both are in their pulses of contact",
+    "pairs": "only teeth that mate touch, and only while both are in their pulses of contact",
     "double_sum": "every tooth in its pulse touches every such tooth of the other wheel, as the source "
     "sums: two pairs in mesh count as four contacts",
 }
 _ASSUMPTIONS = (
-    "a pitch error moves the pulse of its tooth and changes neither its length nor the load shared",
-    "standard spur teeth without profile shift: contact between the tip circles",
-    "two-sided: |S| of exp(2 pi j f t); one-sided: amplitude 2|S| of the cosine",
+    "a pitch error moves the pulse of its tooth but changes neither its length nor the load sharing",
+    "the teeth are standard spur teeth without profile shift, in contact between the tip circles",
+    "two-sided is |S| of exp(2 pi j f t), one-sided the amplitude 2|S| of the cosine",
 )
 
 
@@ -152,11 +152,7 @@ def _table(lines: list[SpectrumLine], spectrum: StiffnessSpectrum) -> list[str]:
         columns["C one-sided, N/mm"] = lambda line: f"{line.stiffness:.4g}"
     ordered = sorted(lines, key=lambda line: line.harmonic)
     cells = [[name, *(show(line) for line in ordered)] for name, show in columns.items()]
-    widths = [max(map(len, column)) for column in cells]
-    return [
-        "  ".join([f"{first:<{widths[0]}}", *map(str.rjust, rest, widths[1:])])
-        for first, *rest in zip(*cells, strict=True)
-    ]
+    return table_lines(zip(*cells, strict=True), words=1)
 
 
 def _statics_text(statics: MeshStatics) -> list[str]:

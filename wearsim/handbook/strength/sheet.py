@@ -132,20 +132,20 @@ def _lives(acting: Sequence[StressCheck], pair: PairStrength, what: str) -> str:
 def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, ...]:
     reading = tables.fatigue.base_cycles
     found = [
-        f"N_HG as {'GOST 21354 has it' if reading == 'gost' else 'the words left in the source read'}",
-        "1 HRC is 10 HB, the middle of the band of hardness and of the endurance limit counts",
+        f"N_HG follows {'GOST 21354' if reading == 'gost' else 'the words that are left in the source'}",
+        "1 HRC counts as 10 HB; hardness and endurance limit are taken in the middle of their bands",
     ]
     if tables.fatigue.long_life == "gost":
-        found.append("beyond N_HG the contact stress falls with the root of order 20 to 0.75 (GOST)")
+        found.append("beyond N_HG the allowable contact stress falls with the 20th root, down to 0.75 (GOST)")
     else:
-        found.append("K_HL and K_FL are not below 1: what is endured for N_HG is always endured")
+        found.append("K_HL and K_FL are at least 1: a stress endured for N_HG cycles is endured for ever")
     if tables.overload.static_safety != 1.0:
         found.append(f"S_st = {tables.overload.static_safety:g} (textbook: not in the source)")
     if tables.load_spectrum:
-        found.append("which torques are overloads is that of the life asked for")
+        found.append("which torques count as overloads is decided at the required life")
     if load is not None:
         found.append(
-            "spur gears without profile shift, K_H, K_F and Y_FS by textbook forms, lost in the source"
+            "spur gears without profile shift; K_H, K_F and Y_FS follow textbooks, the source has lost them"
         )
         if tables.load is not None and tables.load.application_factor is None:
             found.append(f"load.application_factor = {load.contact_factor.application:g} (default)")
@@ -278,13 +278,13 @@ def _input_warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:
             found.append(f"{gear.name}.hardness_{gear.treatment.scale}: {outside}")
         if not 1.4 <= table.bending_safety <= 2.2:
             found.append(
-                f"{gear.name}.bending_safety: the source takes 1.4 to 2.2, it is {table.bending_safety:g}"
+                f"{gear.name}.bending_safety: the source takes 1.4 to 2.2, but it is {table.bending_safety:g}"
             )
     factor, cycles = tables.overload.overload_frequency_factor, pair.spectrum.peak_cycles
     if factor > 1.0 and cycles >= 1e3:
         found.append(
-            f"overload.overload_frequency_factor: {factor:g} is for single overloads, this one acts for "
-            f"{cycles:g} cycles: 1 is the source's value"
+            f"overload.overload_frequency_factor: {factor:g} is for single overloads, but this one acts for "
+            f"{cycles:g} cycles: the source then takes 1"
         )
     return found
 
@@ -294,8 +294,8 @@ def _undercut(tables: StrengthTables) -> list[str]:
     if load is None or load.pinion_teeth >= load.undercut_below:
         return []
     return [
-        f"load.pinion_teeth: {load.pinion_teeth} teeth without profile shift are undercut, below "
-        f"{load.undercut_below} stress and life are only a guess"
+        f"load.pinion_teeth: {load.pinion_teeth} teeth without profile shift are undercut; below "
+        f"{load.undercut_below} teeth, stress and life are only a guess"
     ]
 
 

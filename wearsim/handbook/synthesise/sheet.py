@@ -19,9 +19,9 @@ from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fi
 from wearsim.report.text_lines import numbered_assumptions, row
 
 _ASSUMPTIONS = (
-    "rigid wheels, one pair of teeth that carries the whole load, no friction",
-    "the profiles touch as two cylinders of the radii of curvature in that point (Hertz)",
-    "the equations are derived here: of Babichev (2012) only the conclusions survive",
+    "the wheels are rigid, one pair of teeth carries the whole load, and there is no friction",
+    "the profiles touch as two cylinders with the radii of curvature at that point do (Hertz)",
+    "the equations are derived here: only the conclusions of Babichev (2012) survive",
 )
 
 _STEEP = 30.0
@@ -257,11 +257,11 @@ def _warnings(indices: pd.DataFrame) -> Iterable[str]:
         steepest = rows["pressure_angle_deg"].max()
         if steepest > _STEEP:
             yield (
-                f"phase {number}: the pressure angle comes to {steepest:.1f} deg: the force on the "
+                f"phase {number}: the pressure angle reaches {steepest:.1f} deg: the force on the "
                 "bearings grows with it, and teeth get pointed"
             )
         if rows["involute_contact_stress_MPa"].isna().any():
             yield (
-                f"phase {number}: the involute interferes on a part of these distances; its stress is "
+                f"phase {number}: the involute interferes over part of these distances, and its stress is "
                 "left out there"
             )

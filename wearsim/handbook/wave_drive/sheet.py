@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ASSUMPTIONS = (
-    "formulas of six textbooks as collected by Tkachenko (2010), whose tables are lost in part",
-    "the range of a method is that over the values the source recommends for its own keys, all "
+    "the formulas are those of six textbooks as Tkachenko (2010) collected them; part of its tables is lost",
+    "the range of a method covers the values that the source recommends for its own keys, with all "
     "others as given",
-    "two printed formulas cannot give the diameters printed with them; unless formula = printed they "
-    "are corrected: a cube root in torsion, 10 instead of 28.4 in rim_bending",
+    "two printed formulas cannot give the diameters printed with them; unless formula = printed, they "
+    "are corrected: torsion has a cube root, and rim_bending 10 instead of 28.4",
 )
 
 
@@ -103,8 +103,8 @@ def _held(one: MethodDiameter) -> str:
         return f"{name}: {one.published:g} mm {verdict}; no {key} gives it"
     low, high = one.method.ranges.get(key, (-math.inf, math.inf))
     fits = one.reproduces or low <= one.needed <= high
-    beyond = "" if fits else f", not {low:g}-{high:g}"
-    return f"{name}: {one.published:g} mm {verdict}; takes {key} = {one.needed:.4g}{beyond}"
+    beyond = "" if fits else f" instead of {low:g}-{high:g}"
+    return f"{name}: {one.published:g} mm {verdict}; needs {key} = {one.needed:.4g}{beyond}"
 
 
 def _warnings(found: Sequence[MethodDiameter]) -> list[str]:

@@ -9,7 +9,7 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
 ASSUMPTIONS = (
@@ -59,14 +59,7 @@ _HEAD = ("law", "scatter", "score", "behind", "+-", "in 50 %", "in 90 %", "off b
 
 
 def _table(found: Judgement) -> list[str]:
-    cells = [_HEAD, *(_cells(one) for one in found.laws)]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    lines = []
-    for line in cells:
-        words = [f"{cell:<{width}}" for cell, width in zip(line[:2], widths[:2], strict=True)]
-        numbers = [f"{cell:>{width}}" for cell, width in zip(line[2:], widths[2:], strict=True)]
-        lines.append("  " + "  ".join([*words, *numbers]))
-    return lines
+    return [f"  {line}" for line in table_lines([_HEAD, *(_cells(one) for one in found.laws)], words=2)]
 
 
 def _cells(one: JudgedLaw) -> tuple[str, ...]:

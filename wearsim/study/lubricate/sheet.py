@@ -9,7 +9,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy
 from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy
 
@@ -139,9 +139,7 @@ def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
 def _policy_table(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
     head = ["interval", *(part.name for part in plan.parts), "wear factor", "cost per 1000 h"]
     cells = [[*_cells(study, plan, policy)] for policy in plan.policies]
-    widths = [max(map(len, column)) for column in zip(head, *cells, strict=True)]
-    for line in (head, *cells):
-        yield "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
+    yield from (f"  {line}" for line in table_lines([head, *cells]))
 
 
 def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:

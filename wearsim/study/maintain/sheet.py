@@ -8,7 +8,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 from wearsim.study.maintain.tooth_count import ToothCount
@@ -182,11 +182,7 @@ def _notes(plan: MaintenancePlan) -> list[str]:
 
 
 def _aligned(head: Sequence[str], rows: list[list[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-    return [
-        "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True))
-        for row in (head, *rows)
-    ]
+    return [f"  {line}" for line in table_lines([head, *rows])]
 
 
 def _markdown(head: Sequence[str], rows: list[list[str]]) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.select.considered_chains import ConsideredChains, considered_chains
 from wearsim.study.select.model import (
     LEAST_WRAP,
@@ -177,11 +177,7 @@ def _cells(drive: CandidateDrive) -> list[str]:
 def _table(rows: list[list[str]]) -> list[str]:
     """Return rows below their head, without columns that are empty."""
     columns = [column for column in zip(_HEAD, *rows, strict=True) if any(column[1:])]
-    widths = [max(map(len, column)) for column in columns]
-    return [
-        "  " + "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
-        for line in zip(*columns, strict=True)
-    ]
+    return [f"  {line}" for line in table_lines(zip(*columns, strict=True))]
 
 
 def _judged(answer: SelectionAnswer) -> str:

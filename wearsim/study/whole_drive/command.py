@@ -124,15 +124,16 @@ def live(
     explain: bool,
 ) -> int:
     """Print how long every part of some drives lives, and write their files; return the exit code."""
+    from wearsim.study.whole_drive.drive_text import drive_text
     from wearsim.study.whole_drive.folder import write_drive
-    from wearsim.study.whole_drive.sheet import drive_json, drive_text, found_rows
+    from wearsim.study.whole_drive.sheet import drive_json, found_rows
 
     found = lived(paths, settings, as_json, hours)
     for path, folder in zip(paths, folders, strict=True):
         if folder is not None and path in found:
             write_drive(found[path], folder, force)
     if xlsx is not None:
-        said = {one.drive.title: found_rows(one, explain=True) for one in found.values()}
+        said = {one.drive.title: found_rows(one) for one in found.values()}
         write_workbook(_by_sprocket(found.values()), xlsx, force, said)
     missed = False
     for path, one in found.items():

@@ -8,7 +8,7 @@ from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.service import service_measures
-from wearsim.report.text_lines import row
+from wearsim.report.text_lines import row, table_lines
 from wearsim.result import LowerBound, life_keys
 from wearsim.study.whole_drive.maintenance import DrivePlan
 from wearsim.study.whole_drive.model import CHAIN
@@ -127,15 +127,7 @@ def _table(plan: DrivePlan) -> list[str]:
         ]
         cost = [] if rule.cost is None else [_limited(_PER * rule.cost, bool(rule.at_most))]
         lines.append([rule.name, _limited(_PER * rule.stop_rate, rule.stops_at_most), *counts, *cost])
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return [
-        "  "
-        + "  ".join(
-            [f"{cells[0]:<{widths[0]}}"]
-            + [f"{cell:>{width}}" for cell, width in zip(cells[1:], widths[1:], strict=True)]
-        )
-        for cells in lines
-    ]
+    return [f"  {line}" for line in table_lines(lines, words=1)]
 
 
 def _limited(value: float, at_most: bool) -> str:

@@ -1,57 +1,67 @@
-"""The answer for a whole drive, as text of a dozen lines and as JSON."""
+"""What is found of a whole drive, in words and as JSON."""
 
-import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer import JUMPING, SAFE, ending, hours, jumping_margin, overload_text, service_text
 from wearsim.report.service import service_keys, service_measures
-from wearsim.report.text_lines import counted, numbered, row, stated_and_defaults
-from wearsim.result import Life, WearResult, life_keys
+from wearsim.report.text_lines import listed, stated_and_defaults
+from wearsim.result import Life, LowerBound, WearResult, life_keys
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
-_MAX_WARNINGS = 1
+Lives = Mapping[str, Life | LowerBound]
+
+_TOGETHER = "Sprockets"
+"""Label of several sprockets in one row."""
+
 _MAX_ROWS = 3
 """Sprockets with a row of their own; the cogs of a cassette share one where there are more."""
+
 _MAX_THEN = 2
 """Stops that are named after the first one."""
 
 
-def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
-    """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
-    rows = [
-        *found_rows(found, explain),
-        ("Worn most", worn_most_text(found, explain)),
-        *((("Band from", _band_source(found)),) if explain else ()),
-        ("Warnings", _warnings(found, explain)),
-        ("Assumes", (numbered if explain else counted)(*taken_for_granted(found))),
-        ("Next", shlex.join(["wearsim", "report", source, "--out", "sheet.html"])),
-    ]
-    return "\n".join([found.drive.title, *(row(label, text) for label, text in rows)])
-
-
-def found_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
-    """Return lives, what is replaced first, the band and the ratings, on request of every cog for itself."""
+def found_rows(found: DriveLife) -> list[tuple[str, str]]:
+    """Return the life of every part, what is replaced first, the band and the ratings."""
     return [
-        *part_rows(found, explain),
+        (CHAIN.capitalize(), part_text(found, CHAIN)),
+        *((name, part_text(found, name)) for name in found.results),
         ("First", first_text(drive_plan(found))),
         ("Band", band_text(found)),
         ("Ratings", ratings_text(found)),
     ]
 
 
-def part_rows(found: DriveLife, explain: bool = False) -> list[tuple[str, str]]:
-    """Return the lives of chain and sprockets by their names, on request of every cog for itself."""
-    return [
-        (CHAIN.capitalize(), _part(found, CHAIN)),
-        *(_all_sprockets(found) if explain else _sprockets(found)),
-    ]
+def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str, ...]]]:
+    """Return labels of the sprockets, each with the names that share it.
+
+    Where there are more than given, the cogs of a cassette share one; then all others; at last all do.
+    """
+    if len(found.results) <= most_rows:
+        return [(name, (name,)) for name in found.results]
+    cassettes = [(wheel.name, wheel.parts) for wheel in found.drive.wheels if wheel.cogs]
+    in_cassette = {name for _, names in cassettes for name in names}
+    single = tuple(name for name in found.results if name not in in_cassette)
+    if len(single) + len(cassettes) <= most_rows:
+        return [*((name, (name,)) for name in single), *cassettes]
+    if 1 + len(cassettes) <= most_rows:
+        return [(_TOGETHER, single), *cassettes]
+    return [(_TOGETHER, tuple(found.results))]
+
+
+def part_rows(found: DriveLife) -> list[tuple[str, str]]:
+    """Return the lives of chain and sprockets by their names, of many sprockets together."""
+    rows = [(CHAIN.capitalize(), part_text(found, CHAIN))]
+    for label, names in grouped_parts(found, _MAX_ROWS):
+        alone = names == (label,)
+        rows.append((label, part_text(found, label) if alone else lives_text(own_lives(found, label, names))))
+    return rows
 
 
 def ratings_text(found: DriveLife) -> str:
@@ -63,56 +73,54 @@ def ratings_text(found: DriveLife) -> str:
 
 def jumping_text(found: DriveLife) -> str:
     """Return in words whether the chain may jump, with the sprocket on which it is nearest to that."""
+    name, margin = nearest_to_jumping(found)
+    return f"jumping: {margin}" if margin == SAFE else f"jumping: {margin} on the {part_name(name)}"
+
+
+def nearest_to_jumping(found: DriveLife) -> tuple[str, str]:
+    """Return the sprocket on which the chain is nearest to jumping, and its margin in words."""
     states = {
         name: next(state for state in result.limits if state.name == JUMPING)
         for name, result in found.results.items()
     }
     nearest = max(states, key=lambda name: states[name].value / states[name].limit)
-    margin = jumping_margin(states[nearest].value, states[nearest].limit)
-    return f"jumping: {margin}" if margin == SAFE else f"jumping: {margin} on the {part_name(nearest)}"
+    return nearest, jumping_margin(states[nearest].value, states[nearest].limit)
 
 
-def _all_sprockets(found: DriveLife) -> list[tuple[str, str]]:
-    return [(name, _part(found, name)) for name in found.results]
+def own_lives(found: DriveLife, label: str, names: Sequence[str]) -> Lives:
+    """Return lives of sprockets under one label, of the cogs of a cassette without its name."""
+    return {name.removeprefix(f"{label} "): found.parts[name] for name in names}
 
 
-def _sprockets(found: DriveLife) -> list[tuple[str, str]]:
-    """Return a row for each of few sprockets; of more, the cogs of a cassette share one, then all others."""
-    if len(found.results) <= _MAX_ROWS:
-        return _all_sprockets(found)
-    cogs = {wheel.name: wheel.parts for wheel in found.drive.wheels if wheel.cogs}
-    in_cassette = {name for names in cogs.values() for name in names}
-    single = [name for name in found.results if name not in in_cassette]
-    together = [
-        (name, _lives(found, names, [one.removeprefix(f"{name} ") for one in names]))
-        for name, names in cogs.items()
-    ]
-    if len(single) + len(together) <= _MAX_ROWS:
-        return [*((name, _part(found, name)) for name in single), *together]
-    return [("Sprockets", _lives(found, single, single)), *together]
+def lives_text(lives: Lives) -> str:
+    """Return lives in words, those that are alike once, and which of them ends first.
 
-
-def _lives(found: DriveLife, names: Sequence[str], shown: Sequence[str]) -> str:
-    """Return the lives of several sprockets, and which of them dies first."""
-    parts = found.parts
-    text = ", ".join(f"{label} {hours(parts[name])}" for name, label in zip(names, shown, strict=True))
-    ended = {
-        label: life.hours
-        for name, label in zip(names, shown, strict=True)
-        if isinstance(life := parts[name], Life)
-    }
+    Examples
+    --------
+    >>> lives_text({"13T": Life(1e6, 1500.0), "15T": LowerBound(2e6, 4000.0), "17T": LowerBound(2e6, 4000.0)})
+    '13T 1 500 h; 15T and 17T > 4 000 h: 13T dies first'
+    """
+    alike: dict[str, list[str]] = {}
+    for name, life in lives.items():
+        alike.setdefault(hours(life), []).append(name)
+    text = "; ".join(f"{listed(names)} {life}" for life, names in alike.items())
+    ended = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
     return f"{text}: {min(ended, key=ended.__getitem__)} dies first" if ended else text
 
 
-def _part(found: DriveLife, name: str) -> str:
+def part_text(found: DriveLife, name: str) -> str:
+    """Return the life of chain or sprocket in words, and what ends it."""
+    return "   ".join(part_words(found, name))
+
+
+def part_words(found: DriveLife, name: str) -> list[str]:
+    """Return the life of chain or sprocket, in service if that is known, and what ends it."""
     life = found.parts[name]
-    text = hours(life)
     service = service_text(found.drive.driver.case.inputs, life)
-    if service:
-        text += f"   ({service})"
-    if name == CHAIN:
-        return f"{text}   {part_ending(found, name)}"
-    return f"{text}   {found.results[name].inputs['sprocket']['teeth']} teeth, {part_ending(found, name)}"
+    about = part_ending(found, name)
+    if name != CHAIN:
+        about = f"{found.results[name].inputs['sprocket']['teeth']} teeth, {about}"
+    return [hours(life), *([f"({service})"] if service else []), about]
 
 
 def part_ending(found: DriveLife, name: str) -> str:
@@ -139,20 +147,29 @@ def first_text(plan: DrivePlan) -> str:
     if not stops:
         return f"nothing is to be replaced within {grouped(plan.until)} h"
     first, *after = stops
-    when = _in_service(plan, first.hours)
-    text = f"replace {_parts_at(plan, first)}" + (f" ({when})" if when else "")
-    if first.parts == (CHAIN,):
-        text += " and again after each such time"
-    then = ", ".join(_parts_at(plan, stop) for stop in after[:_MAX_THEN])
+    text = first_stop_text(plan, first, parts_in_words(first))
+    then = ", ".join(stop_text(plan, stop, parts_in_words(stop)) for stop in after[:_MAX_THEN])
     more = f", and {len(after) - _MAX_THEN} more" if len(after) > _MAX_THEN else ""
     return f"{text}; then {then}{more}" if then else text
 
 
-def _parts_at(plan: DrivePlan, stop: Stop) -> str:
-    names = " and ".join(f"the {part_name(name)}" for name in stop.parts)
+def first_stop_text(plan: DrivePlan, first: Stop, parts: str) -> str:
+    """Return in words when parts are replaced first, and on which day where that is known."""
+    when = _in_service(plan, first.hours)
+    text = f"replace {stop_text(plan, first, parts)}" + (f" ({when})" if when else "")
+    return f"{text} and again after each such time" if first.parts == (CHAIN,) else text
+
+
+def parts_in_words(stop: Stop) -> str:
+    """Return the parts of a stop as a sentence names them."""
+    return listed([f"the {part_name(name)}" for name in stop.parts])
+
+
+def stop_text(plan: DrivePlan, stop: Stop, parts: str) -> str:
+    """Return in words when parts are replaced, and with which chain where they go with one."""
     chain = plan.chain_at(stop.hours)
     with_chain = f" with chain {chain}" if chain and CHAIN not in stop.parts else ""
-    return f"{names}{with_chain} at {grouped(stop.hours)} h"
+    return f"{parts}{with_chain} at {grouped(stop.hours)} h"
 
 
 def _in_service(plan: DrivePlan, at: float) -> str:
@@ -187,7 +204,8 @@ def within_text(result: WearResult) -> str:
     return f"within all of them; most used is {most.name}, {grouped(100.0 * most.used)} %"
 
 
-def _band_source(found: DriveLife) -> str:
+def band_source(found: DriveLife) -> str:
+    """Return where the bands of the wear coefficients come from."""
     sources: dict[str, list[str]] = {}
     for name, result in found.results.items():
         sources.setdefault(result.band, []).append(name)
@@ -196,28 +214,16 @@ def _band_source(found: DriveLife) -> str:
     return "; ".join(f"{', '.join(names)}: {band}" for band, names in sources.items())
 
 
-def worn_most_text(found: DriveLife, explain: bool = False) -> str:
-    """Return in words where the teeth are worn most, on request of every sprocket."""
-    results = found.results
-    if not explain:
-        deepest = max(results, key=lambda name: results[name].max_depth)
-        return f"{deepest} {_worn(results[deepest])} from the right tip"
-    places = "; ".join(f"{name} {_worn(result)}" for name, result in results.items())
-    return f"{places} from the right tip"
+def worn_most_text(found: DriveLife) -> str:
+    """Return in words on which sprocket, and where, the teeth are worn most."""
+    deepest = max(found.results, key=lambda name: found.results[name].max_depth)
+    return f"{deepest} {worn_text(found.results[deepest])} from the right tip"
 
 
-def _worn(result: WearResult) -> str:
+def worn_text(result: WearResult) -> str:
+    """Return in words how deep and where the teeth of a sprocket are worn."""
     length = float(result.flank_columns["arc_length_mm"][-1])
     return f"{result.max_depth:.3g} mm at {result.max_depth_arc_length:.1f} of {length:.1f} mm"
-
-
-def _warnings(found: DriveLife, explain: bool) -> str:
-    warnings = found.doubts
-    if explain or not warnings:
-        return "; ".join(warnings) or "none"
-    shown = warnings[:_MAX_WARNINGS]
-    more = len(warnings) - len(shown)
-    return "; ".join(shown) + (f"; and {more} more (--explain)" if more else "")
 
 
 def taken_for_granted(found: DriveLife) -> tuple[tuple[str, ...], tuple[str, ...]]:
