@@ -146,12 +146,14 @@ def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
     if missed.lost is None:
         every = _interval(study, missed.interval)
         return f"not told for intervals of {every}: a part does not outlive two of them"
-    lost = f"{grouped(missed.lost)} h" if missed.lost > 0.0 else "nothing"
+    lost = f"{grouped(missed.lost)} h of the life of every part"
+    if not missed.lost > 0.0:
+        lost = "nothing of the life of any part"
     cost = ""
     if missed.cost is not None:
         cost = f", which {'costs' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
     every = _interval(study, missed.interval)
-    return f"one relubrication left out of those every {every} takes {lost} of the life of every part{cost}"
+    return f"one relubrication left out of those every {every} takes {lost}{cost}"
 
 
 def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:
