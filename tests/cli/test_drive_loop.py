@@ -75,8 +75,7 @@ def test_torques_in_place_of_shares(cli, tmp_path, loop):
         assert one["tension_N"] == pytest.approx(other["tension_N"], rel=1e-9)
 
 
-def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path, loop):
-    duty = """\
+TWO_BLOCKS = """\
 [[duty]]
 share_of_time = 0.5
 power_kW = 1.3
@@ -87,8 +86,19 @@ power_kW = 1.3
 speed_rpm = 300
 power_share = {pump = 0.1, fan = 0.9}
 """
+
+
+def test_a_drive_whose_blocks_share_power_has_a_sheet(cli, tmp_path, loop):
+    path, sheet = tmp_path / "duty.toml", tmp_path / "sheet.html"
+    path.write_text(loop.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + TWO_BLOCKS)
+    done = cli("report", path, "--out", sheet, "--set", "run.horizon_hours=20")
+    assert done.code == 0, done.err
+    assert "tensioner" in sheet.read_text("utf-8")
+
+
+def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path, loop):
     path = tmp_path / "duty.toml"
-    path.write_text(loop.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + duty)
+    path.write_text(loop.replace("[load]\npower_kW = 1.3\nspeed_rpm = 300\n", "") + TWO_BLOCKS)
     pump = next(one for one in load_drive(path).sprockets if one.name == "pump").drive
     taken = [block.tension - block.slack for block in pump.blocks]
     assert taken[1] == pytest.approx(taken[0] / 7.0, rel=1e-9)

@@ -1,8 +1,9 @@
 """What a result tells of its flanks: the case, the time of the life, columns at a time."""
 
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,7 +24,15 @@ def case_of(result: WearResult) -> Case:
     with tempfile.TemporaryDirectory() as folder:
         for name, text in result.input_files.items():
             (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        return load_case(with_files(result.inputs, folder))
+        return load_case(_of_one_sprocket(with_files(result.inputs, folder)))
+
+
+def _of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables without what a block of the duty says of other sprockets of the drive."""
+    own = dict(inputs)
+    if isinstance(own.get("duty"), list):
+        own["duty"] = [{k: v for k, v in block.items() if k != "power_share"} for block in own["duty"]]
+    return own
 
 
 def life_time(result: WearResult) -> str:
