@@ -44,11 +44,12 @@ def main() -> None:
     loads = assert_type(wearsim.loads(drive, worst=True), wearsim.LoadsResult)
     assert_type(loads.teeth, pd.DataFrame)
     assert_type(loads.plot(), Figure)
-    sweep = assert_type(wearsim.sweep(case, {"load.speed_rpm": (100, 200)}), wearsim.SweepResult)
+    strand = wearsim.load_case("16b-20t-oiled")
+    sweep = assert_type(wearsim.sweep(strand, {"load.speed_rpm": (100, 200)}), wearsim.SweepResult)
     assert_type(sweep.cases, pd.DataFrame)
     assert_type(sweep.pictures(), dict[str, Figure])
     law = {"load.tension_N": {"distribution": "normal", "standard_deviation": 50.0}}
-    sure = assert_type(wearsim.uncertainty(case, law, samples=4), wearsim.UncertaintyResult)
+    sure = assert_type(wearsim.uncertainty(strand, law, samples=4), wearsim.UncertaintyResult)
     assert_type(sure.percentiles, pd.DataFrame)
     ageing = case.with_({"lubrication.lasts_hours": 100, "lubrication.dry_factor": 4})
     often = assert_type(wearsim.lubricate(ageing), wearsim.LubricationResult)
@@ -65,7 +66,7 @@ def main() -> None:
     wheel = assert_type(wearsim.export(result, state="new"), wearsim.ExportResult)
     assert_type(wheel.content("svg"), bytes)
     width = {"sprocket.face_width_mm": {"low": 6.0, "high": 8.0}}
-    best = assert_type(wearsim.optimise(case, width, evaluations=10, threads=1), wearsim.OptimiseResult)
+    best = assert_type(wearsim.optimise(strand, width, evaluations=10, threads=1), wearsim.OptimiseResult)
     assert_type(best.cases, list[wearsim.Case])
 
 

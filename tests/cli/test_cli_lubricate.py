@@ -231,7 +231,7 @@ def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 300000\n'
     text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")
     text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace(
-        "nodes = 201", "nodes = 101"
+        "nodes = 201", "nodes = 61"
     )
     path = tmp_path / "drive.toml"
     path.write_text(text + "\n[run]\nlife_tolerance = 0.1\n[mechanism]\nphases = 2\n", "utf-8")
