@@ -234,7 +234,8 @@ def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
         "nodes = 201", "nodes = 61"
     )
     path = tmp_path / "drive.toml"
-    path.write_text(text + "\n[run]\nlife_tolerance = 0.1\n[mechanism]\nphases = 2\n", "utf-8")
+    rough = "\n[run]\nlife_tolerance = 0.1\n[mechanism]\nphases = 2\n[stop]\ncritical_depth_mm = 0.05\n"
+    path.write_text(text + rough, "utf-8")
     done = run(str(path), "--json")
     assert done.exit_code == 0, done.output
     found = json.loads(done.stdout)

@@ -95,8 +95,8 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     today = log.relubrications.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    low, high, _ = as_logged.drive.wear_band("chain", as_logged.wear)
-    prior = FactorPrior(low, high)
+    # That of the teeth, wide: readings say more than what joints of chains are rated by.
+    prior = FactorPrior(as_logged.wear.low, as_logged.wear.high)
     posterior = factor_posterior(log.readings, expected, prior)
     factors = np.array(posterior.quantiles)
     lives = tuple((clock.running_cycles(cycles_per_chain / factors[::-1]) / per_hour).tolist())
