@@ -168,13 +168,38 @@ def test_supply_without_a_price_is_said() -> None:
     found = study(tables={**STRAND, "lubrication": {**STRAND["lubrication"], "option": [option]}})
     applied, supplied = found.plans
     life = wearsim.simulate(wearsim.load_case({**STRAND, "lubrication": option})).life.hours_run
-    assert supplied.policies[0].cost == pytest.approx(1000.0 * 300.0 / life, rel=1e-9)
+    assert supplied.cost_without_oil == pytest.approx(1000.0 * 300.0 / life, rel=1e-9)
+    assert policy_rows(found)[-1]["cost_per_1000_h"] is None
     left = applied.cheapest.cost - 1000.0 * 300.0 / life
     text = " ".join(lubrication_text(found).split())
     assert "Cost without its oil: give consumption_ml_per_hour and price_per_litre" in text
     assert f"oil bath pays where its oil costs less than {grouped(left)} per 1000 h" in text
     assert found.cheapest is applied
     assert supplied.cheapest is None
+
+
+def test_none_is_the_cheapest_while_a_life_is_not_reached() -> None:
+    """Drip outlives a run that ends between the lives of both, so it may be the cheaper one."""
+    lives = {
+        name: wearsim.simulate(
+            wearsim.load_case({**STRAND, "lubrication": {**STRAND["lubrication"], **more}})
+        ).life.hours_run
+        for name, more in (("applied", {}), ("supplied", {"lubricant": "drip"}))
+        if name == "applied"
+    }
+    option = {"lubricant": "drip", "consumption_ml_per_hour": 5.0, "price_per_litre": 8.0}
+    tables = {
+        **STRAND,
+        "lubrication": {**STRAND["lubrication"], "option": [option]},
+        "run": {**STRAND.get("run", {}), "horizon_hours": 1.01 * lives["applied"]},
+    }
+    found = study(tables=tables)
+    applied, supplied = found.plans
+    assert applied.cheapest is not None and supplied.cheapest is None
+    assert found.cheapest is None
+    assert "Pays not told, as a cost is not known, of drip: the life" in " ".join(
+        lubrication_text(found).split()
+    )
 
 
 def test_applied_one_beside_a_supply_of_the_case(tmp_path: Path) -> None:
@@ -230,9 +255,7 @@ def test_shipped_case_answers(tmp_path: Path) -> None:
 def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 200\ninterval_hours = 300000\n'
     text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")
-    text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace(
-        "nodes = 201", "nodes = 61"
-    )
+    text = text.replace('[wear]\ncondition = "hardened, oiled"\n', table).replace("nodes = 201", "nodes = 61")
     path = tmp_path / "drive.toml"
     rough = "\n[run]\nlife_tolerance = 0.1\n[mechanism]\nphases = 2\n[stop]\ncritical_depth_mm = 0.05\n"
     path.write_text(text + rough, "utf-8")

@@ -76,6 +76,14 @@ def test_relubrication_at_given_times() -> None:
     assert at < hours(STRAND)
 
 
+@pytest.mark.parametrize("times", [[30.0], [30.0, 60.0]])
+def test_an_interval_beside_given_times_goes_on_from_the_last(times: list[float]) -> None:
+    """Where these are its own first rounds, the life is that of the interval."""
+    assert STRAND["lubrication"]["interval_hours"] == 30.0
+    assert hours(_with(at_hours=times)) == pytest.approx(hours(STRAND), rel=1e-9)
+    assert hours(_with(at_hours=times, interval_hours=40.0)) < hours(STRAND)
+
+
 def test_threshold_is_the_interval_after_which_it_is_reached() -> None:
     """Twice the rate is at 1/38 of the ramp of 8 hours, after 12 hours."""
     tables = _with(completeness=1.0, contamination_factor=None, interval_hours=None, when_rate_exceeds=2.0)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.study.remaining.relubrications import RelubricationLog
 from wearsim.wear.lubricant_clock import LubricantClock, LubricantEvent, LubricantLaw, LubricantSchedule
 
 pytest.importorskip("pandera", reason="pandera is not installed")
@@ -173,16 +174,23 @@ def test_one_reading_of_a_lubricant_that_ages_is_refused():
             wearsim.remaining({**case, "lubrication": OILED}, 100.0, elongation_percent=0.5)
 
 
+def test_one_that_is_overdue_comes_now_and_counts() -> None:
+    """Relubricated at 1 h and not in the 804 h since: two in 805 h, the second one today."""
+    log = RelubricationLog("log.csv", "time_hours", 2, (1.0,), 805.0)
+    assert (log.mean_interval, log.to_come) == (402.5, 805.0)
+    assert "was 804 h ago, but they came every 1 h before" in next(log.warnings())
+    in_time = RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 300.0)
+    assert (in_time.mean_interval, in_time.to_come, [*in_time.warnings()]) == (100.0, 300.0, [])
+
+
 def test_the_calibrated_case_lives_as_told(tmp_path: Path):
     """With the relubrications of the log, and those to come, in the place of its schedule."""
     data = rows("elongation_percent", (0.1, 0.2, 0.3, 0.4), 1e-2)
     case = {**CHAIN, "lubrication": {**OILED, "interval_hours": 50}, "run": {"life_tolerance": 0.1}}
     found = wearsim.calibrate(case, data)
     told = found.found.parts[0].life
-    at = found.found.tables["lubrication"]["at_hours"]
-    assert at[:5] == [*DONE, 875.0]
-    assert at[-1] < told < at[-1] + 175.0
-    assert "interval_hours" not in found.found.tables["lubrication"]
+    given = found.found.tables["lubrication"]
+    assert (given["at_hours"], given["interval_hours"]) == ([*DONE, 875.0], 175.0)
     reached = found.case.with_({"run.horizon_hours": 1.01 * told})
     assert wearsim.simulate(reached).parts["chain"].hours == pytest.approx(told, rel=1e-9)
     path = tmp_path / "log.csv"

@@ -200,7 +200,7 @@ class _Reader:
         return () if key is None else tuple(self._hours(key, value) for value in getattr(self.table, key))
 
     def _first(self) -> str:
-        key = self._given((*INTERVAL, *AT))
+        key = self._given((*AT, *INTERVAL))
         if key is None:
             return ""
         value = getattr(self.table, key)
@@ -330,5 +330,5 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
             "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
             "contaminations in the middle of equal parts; after the last phase the first follows"
         )
-    if found.at_hours:
+    if found.at_hours and found.interval is None:
         yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"

@@ -27,7 +27,7 @@ def keys_of(name: str) -> tuple[str, ...]:
 LASTS, FADES, INTERVAL = keys_of("lasts"), keys_of("fades_over"), keys_of("interval")
 AT = ("at_hours", "at_km")
 SCHEDULES = (*INTERVAL, *AT, "when_rate_exceeds", "phase")
-"""Keys of which at most one says when contacts are relubricated."""
+"""Keys that say when contacts are relubricated: one of them, or times and an interval after the last one."""
 
 APPLICATION = ("price_per_application", "minutes_per_application", "labour_cost_per_hour")
 """Keys of what a relubrication costs."""
@@ -153,7 +153,8 @@ class _Lubricant(Table):
         found = super().conflicts()
         for keys in (LASTS, FADES, SCHEDULES):
             given = [key for key in keys if getattr(self, key, None) not in (None, [])]
-            if len(given) > 1:
+            goes_on = len(given) == 2 and given[0] in INTERVAL and given[1] in AT
+            if len(given) > 1 and not goes_on:
                 found.append((given[1], f"{given[0]} says this already: remove one of both"))
         return found
 

@@ -121,6 +121,7 @@ class CaseFit:
             ),
             warnings=(
                 *fit_warnings(self.case, values, correlation, found, self.observations, self.freedom),
+                *self.time.log.warnings(),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
@@ -263,7 +264,7 @@ class CaseFit:
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
         if self.time.log.hours:
             given = {key: value for key, value in tables["lubrication"].items() if key not in SCHEDULES}
-            tables = {**tables, "lubrication": {**given, "at_hours": self.time.log.until(longest)}}
+            tables = {**tables, "lubrication": {**given, **self.time.log.schedule}}
         return replaced(tables, ("run", "horizon_hours"), horizon)
 
     def _parts(self, found: LeastSquaresFit, values: Sequence[FittedCoefficient]) -> tuple[PartLife, ...]:

@@ -128,11 +128,13 @@ class LubricationIntervals:
             cost_high=high,
         )
 
-    def supplied(self, cost_per_hour: float) -> RelubricationPolicy:
-        """Return what a lubricant leads to that is supplied all the time at a cost."""
+    def supplied(self, cost_per_hour: float | None) -> RelubricationPolicy:
+        """Return what a lubricant leads to that is supplied all the time at a cost, None where unknown."""
         found = self.policy(_NEVER)
         parts = (found.cost, found.cost_low, found.cost_high)
-        cost, low, high = (None if one is None else one + 1000.0 * cost_per_hour for one in parts)
+        cost, low, high = (
+            None if one is None or cost_per_hour is None else one + 1000.0 * cost_per_hour for one in parts
+        )
         return replace(found, interval=math.inf, cost=cost, cost_low=low, cost_high=high)
 
     def _cost(self, clock: LubricantClock, interval: float, hourly: float) -> float:

@@ -55,6 +55,7 @@ class LubricantPlan:
     unknown: str  # why there is no cheapest interval, or no cost of a supply; empty where there is one
     gives_out: bool  # whether the lubricant gives out just beyond the cheapest interval
     missed: MissedRelubrication | None  # None where none is due
+    cost_without_oil: float | None = None  # per 1000 h, of a supply whose price alone is unknown
 
 
 @dataclass(frozen=True)
@@ -70,9 +71,16 @@ class LubricationStudy:
 
     @property
     def cheapest(self) -> LubricantPlan | None:
-        """The lubricant of the least cost."""
+        """The lubricant of the least cost; none while that of another is unknown, but for its oil."""
+        if self.untold:
+            return None
         priced = [plan for plan in self.plans if plan.cheapest is not None]
         return min(priced, key=lambda plan: plan.cheapest.cost or math.inf, default=None)  # type: ignore[union-attr]
+
+    @property
+    def untold(self) -> tuple[LubricantPlan, ...]:
+        """The lubricants of unknown cost, which may be the cheapest."""
+        return tuple(plan for plan in self.plans if plan.unknown and plan.cost_without_oil is None)
 
 
 @dataclass(frozen=True)
@@ -137,9 +145,10 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
 
 def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> LubricantPlan:
     """Return the plan of a lubricant that is supplied all the time, with no price at that of the parts."""
-    policy, unknown = intervals.supplied(given.supply_cost or 0.0), intervals.unknown
+    policy, unknown, without_oil = intervals.supplied(given.supply_cost), intervals.unknown, None
     if not unknown and given.supply_cost is None:
         unknown = "without its oil: give consumption_ml_per_hour and price_per_litre"
+        without_oil = intervals.supplied(0.0).cost
     return LubricantPlan(
         name=given.name,
         supplied=True,
@@ -154,6 +163,7 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
         unknown=unknown,
         gives_out=False,
         missed=None,
+        cost_without_oil=without_oil,
     )
 
 

@@ -92,6 +92,9 @@ def lubrication_text(study: LubricationStudy) -> str:
         lines.append(
             row("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
         )
+    elif best is None and len(study.plans) > len(study.untold) > 0:
+        why = "; ".join(f"of {_named(plan)}: {plan.unknown}" for plan in study.untold)
+        lines.append(row("Pays", f"not told, as a cost is not known, {why}"))
     lines.append(row("Assumes", numbered_assumptions(study.assumptions)))
     lines.append(row("Warnings", "; ".join(study.warnings) or "none"))
     return "\n".join(lines)
@@ -105,9 +108,11 @@ def _without_oil(study: LubricationStudy) -> Iterator[str]:
     """Say of each lubricant that is supplied at an unknown price below which one it pays."""
     best = study.cheapest
     for plan in study.plans:
-        cost = plan.policies[0].cost
-        if plan.supplied and plan.cheapest is None and cost is not None and best and best.cheapest:
-            left = (best.cheapest.cost or 0.0) - cost
+        cost = plan.cost_without_oil
+        if cost is None or best is None or best.cheapest is None:
+            continue
+        left = (best.cheapest.cost or 0.0) - cost
+        if left > 0.0:
             yield f"{plan.name} pays where its oil costs less than {grouped(left)} per 1000 h"
 
 

@@ -95,7 +95,7 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     today = log.relubrications.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    # That of the teeth, wide: readings say more than what joints of chains are rated by.
+    # Of the teeth, which is wide: readings tell more than a band from ratings of chains.
     prior = FactorPrior(as_logged.wear.low, as_logged.wear.high)
     posterior = factor_posterior(log.readings, expected, prior)
     factors = np.array(posterior.quantiles)
@@ -183,6 +183,7 @@ def _warnings(
             "them, the load and the lubrication; their errors are taken as so much larger"
         )
     yield from _contradictions(log)
+    yield from log.relubrications.warnings()
     if lives[0] <= log.relubrications.today:
         yield "the limit may be reached already: measure again, with a smaller error"
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case
@@ -33,19 +34,42 @@ class RelubricationLog:
     today: float  # running time of the last row of the file [h]
 
     @property
-    def mean_interval(self) -> float:
+    def logged_interval(self) -> float:
         """Mean time between relubrications, the first counted from the new part [h]."""
         return self.hours[-1] / len(self.hours)
 
     @property
+    def is_overdue(self) -> bool:
+        """Whether more time has passed since the last one than between them in the mean."""
+        return self.today - self.hours[-1] > self.logged_interval
+
+    @property
+    def mean_interval(self) -> float:
+        """Mean time between relubrications; one that is overdue comes today, and counts too [h]."""
+        return self.today / (len(self.hours) + 1) if self.is_overdue else self.logged_interval
+
+    @property
     def to_come(self) -> float:
         """Running time of the next one, at the mean interval; today where that is overdue [h]."""
-        return max(self.hours[-1] + self.mean_interval, self.today)
+        return self.today if self.is_overdue else self.hours[-1] + self.mean_interval
 
-    def until(self, end: float) -> list[float]:
-        """Return running times as logged, and then at the mean interval before an end [h]."""
-        count = max(math.ceil((end - self.to_come) / self.mean_interval), 0)
-        return [*self.hours, *(self.to_come + number * self.mean_interval for number in range(count))]
+    @property
+    def schedule(self) -> dict[str, Any]:
+        """Keys of [lubrication] that say the same."""
+        return {"at_hours": [*self.hours, self.to_come], "interval_hours": self.mean_interval}
+
+    def warnings(self) -> Iterator[str]:
+        """Say that a relubrication is overdue."""
+        if self.hours and self.is_overdue:
+            since, before, then = (
+                grouped(hours)
+                for hours in (self.today - self.hours[-1], self.logged_interval, self.mean_interval)
+            )
+            yield (
+                f"the last relubrication was {since} h ago, but they came every {before} h before: the "
+                f"next is taken to come now, and then one every {then} h; less is left where nobody "
+                "relubricates. Log those that are missing"
+            )
 
 
 def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
@@ -135,11 +159,11 @@ def _check_interval(case: Case, log: RelubricationLog) -> None:
     law, given = case_clock(case).lubricant.law, case.lubrication
     assert given is not None
     effect = (law.lasts + law.fades) / (case.cycles_per_hour * given.dirt.ageing)
-    if log.mean_interval < _LEAST * effect < math.inf:
+    if log.logged_interval < _LEAST * effect < math.inf:
         text = (
             f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later in the mean, a thousandth of "
             f"the {grouped(effect)} h after which the lubricant is gone, but comes every "
-            f"{log.mean_interval:.3g} h: remove this row if the part was new, as that is lubricated, or "
+            f"{log.logged_interval:.3g} h: remove this row if the part was new, as that is lubricated, or "
             "correct its time"
         )
         raise _fault(log, log.column, text)
