@@ -500,7 +500,7 @@ CHANGES |= {
     "lubrication.interval_hours": [("lubricated", 25.0), ("lubricated", 0.0, "lubrication.interval_hours")],
     "lubrication.interval_km": [("by km", 250.0), ("lubricated", 9.0, "lubrication.interval_km")],
     "lubrication.interval_sliding_m": [("by way", 25.0)],
-    "lubrication.at_hours": [("at times", [30.0]), ("lubricated", [1.0], "lubrication.at_hours")],
+    "lubrication.at_hours": [("at times", [30.0]), ("lubricated", [2.0, 1.0], "lubrication.at_hours")],
     "lubrication.at_km": [("at km", [300.0]), ("by way", [3.0], "lubrication.at_km")],
     "lubrication.when_rate_exceeds": [("by rate", 8.0), ("by rate", 0.5, "lubrication.when_rate_exceeds")],
     "lubrication.lasts_hours": [("lubricated", 9.0), ("lubricated", -1.0, "lubrication.lasts_hours")],

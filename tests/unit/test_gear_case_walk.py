@@ -278,7 +278,7 @@ CHANGES |= {
     for key, changes in {
         "interval_hours": [("lubricated", 7.0), ("lubricated", 0.0, "lubrication.interval_hours")],
         "interval_sliding_m": [("by way", 250.0)],
-        "at_hours": [("at times", [4.8]), ("lubricated", [1.0], "lubrication.at_hours")],
+        "at_hours": [("at times", [4.8]), ("lubricated", [2.0, 1.0], "lubrication.at_hours")],
         "when_rate_exceeds": [("by rate", 8.0)],
         "lasts_hours": [("lubricated", 3.0)],
         "lasts_sliding_m": [("by way", 90.0)],
