@@ -3,6 +3,7 @@
 Expected: what `simulate` finds for each case alone, to the bit.
 """
 
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -171,3 +172,14 @@ def test_cases_are_taken_as_they_are_needed() -> None:
         assert isinstance(next(lives), CaseLife)
     assert taken < 300
     lives.close()  # type: ignore[attr-defined]
+
+
+def test_lives_that_nobody_takes_to_their_end_wait_for_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The garbage collector may finalise them where a join never ends."""
+    case = wearsim.load_case("16b-20t-oiled")
+    lives = wearsim.simulate_many([case] * 3, threads=2)
+    next(lives)
+    joined: list[threading.Thread] = []
+    monkeypatch.setattr(threading.Thread, "join", lambda self, timeout=None: joined.append(self))
+    lives.close()  # type: ignore[attr-defined]
+    assert joined == []

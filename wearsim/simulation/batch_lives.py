@@ -183,20 +183,23 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
     threads = threads or os.cpu_count() or 1
     remaining = iter(cases)
     under_way: deque[tuple[list[Case], list[_CaseJob | None], list[_Batch]]] = deque()
-    with ThreadPoolExecutor(threads) as pool:
-        while True:
-            chunk = list(islice(remaining, 2 * _BATCH * threads))
-            if chunk:
-                jobs = [_job(case) for case in chunk]
-                under_way.append((chunk, jobs, _submit(pool, jobs)))
-            if len(under_way) > _AHEAD or not chunk:
-                if not under_way:
-                    return
-                chunk, jobs, batches = under_way.popleft()
-                while batches:
-                    _collect(jobs, batches)
-                    batches = _submit(pool, jobs)
-                yield from map(_life, chunk, jobs)
+    # Not in a `with`: lives that nobody takes to their end may be finalised by the garbage collector inside
+    # `threading`, where a join waits for ever. Threads of a pool that is gone end by themselves.
+    pool = ThreadPoolExecutor(threads)
+    while True:
+        chunk = list(islice(remaining, 2 * _BATCH * threads))
+        if chunk:
+            jobs = [_job(case) for case in chunk]
+            under_way.append((chunk, jobs, _submit(pool, jobs)))
+        if len(under_way) > _AHEAD or not chunk:
+            if not under_way:
+                pool.shutdown()
+                return
+            chunk, jobs, batches = under_way.popleft()
+            while batches:
+                _collect(jobs, batches)
+                batches = _submit(pool, jobs)
+            yield from map(_life, chunk, jobs)
 
 
 _Batch = tuple[list[list[_FlankJob]], "Future[list[BatchResult | None]]"]
