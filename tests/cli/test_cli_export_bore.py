@@ -283,7 +283,7 @@ def test_sprockets_of_a_drive(cli, tmp_path):
 
 def test_worn_down_to_the_hub(cli, write, tmp_path):
     """A hub just below the new root is above the worn one."""
-    path = Path(wearsim.__file__).parents[1] / "cases" / "520-15t-wrap.toml"
+    path = Path(__file__).parents[2] / "cases" / "520-15t-wrap.toml"
     keys = ("sprocket.hub_length_mm=5", "sprocket.hub_diameter_mm=66.067", "sprocket.nodes=101")
     settings = [word for key in (*keys, "run.life_tolerance=0.1") for word in ("--set", key)]
     run = tmp_path / "run"

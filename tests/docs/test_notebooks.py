@@ -67,7 +67,9 @@ def test_first_life_says_what_it_finds():
     assert names["check"].headline == "ok"
     assert result.life == result.parts["chain"]
     assert 1.0 < result.parts["sprocket"].hours / result.parts["chain"].hours < 2.0  # a second chain
-    assert result.life.hours / result.life_low.hours == pytest.approx(3.0, rel=0.1)
+    # Joints wear at 0.9 to 1.5e-10 mm2/N, 1.2e-10 in the middle: a quarter either way.
+    assert result.life.hours / result.life_low.hours == pytest.approx(1.5 / 1.2, rel=1e-6)
+    assert result.life_high.hours / result.life.hours == pytest.approx(1.2 / 0.9, rel=1e-6)
     less = simulate(case.with_({"load.power_kW": 2}))
     assert 1.4 < less.life.hours / result.life.hours < 1.5  # not quite 3/2
     softer = simulate(case.with_({"wear.condition": "normalised, greased"}))
@@ -99,9 +101,9 @@ def test_hours_left_says_what_it_finds():
     pytest.importorskip("pandera", reason="pandera is not installed")
     names = run("hours_left")
     before, chain = names["before"], names["chain"]
-    assert before.life_high.hours / before.life_low.hours == pytest.approx(9.0, rel=0.03)
     # Elongation is linear: 3 % of it after 6000 h 3/1.13.
     assert chain.life.hours == pytest.approx(6000.0 * 3.0 / 1.13, rel=1e-9)
+    assert chain.life.hours < before.life_low.hours
     for end in (chain.remaining_low, chain.remaining_high):
         assert end.hours == pytest.approx(chain.remaining.hours, rel=0.1)
     tooth = names["tooth"]

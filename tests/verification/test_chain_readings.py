@@ -95,7 +95,8 @@ def test_km_and_days_are_hours(drive, table):
     )
     assert km.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
     assert days.of("life_hours").values == pytest.approx(hours.of("life_hours").values, rel=1e-12)
-    ends = [np.datetime64("2026-01-01") + int(life / 8.0) for life in hours.of("life_hours").values]
+    lasting = [np.timedelta64(int(life / 8.0), "D") for life in hours.of("life_hours").values]
+    ends = [np.datetime64("2026-01-01") + span for span in lasting]
     assert days.of("end_date").values == tuple(str(day) for day in ends)
 
 

@@ -194,10 +194,12 @@ class _Solve:
         from scipy.optimize import brentq  # takes 0.1 s, and most runs end on the depth
 
         low, high = solution.times[-2:] if solution.times.size > 1 else (0.0, 0.0)
+        # What brentq is given refers to itself from then on, and stays until Python collects garbage.
+        last_step = solution.ended()
         for stop_limit in self.problem.stop_limits[1:]:
             if stop_limit.margin(*solution.path[-1, :3]) > 0.0:
                 continue
-            margin = partial(_margin, solution, stop_limit)
+            margin = partial(_margin, last_step, stop_limit)
             time = brentq(margin, low, high, rtol=1e-14, xtol=1e-300) if margin(low) > 0.0 else low
             if time < solution.end or (time == solution.end and solution.met is None):
                 solution = replace(solution, end=float(time), met=stop_limit)
@@ -262,7 +264,8 @@ def run_advance(
             raise ConvergenceError(str(error)) from None
         except (ContactError, ConvergenceError) as error:
             # Loose steps may run past what the flank itself never does; tighter ones decide.
-            before, failure = None, error
+            # Without the frames that hold all states of that solve.
+            before, failure = None, error.with_traceback(None)
         else:
             if before is not None and before.met == after.met:
                 change = after.change(before)

@@ -81,6 +81,7 @@ def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFi
             failures=failures,
             right_censored=suspensions,
             CI=CONFIDENCE,
+            optimizer="best",  # of all it has: the usual one may stop short of the greatest likelihood
             show_probability_plot=False,
             print_results=False,
         )
