@@ -93,8 +93,8 @@ def lubrication_text(study: LubricationStudy) -> str:
             row("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
         )
     elif best is None and len(study.plans) > len(study.untold) > 0:
-        open_costs = "; ".join(f"{_named(plan)} ({plan.unknown})" for plan in study.untold)
-        lines.append(row("Pays", f"not told, as the least cost is open of {open_costs}"))
+        unknown = "; ".join(f"{_named(plan)} ({plan.unknown})" for plan in study.untold)
+        lines.append(row("Pays", f"not told, as no least cost is known for {unknown}"))
     lines.append(row("Assumes", numbered_assumptions(study.assumptions)))
     lines.append(row("Warnings", "; ".join(study.warnings) or "none"))
     return "\n".join(lines)
