@@ -59,7 +59,7 @@ STRAND = {
 
 @pytest.mark.parametrize("limit", ["critical_depth_mm", "min_tip_land_mm"])
 def test_nothing_large_waits_for_the_garbage_collector(limit: str) -> None:
-    """What stays is told by types in ``gc.garbage`` after ``gc.set_debug(gc.DEBUG_SAVEALL)``."""
+    """To see what stays, call ``gc.set_debug(gc.DEBUG_SAVEALL)`` and look into ``gc.garbage``."""
     case = wearsim.load_case(STRAND)
     if limit == "min_tip_land_mm":
         case = case.with_({"stop.min_tip_land_mm": case.drive.tip_land - 0.02})
