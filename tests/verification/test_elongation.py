@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.chain.joint_wear import elongation_per_loop
 from wearsim.mechanisms.wrap.contact import WrapContact
-from wearsim.mechanisms.wrap.drive import elongation_per_loop
 
 PITCH, PIN, AREA, MASS = 12.7, 3.98, 44.5, 0.60
 CHAIN = {
@@ -143,15 +143,92 @@ def test_chain_under_two_states_of_lubrication(
     validated("hours of a chain, two states", hours, 1.0 / sum(worn), 1e-9, source, "h", page=shown)
 
 
+def closed_form_of_law(
+    tight: float, slack: float, rpm: float, k0: float, m: float, q: float, p0: float, n0: float
+) -> float:
+    """Hours to 2 %, 120 links, 19/57 teeth, k = k0 (p/p0)^(m-1) (n0/n)^q at each turn of a joint."""
+    centrifugal = MASS * (PITCH * 1e-3 * 19 * rpm / 60.0) ** 2
+    worn = 0.0
+    for strand in (tight, slack):
+        p = (strand + centrifugal) / AREA
+        worn += k0 * (max(p, 15.0) / max(p0, 15.0)) ** (m - 1.0) * p
+    worn *= (min(max(n0, 30.0), 1000.0) / min(max(rpm, 30.0), 1000.0)) ** q
+    return 0.02 * PITCH * 120 / (60.0 * rpm * 19 * worn * math.pi * PIN * (1 / 19 + 1 / 57))
+
+
 @pytest.mark.parametrize(
-    ("condition", "times"),
-    [("hardened, oiled", 1.0), ("normalised, greased", 1.5), ("hardened, dry", 7e-9 / 1.2e-10)],
+    ("condition", "law"),
+    [
+        ("hardened, oiled", (1.2e-10, 2.0, 0.7, 25.7, 1000.0)),
+        ("normalised, greased", (1.8e-10, 1.5, 0.7, 25.7, 1000.0)),
+        ("hardened, dry", (7e-9, 1.0, 0.0, 25.7, 1000.0)),
+        ("bicycle, wet drip", (6e-9, 1.5, 0.0, 18.0, 227.0)),
+    ],
 )
-def test_joints_are_in_the_state_of_the_teeth(condition: str, times: float) -> None:
-    """Chain life goes with 1/k: 1.2e-10 with oil, 1.5 times that greased, 7e-9 mm2/N dry."""
-    oiled = closed_form(19, 57, 120, 900.0, 60.0, 500.0, 1.2e-10, 2.0)
-    case = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, None, condition=condition)
-    assert chain_hours(case) == pytest.approx(oiled / times, rel=1e-9)
+@pytest.mark.parametrize(("tight", "rpm"), [(900.0, 500.0), (1500.0, 100.0), (400.0, 1800.0), (1200.0, 12.0)])
+def test_joints_are_in_the_state_of_the_teeth(
+    condition: str, law: tuple[float, ...], tight: float, rpm: float
+) -> None:
+    """Each row of the table with its exponents, within and outside of the ranges in which they act."""
+    case = load_case(19, 57, 120, "driver", tight, 60.0, rpm, None, condition=condition)
+    expected = closed_form_of_law(tight, 60.0, rpm, *law)
+    assert chain_hours(case) == pytest.approx(expected, rel=1e-9)
+    constant = case.with_({"joint.law": "constant"})
+    assert chain_hours(constant) == pytest.approx(
+        closed_form(19, 57, 120, tight, 60.0, rpm, law[0], 2.0), rel=1e-9
+    )
+
+
+def test_a_rate_with_a_law_of_ones_own() -> None:
+    """Every key of the law against the formula by hand; a rate alone is constant."""
+    own = {"pressure_exponent": 2.6, "speed_exponent": 0.4, "reference_pressure_MPa": 21.0}
+    own |= {"reference_speed_rpm": 400.0}
+    case = load_case(19, 57, 120, "driver", 1300.0, 60.0, 90.0, 2e-10)
+    assert chain_hours(case) == pytest.approx(
+        closed_form(19, 57, 120, 1300.0, 60.0, 90.0, 2e-10, 2.0), rel=1e-9
+    )
+    named = case.with_({"joint.law": "pressure_speed"} | {f"joint.{key}": own[key] for key in own})
+    expected = closed_form_of_law(1300.0, 60.0, 90.0, 2e-10, 2.6, 0.4, 21.0, 400.0)
+    assert chain_hours(named) == pytest.approx(expected, rel=1e-9)
+    wider = named.with_({"joint.pitch_exponent": 0.5, "joint.reference_pitch_mm": 25.4})
+    assert chain_hours(wider) == pytest.approx(expected * 2.0**0.5, rel=1e-9)
+    # What is recorded gives the same chain again.
+    again = wearsim.load_case({**named.inputs})
+    assert chain_hours(again) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("key", ["pressure_exponent", "speed_exponent", "reference_pressure_MPa"])
+def test_keys_of_a_law_without_it(key: str) -> None:
+    case = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, 2e-10)
+    with pytest.raises(wearsim.CaseError, match=f"joint.{key}.*give law = 'pressure_speed'"):
+        case.with_({f"joint.{key}": 1.5})
+
+
+def test_blocks_of_a_duty_have_their_own_pressure_and_speed() -> None:
+    """1/L = sum c_i/L_i with the lives of both blocks alone, c_i parts of the time."""
+    parts = (0.3, 1500.0, 500.0), (0.7, 800.0, 100.0)
+    duty = [{"share_of_time": c, "tension_N": tight, "speed_rpm": rpm} for c, tight, rpm in parts]
+    case = load_case(19, 57, 120, "driver", 0.0, 60.0, 0.0, None, condition="hardened, oiled", duty=duty)
+    alone = [closed_form_of_law(tight, 60.0, rpm, 1.2e-10, 2.0, 0.7, 25.7, 1000.0) for _, tight, rpm in parts]
+    worn = math.fsum(c / life for (c, _, _), life in zip(parts, alone, strict=True))
+    assert chain_hours(case) == pytest.approx(1.0 / worn, rel=1e-9)
+
+
+def test_speed_is_that_of_the_small_sprocket_from_both_sides() -> None:
+    """19 teeth at 100 rpm drive 57 at 33.3: one law from both sprockets."""
+    condition = "hardened, oiled"
+    driver = load_case(19, 57, 120, "driver", 900.0, 60.0, 100.0, None, condition=condition)
+    driven = load_case(57, 19, 120, "driven", 900.0, 60.0, 100.0 / 3.0, None, condition=condition)
+    assert chain_hours(driven) == pytest.approx(chain_hours(driver), rel=1e-12)
+
+
+def test_joints_in_another_state_than_the_teeth() -> None:
+    """Sealed joints in soil: teeth by soil, joints by oil."""
+    soil = load_case(19, 57, 120, "driver", 900.0, 60.0, 500.0, None, condition="soil-contaminated")
+    sealed = soil.with_({"joint.condition": "hardened, oiled"})
+    expected = closed_form_of_law(900.0, 60.0, 500.0, 1.2e-10, 2.0, 0.7, 25.7, 1000.0)
+    assert chain_hours(sealed) == pytest.approx(expected, rel=1e-9)
+    assert sealed.wear == soil.wear
 
 
 @pytest.mark.parametrize("pitch", ["uniform", "alternating"])

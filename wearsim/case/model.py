@@ -63,6 +63,11 @@ class Drive:
         """Wear coefficients of other parts than the flank by their keys."""
         return {}
 
+    @property
+    def wear_settings(self) -> Mapping[str, float | str]:
+        """Keys that, beside these coefficients, say how those parts wear."""
+        return {}
+
     def wear_band(self, part: str, wear: "WearInput") -> "WearBand":
         """Return the band of the coefficient that ends the life of a part."""
         return WearBand(wear.low, wear.high, wear.band)

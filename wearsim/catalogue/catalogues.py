@@ -105,6 +105,13 @@ class WearCondition:
     joint_low: float  # specific wear rate of pin and bush together in that state [mm2/N]
     joint_typical: float  # specific wear rate of pin and bush together in that state [mm2/N]
     joint_high: float  # specific wear rate of pin and bush together in that state [mm2/N]
+    # how that of the joints depends on pressure, turning speed and pitch, and where `joint_typical` holds
+    joint_pressure_exponent: float  # m of `wearsim.chain.joint_wear.JointLaw`
+    joint_speed_exponent: float  # q
+    joint_pitch_exponent: float  # r
+    joint_reference_pressure: float  # [MPa]
+    joint_reference_speed: float  # of the small sprocket [rpm]
+    joint_reference_pitch: float  # [mm]
     joint_source: str  # where the numbers of the joints come from
     machine: str  # what it is for: `any` machine, or one whose numbers are told apart
 
@@ -304,6 +311,12 @@ def wear_conditions() -> dict[str, WearCondition]:
             float(row["joint_low_mm2_per_N"]),
             float(row["joint_typical_mm2_per_N"]),
             float(row["joint_high_mm2_per_N"]),
+            float(row["joint_pressure_exponent"]),
+            float(row["joint_speed_exponent"]),
+            float(row["joint_pitch_exponent"]),
+            float(row["joint_reference_pressure_MPa"]),
+            float(row["joint_reference_speed_rpm"]),
+            float(row["joint_reference_pitch_mm"]),
             row["joint_source"],
             row["machine"],
         )

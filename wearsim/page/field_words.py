@@ -13,7 +13,7 @@ _LABELS = {
     "case_depth_mm": "Depth of the hard layer",
     "coefficient": "Coefficient of the law",
     "completeness": "Part of the age that a relubrication takes away",
-    "condition": "Material and lubrication of the teeth",
+    "condition": "Material and lubrication",
     "contamination_factor": "Wear in dirt, times",
     "contamination_removed": "Part of the dirt that a relubrication takes away",
     "contact_end_mm": "End of contact, at the root",

@@ -184,7 +184,7 @@ def _places(key: str, data: Mapping[str, Any]) -> Iterator[str]:
 def _proposals(key: str) -> tuple[str, ...]:
     if key == "chain.designation":
         return tuple(chains())
-    if key.endswith("wear.condition"):
+    if key.endswith(("wear.condition", "joint.condition")):
         return tuple(wear_conditions())
     if key.endswith(".lubricant"):
         return tuple(lubricants())

@@ -1,12 +1,13 @@
 """What of a case scatters, and its cases at samples of that."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WearBand
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
@@ -16,9 +17,8 @@ from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
 from wearsim.runner.design import Design, design, replaced, value_at
 from wearsim.runner.distributions import described, quantile
 
-PUBLISHED_SIGMA = 0.5
-"""Scatter of published wear coefficients about those of one system: standard deviation of ln k,
-as +-40 to 60 % (Podra and Andersson 1999)."""
+NORMAL_95 = 1.6448536269514722
+"""Standard deviations from the median of a normal distribution to the ends of 90 % of it."""
 
 
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
@@ -79,12 +79,12 @@ def load_scattered(
     case = kind.read(source, overrides).with_horizon(least_horizon or 0.0)
     given = _given(case)
     assumptions = []
-    for coefficient in _coefficients(case):
+    for coefficient, (value, band) in _coefficients(case).items():
         if coefficient not in given:
-            given[coefficient] = Distribution(distribution="lognormal", sigma_ln=PUBLISHED_SIGMA)
+            given[coefficient] = _banded(value, band)
             assumptions.append(
-                f"{coefficient} is log-normal with sigma_ln = {PUBLISHED_SIGMA:g}, the scatter of "
-                "published coefficients (default; [uncertainty] gives another)"
+                f"{coefficient} is log-normal, 90 % of it {band.low:.3g} to {band.high:.3g} times "
+                f"{value:.3g}, its band (default; [uncertainty] gives another)"
             )
     if case.fatigue is not None:
         assumptions.append(WITH_FATIGUE)
@@ -101,9 +101,18 @@ def coefficient_key(case: Case) -> str:
     return f"wear.{name}"
 
 
-def _coefficients(case: Case) -> list[str]:
-    """Wear coefficients of the teeth and, on a wrap, of the joints."""
-    return [coefficient_key(case), *case.drive.wear_coefficients]
+def _coefficients(case: Case) -> dict[str, tuple[float, WearBand]]:
+    """Wear coefficients of the teeth and, on a wrap, of the joints, with their bands."""
+    teeth, chain = (case.drive.wear_band(part, case.wear) for part in ("sprocket", "chain"))
+    of_joints = {key: (value, chain) for key, value in case.drive.wear_coefficients.items()}
+    return {coefficient_key(case): (case.wear.coefficient, teeth), **of_joints}
+
+
+def _banded(value: float, band: WearBand) -> Distribution:
+    """Return the log-normal distribution of which a band holds 90 %."""
+    median = value * math.sqrt(band.low * band.high)
+    sigma = 0.5 * math.log(band.high / band.low) / NORMAL_95
+    return Distribution(distribution="lognormal", median=median, sigma_ln=sigma)
 
 
 def _given(case: Case) -> dict[str, Distribution]:
@@ -134,8 +143,8 @@ def plain_document(document: Document, case: Case) -> Document:
     if "condition" in case.inputs["wear"]:
         wear = {name: value for name, value in data.get("wear", {}).items() if name != "condition"}
         data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
-        for key, value in case.drive.wear_coefficients.items():
-            data = replaced(data, key.split("."), value)
+    for key, setting in {**case.drive.wear_coefficients, **case.drive.wear_settings}.items():
+        data = replaced(data, key.split("."), setting)
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     return with_whole_paths(replace(document, data=data))
 

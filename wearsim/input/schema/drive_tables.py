@@ -4,8 +4,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name
-from wearsim.input.schema.table import Table, all_differ, others_of
+from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name, wear_conditions
+from wearsim.input.schema.table import Table, all_differ, known, others_of
 from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
@@ -22,11 +22,52 @@ class MechanismTable(Table):
     friction_roller_bush: Annotated[NotNegative, Field(le=1.0)] | None = None
 
 
+JOINT_LAW_KEYS = (
+    "pressure_exponent",
+    "speed_exponent",
+    "pitch_exponent",
+    "reference_pressure_MPa",
+    "reference_speed_rpm",
+    "reference_pitch_mm",
+)
+"""Keys of the law by which joints wear, in the order of `wearsim.chain.joint_wear.JointLaw`."""
+
+
 class JointTable(Table):
     """Wear of pin and bush, which makes the chain grow."""
 
+    condition: str | None = None
     specific_wear_rate_mm2_per_N: Positive | None = None
+    law: Literal["pressure_speed", "constant"] | None = None
+    pressure_exponent: Annotated[PositiveNumber, Field(ge=0.5, le=5.0)] | None = None
+    speed_exponent: Annotated[NotNegative, Field(le=2.0)] | None = None
+    pitch_exponent: Annotated[NotNegative, Field(le=2.0)] | None = None
+    reference_pressure_MPa: Annotated[Positive, Field(le=1e3)] | None = None
+    reference_speed_rpm: Annotated[Positive, Field(le=1e5)] | None = None
+    reference_pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
+    band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
     pitch: Literal["alternating", "uniform"] | None = None
+
+    @field_validator("condition")
+    @classmethod
+    def _known(cls, value: str | None) -> str | None:
+        return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+
+    @classmethod
+    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
+        """Return the keys whose place a new value of a key takes."""
+        return JOINT_LAW_KEYS if (key, value) == ("law", "constant") else ()
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        if self.law == "pressure_speed" or (self.law is None and self.specific_wear_rate_mm2_per_N is None):
+            return []
+        why = "law = 'constant'" if self.law else "a rate without a law"
+        return [
+            (key, f"{why} is the same at every pressure and speed: remove it, or give law = 'pressure_speed'")
+            for key in JOINT_LAW_KEYS
+            if getattr(self, key) is not None
+        ]
 
 
 class DriveTable(Table):

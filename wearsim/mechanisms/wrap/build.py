@@ -8,28 +8,33 @@ from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
-from wearsim.catalogue.catalogues import Chain, WearCondition, wear_conditions
+from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_length import even_links, handbook_links
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
-from wearsim.input.schema import DriveTable, JointTable
-from wearsim.mechanisms.wrap.drive import JOINT_COEFFICIENT, JointInput, WrapDrive, WrapLoad
+from wearsim.input.schema import DriveTable
+from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
-from wearsim.mechanisms.wrap.place_in_loop import PlaceInLoop, check_travel, laid_out, loop_loads
+from wearsim.mechanisms.wrap.joints import alternates, joint_input, joint_law_of
+from wearsim.mechanisms.wrap.place_in_loop import (
+    PlaceInLoop,
+    check_travel,
+    laid_out,
+    loop_loads,
+    turning_factor,
+)
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
 LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
 PHASES = 6
-WELL_LUBRICATED = "hardened, oiled"
-"""Wear condition whose joints a drive has where its case names none."""
-
 
 TOLERANCE = 5e-2
 """Relative tolerance of a life by default, as it costs more than on a strand."""
@@ -71,16 +76,17 @@ def wrapped_drive(
     if layout is None or shape is None or duty is None or not sound:
         return None
     driver = table.role != "driven"
+    law = joint_law_of(case)
     if isinstance(layout, LoopLayout):
-        loads = loop_loads(case, chain, layout, duty)
+        loads = loop_loads(case, chain, layout, duty, law)
     else:
-        loads = _tensions(case, chain, layout, duty)
+        loads = _tensions(case, chain, layout, duty, law)
     if loads is None:
         return None
     blocks, rated = loads
     slack = heaviest_block(rated).slack
     width = face_width(case, table, chain)
-    joint = _joint(case, chain, layout)
+    joint = joint_input(case, chain, layout, law, blocks)
     if isinstance(layout, LoopLayout):
         check_travel(case, layout, joint.elongation_limit)
     mechanism = tables.mechanism
@@ -201,7 +207,7 @@ def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout |
         case.faults.add(f"drive.{key}", str(error))
         return None
     if layout.needs_offset_link:
-        if _alternating(case):
+        if alternates(case):
             case.faults.add(
                 "drive.links",
                 f"must be even where inner and outer links alternate (got {layout.links}): use "
@@ -212,13 +218,8 @@ def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout |
     return layout
 
 
-def _alternating(case: ChainRecord) -> bool:
-    joint = case.tables.joint or JointTable()
-    return joint.pitch != "uniform"
-
-
 def _tensions(
-    case: ChainRecord, chain: Chain, layout: DriveLayout, duty: GivenDuty
+    case: ChainRecord, chain: Chain, layout: DriveLayout, duty: GivenDuty, law: JointLaw
 ) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
     """Return the blocks of the duty and the rated loads with their tensions."""
     for load in duty.blocks:
@@ -227,8 +228,10 @@ def _tensions(
     slack = _slack(case, chain, layout, max(chain_pull(case, chain, load) for load in duty.rated))
     if slack is None:
         return None
-    rated = [_block(case, chain, load, slack) for load in duty.rated]
-    found = [_block(case, chain, load, slack) for load in duty.blocks]
+    rated, found = (
+        [_block(case, chain, load, slack, turning_factor(case, chain, layout, load, law)) for load in loads]
+        for loads in (duty.rated, duty.blocks)
+    )
     for load, block in zip((*duty.rated, *duty.blocks), (*rated, *found), strict=True):
         if block.tension <= slack and not load.measured:
             key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
@@ -260,7 +263,7 @@ def _range(values: list[float], digits: int) -> str:
     return high if low == high else f"{low} to {high}"
 
 
-def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> WrapLoad:
+def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float, turning: float) -> WrapLoad:
     """Return a load with its tensions; that of a log is at least the slack one."""
     pull = chain_pull(case, chain, load)
     whole = pull if load.kind == "tension_N" else pull + slack
@@ -279,6 +282,7 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> Wr
         pull=tight - slack,
         base=slack,
         turns=((tight, slack),) * 2,
+        turning_factors=(turning,) * 2,
         spans=(slack, tight),
     )
 
@@ -328,60 +332,3 @@ def _bush_diameter(case: ChainRecord, chain: Chain) -> float:
     mean = float(f"{0.5 * (chain.pin_diameter + chain.roller_diameter):.4g}")
     case.take("chain.bush_diameter_mm", mean, "mean of pin and roller")
     return mean
-
-
-def _joint(case: ChainRecord, chain: Chain, layout: DriveLayout | LoopLayout) -> JointInput:
-    table = case.tables.joint or JointTable()
-    if table.pitch is None:
-        case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
-    limit = case.tables.stop.elongation_percent
-    if limit is None:
-        fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
-        most = 1.5 if fixed else 3.0
-        limit = float(f"{min(most, 200.0 / max(layout.all_teeth)):.4g}")
-        why = f"{most:g} %{' as nothing takes up' if fixed else ''}, or 200 % over the larger number of teeth"
-        case.take("stop.elongation_percent", limit, why)
-    coefficient, low, high = _joint_rates(case, table.specific_wear_rate_mm2_per_N)
-    return JointInput(
-        coefficient=coefficient,
-        low=low,
-        high=high,
-        bearing_area=chain.bearing_area,
-        alternating=_alternating(case),
-        elongation_limit=0.01 * limit,
-    )
-
-
-def _joint_rates(case: ChainRecord, given: float | None) -> tuple[float, float | None, float | None]:
-    """Return the wear rate of the joints and its band: the user's, or that of the state of the teeth."""
-    name = case.tables.wear.condition
-    state = wear_conditions()[name or WELL_LUBRICATED]
-    if given is None:
-        of = f"wear condition {name!r}" if name else f"as in {state.condition!r}, none is named"
-        case.take(
-            JOINT_COEFFICIENT,
-            state.joint_typical,
-            f"{of}: {state.joint_low:g} to {state.joint_high:g}; {state.joint_source}",
-        )
-        return state.joint_typical, state.joint_low, state.joint_high
-    if name is not None:
-        _warn_of_joint_rate(case, state, given)
-    return given, None, None
-
-
-def _warn_of_joint_rate(case: ChainRecord, state: WearCondition, given: float) -> None:
-    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
-    of = {state.machine, "any"} if state.machine != "any" else {"any"}
-    alike = [
-        row for row in wear_conditions().values() if row.lubricated == state.lubricated and row.machine in of
-    ]
-    low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
-    if given <= high if state.lubricated else given >= low:
-        return
-    kinds = ("dry or contaminated", "lubricated")
-    case.warnings.append(
-        f"wear.condition = {state.condition!r} contradicts joint.specific_wear_rate_mm2_per_N = "
-        f"{given:g}: the teeth are {kinds[state.lubricated]}, and joints in that state have {low:g} to "
-        f"{high:g} mm2/N; this is a rate of {kinds[not state.lubricated]} joints: remove it, which takes "
-        f"{state.joint_typical:g}, or name another condition"
-    )

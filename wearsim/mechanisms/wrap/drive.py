@@ -1,8 +1,8 @@
 """A chain around a sprocket: gap, layout and loads, and what the rest of wearsim asks of them."""
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heav
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
+from wearsim.chain.joint_wear import JointLaw, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.selection import RatedDrive, RatingFinding
@@ -25,6 +26,7 @@ from wearsim.geometry.roller_path import RollerPath, roller_path
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
+from wearsim.input.schema.drive_tables import JOINT_LAW_KEYS
 from wearsim.mechanisms.wrap.chain_rating import (
     drive_notes,
     elongation_finding,
@@ -42,20 +44,35 @@ if TYPE_CHECKING:
 LIGHT_CHAIN = "085-1"
 """Designation of no. 41, the light chain of 12.7 mm pitch."""
 
+CONSTANT, PRESSURE_SPEED = "constant", "pressure_speed"
+"""Laws by which joints wear, rows of the registry of wear laws."""
+
 JOINT_COEFFICIENT = "joint.specific_wear_rate_mm2_per_N"
+
+
+def law_keys(law: JointLaw) -> dict[str, float | str]:
+    """Return the keys of [joint] that give a law of the joints beside its coefficient."""
+    if law.is_constant:
+        return {"joint.law": CONSTANT}
+    numbers = astuple(law)[1:]
+    keys = (f"joint.{key}" for key in JOINT_LAW_KEYS)
+    return {"joint.law": PRESSURE_SPEED, **dict(zip(keys, numbers, strict=True))}
 
 
 @dataclass(frozen=True)
 class JointInput:
     """Wear of the chain's joints."""
 
-    coefficient: float  # specific wear rate of pin and bush together [mm2/N]
-    # low, high: ends of its band [mm2/N]; none for that of a user, who gives a single number
-    low: float | None
-    high: float | None
+    law: JointLaw  # specific wear rate of pin and bush together
+    band: WearBand  # of its coefficient
     bearing_area: float  # projected area of pin in bush [mm2]
     alternating: bool  # whether wear lengthens every other link only, as it does
     elongation_limit: float  # relative elongation at which the chain's life ends
+
+    @property
+    def coefficient(self) -> float:
+        """Specific wear rate at the reference of the law [mm2/N]."""
+        return self.law.coefficient
 
 
 @dataclass(frozen=True)
@@ -68,6 +85,8 @@ class WrapLoad(LoadBlock):
     # tensions of the spans on both sides of every wheel on which joints turn, this sprocket first, then
     # `WrapDrive.mates` [N]
     turns: tuple[tuple[float, float], ...]
+    # what speed and pitch make of the wear rate of the joints where they turn on each of these wheels
+    turning_factors: tuple[float, ...]
     spans: tuple[
         float, ...
     ]  # tension of the span after each wheel of the loop, of two the driver's first [N]
@@ -116,13 +135,14 @@ class WrapDrive(Drive):
         """That of the joints."""
         return {JOINT_COEFFICIENT: self.joint.coefficient}
 
+    @property
+    def wear_settings(self) -> Mapping[str, float | str]:
+        """Law of the joints, by the keys of [joint]."""
+        return law_keys(self.joint.law)
+
     def wear_band(self, part: str, wear: WearInput) -> WearBand:
-        """Of the chain that of its joints where they have one of their own, else that of the teeth."""
-        joint = self.joint
-        if part != "chain" or joint.low is None or joint.high is None:
-            return WearBand(wear.low, wear.high, f"{wear.band}, of teeth and joints alike")
-        source = f"specific wear rate of the joints {joint.low:g} to {joint.high:g} mm2/N"
-        return WearBand(joint.low / joint.coefficient, joint.high / joint.coefficient, source)
+        """Return that of the joints for the chain, that of the teeth for the sprocket."""
+        return self.joint.band if part == "chain" else super().wear_band(part, wear)
 
     @property
     def heaviest(self) -> WrapLoad:
@@ -277,7 +297,7 @@ class WrapDrive(Drive):
             block.share
             * elongation_per_loop(
                 block.joint_factor * joint.coefficient,
-                [self._joint_pressures(block, spans) for spans in block.turns],
+                self._joint_pressures(block),
                 self.chain.pin_diameter,
                 self.chain.pitch,
                 (own / self.time_share, *self.mates),
@@ -307,11 +327,18 @@ class WrapDrive(Drive):
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
         )
 
-    def _joint_pressures(self, block: WrapLoad, spans: tuple[float, float]) -> tuple[float, float]:
-        """Pressure in the joints where they turn onto a wheel and off it [MPa]."""
-        on, off = spans
-        area = self.joint.bearing_area
-        return (on + block.centrifugal) / area, (off + block.centrifugal) / area
+    def _joint_pressures(self, block: WrapLoad) -> list[tuple[float, float]]:
+        """Pressures in the joints where they turn onto wheels and off, times what their law says [MPa]."""
+        law, area = self.joint.law, self.joint.bearing_area
+
+        def weighted(span: float, turning: float) -> float:
+            pressure = (span + block.centrifugal) / area
+            return pressure * law.pressure_factor(pressure) * turning
+
+        return [
+            (weighted(on, turning), weighted(off, turning))
+            for (on, off), turning in zip(block.turns, block.turning_factors, strict=True)
+        ]
 
     def gap_limits(self, case: Case, path: RollerPath) -> tuple[StopLimit, ...]:
         """Return the limits of a worn gap whose roller takes a path, the critical depth first."""
@@ -437,50 +464,3 @@ def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str
     if not isinstance(case.drive, WrapDrive):
         raise CaseError([Fault(message, key, where or case.name)])
     return case.drive
-
-
-def elongation_per_loop(
-    specific_wear_rate: float,
-    pressures: Sequence[tuple[float, float]],
-    pin_diameter: float,
-    pitch: float,
-    teeth: Sequence[float],
-) -> float:
-    """Return how much a chain grows in one loop around its sprockets.
-
-    A joint turns by 2 pi/z where it comes onto a sprocket and where it leaves it, each time under the
-    tension of that span. Its pin slides pi d2/z each time, so Archard's law gives
-    d(eps)/d(loop) = k pi d2/p sum over sprockets of (p_in + p_out)/z. For two sprockets that is equation
-    (4.1) of the reference with its slack part.
-
-    Equation physics.md (E1).
-
-    Parameters
-    ----------
-    specific_wear_rate : float
-        k of pin and bush together [mm2/N].
-    pressures : sequence of tuple of float
-        At each sprocket, tension of the spans on both sides over the bearing area [MPa].
-    pin_diameter : float
-        d2 [mm].
-    pitch : float
-        p [mm].
-    teeth : sequence of float
-        z of each, rollers per turn.
-
-    Returns
-    -------
-    float
-        Relative elongation per loop.
-
-    Examples
-    --------
-    1e-9 mm2/N at 20 MPa over pi 5 (1/20 + 1/20) mm on a pitch of 10 mm:
-
-    >>> spans = [(20.0, 0.0), (0.0, 20.0)]
-    >>> round(elongation_per_loop(1e-9, spans, 5.0, 10.0, (20, 20)) / (1e-9 * math.pi), 12)
-    1.0
-    """
-    first = sum(pressures[0])
-    turned = sum(sum(pair) / first / z for pair, z in zip(pressures, teeth, strict=True))
-    return specific_wear_rate * first * (math.pi * pin_diameter * turned) / pitch

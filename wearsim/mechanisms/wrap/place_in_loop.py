@@ -9,6 +9,8 @@ from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
+from wearsim.chain.drive_layout import DriveLayout
+from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_forces import LoopForces, SpanLevel
 from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_from
 from wearsim.chain.span_tension import centrifugal_tension
@@ -148,7 +150,7 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
 
 
 def loop_loads(
-    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty
+    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty, law: JointLaw
 ) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
     """Return the blocks of the duty and the rated loads with the tensions on both sides of the sprocket."""
     table = case.tables.drive or DriveTable()
@@ -191,7 +193,10 @@ def loop_loads(
     if not within_strength(case, strained, chain, key):
         return None
     blocks, ratings = (
-        tuple(_block(layout, load, forces) for load, forces in zip(loads, of, strict=True))
+        tuple(
+            _block(layout, load, forces, turning_factor(case, chain, layout, load, law))
+            for load, forces in zip(loads, of, strict=True)
+        )
         for loads, of in ((duty.blocks, found), (duty.rated, rated))
     )
     return blocks, ratings
@@ -219,7 +224,15 @@ def _shares(layout: LoopLayout, given: Mapping[str, float]) -> tuple[float, ...]
     )
 
 
-def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces) -> WrapLoad:
+def turning_factor(
+    case: ChainRecord, chain: Chain, layout: DriveLayout | LoopLayout, load: GivenLoad, law: JointLaw
+) -> float:
+    """Return what the joints' law says of the speed of the smallest sprocket that drives or is driven."""
+    small = 60.0 * chain_speed(case, chain, load) / (chain.pitch * min(layout.rated_teeth))
+    return law.turning_factor(small, chain.pitch)
+
+
+def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces, turning: float) -> WrapLoad:
     arriving, leaving = forces.arriving.tolist(), forces.tensions.tolist()
     own = layout.wheel
     order = [own, *(i for i in range(len(leaving)) if i != own)]
@@ -235,5 +248,6 @@ def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces) -> WrapLoad:
         pull=pull,
         base=max(leaving) - pull,
         turns=tuple((arriving[i], leaving[i]) for i in order),
+        turning_factors=(turning,) * len(order),
         spans=tuple(leaving),
     )

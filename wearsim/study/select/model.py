@@ -8,11 +8,12 @@ from itertools import product
 
 from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
+from wearsim.chain.joint_wear import JointState, elongation_per_loop, joint_band, joint_law
 from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError
-from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN, elongation_per_loop
+from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN
 from wearsim.study.select.considered_chains import considered_chains
 from wearsim.study.select.requirements import DriveRequirements
 
@@ -220,17 +221,27 @@ def chain_life(
     --------
     One loop a second that grows by 1e-9 pi of the chain; 3 % after 0.03/(3.6e-6 pi) h:
 
-    >>> need = DriveRequirements(1.0, 240.0, 1.0, 1.0, joint_rate=1e-9, joint_rate_high=1e-9,
-    ...                          joint_rate_low=1e-9)
+    >>> from dataclasses import replace
+    >>> from wearsim.catalogue.catalogues import wear_conditions
+    >>> dry = replace(wear_conditions()["hardened, dry"], joint_typical=1e-9)  # wears alike at every speed
+    >>> need = DriveRequirements(1.0, 240.0, 1.0, 1.0, joints=dry)
     >>> chain = Chain("", 10.0, 6.0, 6.0, pin_diameter=5.0)
     >>> layout = layout_with_links(10.0, 20, 20, 80)
     >>> round(chain_life(need, chain, layout, (20.0, 0.0)) * 3.6e-6 * math.pi, 12)
     0.03
     """
     teeth = layout.teeth_1, layout.teeth_2
-    growth = elongation_per_loop(need.joint_rate, [pressures] * 2, chain.pin_diameter, chain.pitch, teeth)
+    law, tight, slack = joint_law(need.joints), *pressures
+    turning = law.turning_factor(_small_speed(need, layout), chain.pitch)
+    weighted = tight * law.pressure_factor(tight) * turning, slack * law.pressure_factor(slack) * turning
+    growth = elongation_per_loop(law.coefficient, [weighted] * 2, chain.pin_diameter, chain.pitch, teeth)
     loops = 60.0 * need.speed * layout.teeth_1 / layout.links
     return elongation_limit(max(teeth)) / (growth * loops)
+
+
+def _small_speed(need: DriveRequirements, layout: DriveLayout) -> float:
+    """Return the speed of the smaller sprocket, whose chain speed is that of either one [rpm]."""
+    return need.speed * layout.teeth_1 / min(layout.teeth_1, layout.teeth_2)
 
 
 def _judged(
@@ -239,8 +250,7 @@ def _judged(
     """Return a drive of a chain on two numbers of teeth, the smaller one first."""
     small, large = pair
     layout = _layout(need, chain.pitch, *(pair if need.ratio >= 1.0 else (large, small)))
-    # The chain's speed is that of either sprocket.
-    rated_speed = need.speed * layout.teeth_1 / small
+    rated_speed = _small_speed(need, layout)
     slack = catenary_tension(chain.mass_per_length, layout.span, SAG)
     speed = layout.chain_speed(2.0 * math.pi * need.speed / 60.0)
     centrifugal = centrifugal_tension(chain.mass_per_length, speed)
@@ -260,6 +270,8 @@ def _judged(
     tight = rated.pull + slack + centrifugal
     pressures = (tight / chain.bearing_area, (slack + centrifugal) / chain.bearing_area)
     life = chain_life(need, chain, layout, pressures)
+    state = JointState(pressures[0], rated_speed, chain.pitch)
+    band = joint_band(joint_law(need.joints), need.joints, state)
     tip = standard_tip_diameter(chain, large)
     links, blanks = drive_mass(chain, layout)
     price = None if prices is None else prices[chain.designation]
@@ -272,8 +284,8 @@ def _judged(
         pull=rated.pull,
         findings=findings,
         life=life,
-        life_low=life * need.joint_rate / need.joint_rate_high,
-        life_high=life * need.joint_rate / need.joint_rate_low,
+        life_low=life / band.high,
+        life_high=life / band.low,
         tip_diameter=tip,
         mass=links + blanks,
         cost=None if price is None else price.of(layout.links * layout.pitch, blanks),

@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
+from wearsim.catalogue.catalogues import WearCondition, wear_conditions
 from wearsim.errors import CaseError, Fault, Range
 
 SERIES = {"A": "ISO606-A/ANSI B29.1", "B": "ISO606-B", "H": "ISO606-H", "GOST": "GOST13568"}
@@ -19,7 +20,6 @@ A chain rides higher on more teeth: by 200/z % of elongation it is worn out, 1.6
 _LENGTH = Range(above=0.0, most=1e6, optional=True)
 _TEETH = Range(least=9, most=MOST_TEETH, whole=True)
 _STRANDS = Range(least=1, most=3, whole=True)
-_RATE = Range(above=0.0, most=1e-3)
 
 _RANGES: dict[str, tuple[Range, str]] = {
     "power": (Range(above=0.0, most=1e5), "give the power in kW, or with its unit"),
@@ -28,9 +28,6 @@ _RANGES: dict[str, tuple[Range, str]] = {
     "hours": (Range(above=0.0, most=1e7), "give the running hours that the chain must live"),
     "service_factor": (Range(least=1.0, most=10.0), "give f1 of ISO 10823"),
     "joint_application_factor": (Range(least=0.5, most=10.0), "give K_e of GOST practice"),
-    "joint_rate": (_RATE, "give the specific wear rate of the joints in mm2/N"),
-    "joint_rate_low": (_RATE, "give the low end of the joints' wear rate in mm2/N"),
-    "joint_rate_high": (_RATE, "give the high end of the joints' wear rate in mm2/N"),
     "centre": (_LENGTH, "give the distance of the shafts in mm"),
     "centre_min": (_LENGTH, "give the least distance of the shafts in mm"),
     "centre_max": (_LENGTH, "give the greatest distance of the shafts in mm"),
@@ -44,6 +41,9 @@ _RANGES: dict[str, tuple[Range, str]] = {
 """What a number may be, and what to do where it is not."""
 
 _OPTIONAL = ("centre", "centre_min", "centre_max", "max_diameter")
+
+USUAL_CONDITION = "hardened, oiled"
+"""Wear condition whose joints a chain has where none is named."""
 
 _NOTHING_LOST = 1e-9
 """Part of a tooth by which rounding may move a bound."""
@@ -71,9 +71,8 @@ class DriveRequirements:
     hours: float  # that the chain must live [h]
     service_factor: float = 1.0  # f1 on the power
     joint_application_factor: float = 1.0  # K_e on the joint pressure
-    joint_rate: float = 1.2e-10  # specific wear rate of pin and bush together [mm2/N]
-    joint_rate_low: float = 9e-11  # ends of its band [mm2/N]
-    joint_rate_high: float = 1.5e-10
+    # how pin and bush wear
+    joints: WearCondition = field(default_factory=lambda: wear_conditions()[USUAL_CONDITION])
     centre: float | None = None  # distance of the shafts [mm]
     centre_min: float | None = None  # bounds of it where it may be chosen [mm]
     centre_max: float | None = None
@@ -146,13 +145,7 @@ def _shown(value: Any) -> str:
 
 def _in_order(sound: Mapping[str, Any]) -> list[Fault]:
     """Return the pairs of bounds of which the lower one lies above the upper one."""
-    pairs = (
-        ("centre_min", "centre_max"),
-        ("teeth_min", "teeth_max"),
-        ("strands_min", "strands_max"),
-        ("joint_rate_low", "joint_rate"),
-        ("joint_rate", "joint_rate_high"),
-    )
+    pairs = (("centre_min", "centre_max"), ("teeth_min", "teeth_max"), ("strands_min", "strands_max"))
     return [
         Fault(f"must be at least {low} (got {sound[high]:g} and {sound[low]:g}): exchange them", high)
         for low, high in pairs

@@ -227,8 +227,9 @@ def _assumptions(answer: SelectionAnswer) -> tuple[str, ...]:
     return (
         f"service factor {need.service_factor:g} on the power, smooth driver; joint application factor "
         f"{need.joint_application_factor:.4g} on the joint pressure, shafts that can be moved",
-        f"chain life by wear of its joints at {need.joint_rate:g} mm2/N ({need.joint_rate_low:g} to "
-        f"{need.joint_rate_high:g}), to 3 % or 200 % over the larger number of teeth",
+        f"chain life by wear of its joints, condition {need.joints.condition!r} "
+        f"({need.joints.joint_typical:g} mm2/N at {need.joints.joint_reference_pressure:g} MPa and "
+        f"{need.joints.joint_reference_speed:g} rpm), to 3 % or 200 % over the larger number of teeth",
         f"strands share the load alike; slack span sags by {100 * SAG:g} %",
         centre,
         f"at most {MOST_TEETH} teeth and at least {math.degrees(LEAST_WRAP):.0f} degrees of wrap, as "

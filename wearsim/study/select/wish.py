@@ -66,14 +66,11 @@ def read_wish(texts: Mapping[str, str | None], price: Path | None) -> Wish:
             faults += error.faults
     if faults or service is None:
         raise CaseError(faults)
-    joints = wear_conditions()[service.wear_condition]
     need = DriveRequirements(
         **given,
         service_factor=service.service_factor,
         joint_application_factor=service.joint_application_factor,
-        joint_rate=joints.joint_typical,
-        joint_rate_low=joints.joint_low,
-        joint_rate_high=joints.joint_high,
+        joints=wear_conditions()[service.wear_condition],
     )
     use = f"{words[0]}, {words[1]} load, {hours_per_day:g} h a day"
     return Wish(need, service, hours_per_day, use, prices)

@@ -8,15 +8,15 @@ from typing import Any
 
 from wearsim.case.input_lines import input_lines
 from wearsim.case.model import Case
-from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import CaseSource, Document, GivenInput, read_document
 from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.kernels.compiled import expect
-from wearsim.mechanisms.wrap.build import WELL_LUBRICATED, read
+from wearsim.mechanisms.wrap.build import read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
+from wearsim.mechanisms.wrap.joints import WELL_LUBRICATED
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.notebook import html_rows, one_line
 from wearsim.quantities import DAYS_OF_YEAR
@@ -247,7 +247,7 @@ def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: i
             mates = (*drive.mates, *rollers[:cog], *rollers[cog + 1 :])
         loads = [
             tuple(
-                replace(load, turns=_turns([getattr(of, kind)[i] for of in cogs], shares, cog, wheel, place))
+                _shared(load, [getattr(of, kind)[i] for of in cogs], shares, cog, (wheel, place))
                 for i, load in enumerate(getattr(drive, kind))
             )
             for kind in ("blocks", "rated")
@@ -266,6 +266,23 @@ def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: i
         )
         found.append(replace(one, case=case))
     return found
+
+
+def _shared(
+    load: WrapLoad, on_cogs: Sequence[WrapLoad], shares: Sequence[float], cog: int | None, at: tuple[int, int]
+) -> WrapLoad:
+    """Return a load of a cog, or of another sprocket in its place, while the chain changes between cogs."""
+    turns = _turns(on_cogs, shares, cog, *at)
+    of_cogs = [on.turning_factors[0] for on in on_cogs]
+    turned = (share * factor for share, factor in zip(shares, of_cogs, strict=True))
+    mean = math.fsum(turned) / math.fsum(shares)
+    # In the order of the tensions: the others turn with the cog that is in use.
+    others = (mean,) * (len(on_cogs[0].turns) - 1)
+    if cog is None:
+        factors = (*others, *of_cogs)
+    else:
+        factors = (of_cogs[cog], *others, *of_cogs[:cog], *of_cogs[cog + 1 :])
+    return replace(load, turns=turns, turning_factors=factors)
 
 
 def _turns(
@@ -378,11 +395,8 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
         # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
-        condition = table_of({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
-        state = wear_conditions().get(condition or WELL_LUBRICATED)
-        if state is not None:
-            rate = {"specific_wear_rate_mm2_per_N": state.joint_typical}
-            tables["joint"] = {**rate, **table_of(data, "joint")}
+        of_drive = table_of({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        tables["joint"] = {"condition": of_drive or WELL_LUBRICATED, **table_of(data, "joint")}
     if wheel.place.price is not None:
         tables["maintenance"] = {**table_of(data, "maintenance"), "sprocket_price": wheel.place.price}
     if "material" in wheel.own:

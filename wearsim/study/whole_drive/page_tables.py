@@ -7,7 +7,7 @@ from typing import Any
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.errors import CaseError, GeometryError
-from wearsim.mechanisms.wrap.drive import JointInput
+from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
 from wearsim.report.answer import hours
 from wearsim.report.service import service_measures
@@ -217,10 +217,13 @@ def lubrication_rows(found: DriveLife) -> list[tuple[str, str]]:
 
 
 def _joint_wear(joint: JointInput) -> str:
-    text = f"{joint.coefficient:.3g} mm2/N"
-    if joint.low is None or joint.high is None:
+    law, band = joint.law, joint.band
+    text = f"{law.coefficient:.3g} mm2/N, band {band.low:.3g} to {band.high:.3g} times"
+    if law.is_constant:
         return text
-    return f"{text}, band {joint.low:.3g} to {joint.high:.3g} mm2/N"
+    return (
+        f"{text}; at {law.reference_pressure:g} MPa and {law.reference_speed:g} rpm, law {PRESSURE_SPEED!r}"
+    )
 
 
 def life_table(found: DriveLife) -> PageTable:

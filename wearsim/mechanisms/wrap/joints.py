@@ -1,0 +1,181 @@
+"""The table [joint]: by which law pin and bush wear, how surely, and when the chain has grown enough."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import astuple
+
+from wearsim.case.model import WearBand
+from wearsim.case.table_inputs import DEFAULT_BAND
+from wearsim.catalogue.catalogues import Chain, Environment, WearCondition, environments, wear_conditions
+from wearsim.chain.drive_layout import DriveLayout
+from wearsim.chain.joint_wear import JointLaw, JointState, joint_band, joint_law
+from wearsim.chain.loop_layout import LoopLayout
+from wearsim.input.case_record import ChainRecord
+from wearsim.input.schema import JointTable
+from wearsim.input.schema.drive_tables import JOINT_LAW_KEYS
+from wearsim.mechanisms.wrap.drive import (
+    CONSTANT,
+    JOINT_COEFFICIENT,
+    PRESSURE_SPEED,
+    JointInput,
+    WrapLoad,
+    law_keys,
+)
+
+WELL_LUBRICATED = "hardened, oiled"
+"""Wear condition whose joints a drive has where its case names none."""
+
+
+def alternates(case: ChainRecord) -> bool:
+    """Return whether joint wear lengthens every other link only."""
+    return _table(case).pitch != "uniform"
+
+
+def joint_law_of(case: ChainRecord) -> JointLaw:
+    """Return the law of the joints: of the wear condition, of the user, or of both."""
+    table, of_condition = _table(case), joint_law(_condition(case))
+    coefficient = table.specific_wear_rate_mm2_per_N
+    if table.law == CONSTANT or (table.law is None and coefficient is not None):
+        return JointLaw(coefficient or of_condition.coefficient)
+    own = [getattr(table, key) for key in JOINT_LAW_KEYS]
+    known = astuple(of_condition)[1:]
+    numbers = [known[i] if value is None else value for i, value in enumerate(own)]
+    return JointLaw(coefficient or of_condition.coefficient, *numbers)
+
+
+def joint_input(
+    case: ChainRecord,
+    chain: Chain,
+    layout: DriveLayout | LoopLayout,
+    law: JointLaw,
+    blocks: Sequence[WrapLoad],
+) -> JointInput:
+    """Return how the joints of a chain under a duty wear; what is taken goes to the record."""
+    if _table(case).pitch is None:
+        case.take("joint.pitch", "alternating", "joint wear lengthens the outer links only")
+    limit = case.tables.stop.elongation_percent
+    if limit is None:
+        limit = _usual_elongation(case, layout)
+    state = joint_state(chain, blocks, own_teeth=_rollers(case), small=min(layout.rated_teeth))
+    return JointInput(
+        law=law,
+        band=_band(case, law, state),
+        bearing_area=chain.bearing_area,
+        alternating=alternates(case),
+        elongation_limit=0.01 * limit,
+    )
+
+
+def joint_state(chain: Chain, blocks: Sequence[WrapLoad], own_teeth: float, small: int) -> JointState:
+    """Return where the joints run: in the tightest span, means over the duty weighted by what wears them."""
+    pressures = [(max(block.spans) + block.centrifugal) / chain.bearing_area for block in blocks]
+    weights = [block.share * pressure for block, pressure in zip(blocks, pressures, strict=True)]
+    speeds = [block.speed_rpm * own_teeth / small for block in blocks]
+    whole = math.fsum(weights)
+    pressure, speed = (
+        math.fsum(weight * value for weight, value in zip(weights, values, strict=True)) / whole
+        for values in (pressures, speeds)
+    )
+    return JointState(pressure, speed, chain.pitch)
+
+
+def _table(case: ChainRecord) -> JointTable:
+    return case.tables.joint or JointTable()
+
+
+def _named(case: ChainRecord) -> str | None:
+    """Return the wear condition of the joints where one is named, which is that of the teeth by default."""
+    return _table(case).condition or case.tables.wear.condition
+
+
+def _condition(case: ChainRecord) -> WearCondition:
+    return wear_conditions()[_named(case) or WELL_LUBRICATED]
+
+
+def _rollers(case: ChainRecord) -> float:
+    sprocket = case.tables.sprocket
+    assert sprocket is not None
+    return sprocket.teeth / sprocket.engaged_every
+
+
+def _usual_elongation(case: ChainRecord, layout: DriveLayout | LoopLayout) -> float:
+    fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
+    most = 1.5 if fixed else 3.0
+    limit = float(f"{min(most, 200.0 / max(layout.all_teeth)):.4g}")
+    why = f"{most:g} %{' as nothing takes up' if fixed else ''}, or 200 % over the larger number of teeth"
+    case.take("stop.elongation_percent", limit, why)
+    return limit
+
+
+def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
+    """Return the band of the rate: of a user's what the user says of it, else of its condition there."""
+    table, condition = _table(case), _condition(case)
+    given = table.specific_wear_rate_mm2_per_N
+    if given is None:
+        _say_law(case, law, condition, state)
+    else:
+        _say_own_law(case, law, condition)
+    if table.band_factor is not None or given is not None:
+        factor = table.band_factor or DEFAULT_BAND
+        if table.band_factor is None:
+            case.take("joint.band_factor", factor, "the rate of the joints is the user's")
+        return WearBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
+    known = _named(case) is not None
+    return WearBand(*joint_band(law, condition, state, known, _environment(case)))
+
+
+def _environment(case: ChainRecord) -> Environment | None:
+    table = case.tables.lubrication
+    return None if table is None or table.environment is None else environments()[table.environment]
+
+
+def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:
+    """Record the rate of a condition, and what its law makes of it on this drive."""
+    name = repr(condition.condition)
+    of = f"wear condition {name}" if _named(case) else f"as in {name}, none is named"
+    ends = f"{condition.joint_low:g} to {condition.joint_high:g}"
+    case.take(JOINT_COEFFICIENT, law.coefficient, f"{of}: {ends}; {condition.joint_source}")
+    case.inputs["joint"] |= {key.partition(".")[2]: value for key, value in law_keys(law).items()}
+    if not law.is_constant:
+        case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
+
+
+def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition) -> None:
+    if _named(case):
+        _warn_of_rate(case, condition, law.coefficient)
+    if law.is_constant:
+        case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
+    else:
+        case.inputs["joint"] |= {key.partition(".")[2]: value for key, value in law_keys(law).items()}
+        case.assumptions.append(_law_in_words(law))
+
+
+def _law_in_words(law: JointLaw) -> str:
+    return (
+        f"joint wear by {PRESSURE_SPEED!r}: {law.coefficient:g} mm2/N at {law.reference_pressure:.4g} MPa, "
+        f"{law.reference_speed:.4g} rpm and {law.reference_pitch:.4g} mm pitch, with "
+        f"pressure^{law.pressure_exponent - 1.0:.3g}, speed^-{law.speed_exponent:.3g} and "
+        f"pitch^{law.pitch_exponent:.3g}"
+    )
+
+
+def _at(state: JointState) -> str:
+    return f"at {state.pressure:.3g} MPa and {state.speed:.4g} rpm"
+
+
+def _warn_of_rate(case: ChainRecord, state: WearCondition, given: float) -> None:
+    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
+    of = {state.machine, "any"} if state.machine != "any" else {"any"}
+    alike = [
+        row for row in wear_conditions().values() if row.lubricated == state.lubricated and row.machine in of
+    ]
+    low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
+    if given <= high if state.lubricated else given >= low:
+        return
+    kinds = ("dry or contaminated", "lubricated")
+    case.warnings.append(
+        f"wear.condition = {state.condition!r} contradicts joint.specific_wear_rate_mm2_per_N = "
+        f"{given:g}: the teeth are {kinds[state.lubricated]}, and joints in that state have {low:g} to "
+        f"{high:g} mm2/N; this is a rate of {kinds[not state.lubricated]} joints: remove it, which takes "
+        f"{state.joint_typical:g}, or name another condition"
+    )
