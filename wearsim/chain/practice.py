@@ -130,79 +130,27 @@ def _by_handbook(drive: PracticeDrive, pressure: float) -> float | str:
     return 91_500.0 * load * path * 100.0 * RATED_ELONGATION
 
 
-_KINEMATICS = "X/120 (i/(i+1))/0.75"
-_VOROBYEV = (
-    "{} dt K_sp sqrt(z1) cbrt(a_p i)/(p v^(5/6)), dt = 3 %; K_sp 1.2 to 1.5 m/s, 1.5 to 3 m/s, 2.5 above"
-)
-_VOROBYEV_VALID = f"roller chains of drives, about {_SLOWEST:g} to {_FASTEST:g} m/s"
-_GOST_VALID = "12.7 to 50.8 mm, up to the last speed of each column, 1 to 3 strands"
-_GOST_SOURCE = "[p] of GOST practice (Dunaev, Ivanov); exponent {} after Reshetov for {} lubrication"
-_UNVERIFIED = "constants unverified"
+_HOURS: dict[str, Callable[[PracticeDrive, float], float | str]] = {
+    "rating rule": _by_rating,
+    "Vorobyev 4350": _by_vorobyev(4350.0),
+    "Vorobyev 5200": _by_vorobyev(5200.0),
+    "handbook cube law": _by_handbook,
+    "DIN 8195 pressure": _by_din,
+    "GOST pressure, m = 3": _by_gost(3.0),
+    "GOST pressure, m = 1.5": _by_gost(1.5),
+}
 
-RULES: tuple[PracticeRule, ...] = (
+RULES: tuple[PracticeRule, ...] = tuple(
     PracticeRule(
-        "rating rule",
-        "rating",
-        f"T = 15000 (P_rating/(K P))^3 {_KINEMATICS}",
-        f"pitch up to {LARGEST_PITCH:g} mm, 1 to 6 strands; A series, others by the A chain of that pitch",
-        "ANSI B29.1 H1, H2 and ISO 10823 for 15 000 h to 3 %; cube as in f5 of DIN 8195",
-        "anchored",
-        _by_rating,
-    ),
-    PracticeRule(
-        "Vorobyev 4350",
-        "Vorobyev",
-        f"T = {_VOROBYEV.format(4350)}",
-        _VOROBYEV_VALID,
-        "Vorobyev, Chain transmissions; course books after him",
-        _UNVERIFIED,
-        _by_vorobyev(4350.0),
-    ),
-    PracticeRule(
-        "Vorobyev 5200",
-        "Vorobyev",
-        f"T = {_VOROBYEV.format(5200)}",
-        _VOROBYEV_VALID,
-        "Vorobyev with the constant of later course books",
-        _UNVERIFIED,
-        _by_vorobyev(5200.0),
-    ),
-    PracticeRule(
-        "handbook cube law",
-        "handbook",
-        "T = 91500 (c1 c2 c3/p)^3 X/v z1 i/(i+1) dt p_ch/(3.2 d2), dt = 3 %; c1 c3 = 0.9",
-        "pitch 9.525 to 63.5 mm",
-        "Chinese Mechanical Design Handbook; c1 c3 set to 15 000 h at the rating of no. 40",
-        _UNVERIFIED,
-        _by_handbook,
-    ),
-    PracticeRule(
-        "DIN 8195 pressure",
-        "DIN",
-        f"T = 15000 (p_v/p)^3 {_KINEMATICS}",
-        f"{_SLOWEST:g} to {_FASTEST:g} m/s",
-        "p_v of DIN 8195 and the handbook of iwis; cube as in f5 of DIN 8195",
-        _UNVERIFIED,
-        _by_din,
-    ),
-    PracticeRule(
-        "GOST pressure, m = 3",
-        "GOST",
-        "T = 10000 ([p]/p)^3",
-        _GOST_VALID,
-        _GOST_SOURCE.format("3", "ample"),
-        "hours assumed",
-        _by_gost(3.0),
-    ),
-    PracticeRule(
-        "GOST pressure, m = 1.5",
-        "GOST",
-        "T = 10000 ([p]/p)^1.5",
-        _GOST_VALID,
-        _GOST_SOURCE.format("1.5", "scant"),
-        "hours assumed",
-        _by_gost(1.5),
-    ),
+        row["rule"],
+        row["school"],
+        row["formula"],
+        row["range"],
+        row["source"],
+        row["trust"],
+        _HOURS[row["rule"]],
+    )
+    for row in catalogue_rows("practice_rules")
 )
 """The rules in the order of `opinions`."""
 
