@@ -12,7 +12,12 @@ import pytest
 from wearsim.input.faults import known_keys
 
 DOCS = Path(__file__).parents[1] / "docs"
-PAGES = {"validated": "validation_page", "measured": "measured_page", "judged": "laws_page"}
+PAGES = {
+    "validated": "validation_page",
+    "measured": "measured_page",
+    "judged": "laws_page",
+    "practised": "practice_page",
+}
 """Name of a row that a test hands over, and the option and writer of its page."""
 
 
@@ -29,6 +34,11 @@ def pytest_addoption(parser):
     )
     parser.addoption(
         "--laws-page", metavar="FILE", help="write docs/laws.md to FILE from the tables of tests/laws"
+    )
+    parser.addoption(
+        "--practice-page",
+        metavar="FILE",
+        help="write docs/practice.md to FILE from the drives of tests/practice",
     )
 
 

@@ -1,0 +1,82 @@
+"""The page of published rules of chain wear life: the rules, and what the drives of its tests are printed as.
+
+The tests hand their drives over where pytest runs with ``--practice-page FILE``; see
+tests/conftest.py and the fixture ``on_page`` of tests/practice.
+"""
+
+import math
+import runpy
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from wearsim.catalogue.catalogues import catalogue_rows
+
+HERE = Path(__file__).parent
+HEAD = HERE / "practice_head.md"
+
+RULES = ("rule", "formula", "range", "source", "trust")
+DRIVES = ("no.", "drive", "chain", "teeth", "rpm", "m/s", "MPa")
+WITHIN = 2.5
+"""Factor of the mean within which the engine is counted."""
+
+table = runpy.run_path(str(HERE / "measured_page.py"))["table"]
+
+Row = tuple[str, int, Mapping[str, Any]]
+
+
+def thousands(hours: float | None) -> str:
+    """Hours in thousands, to three figures at most; empty for none."""
+    if hours is None:
+        return ""
+    digits = 0 if hours >= 99_950.0 else 1
+    return f"{1e-3 * hours:.{digits}f}"
+
+
+def cells(row: Mapping[str, Any]) -> list[str]:
+    """A drive as a row of the table."""
+    teeth = f"{row['teeth']}/{row['mate_teeth']}"
+    first = [str(row["no"]), row["drive"], row["chain"], teeth, f"{row['speed_rpm']:.0f}"]
+    first += [f"{row['speed_m_per_s']:.2f}", f"{row['pressure_MPa']:.1f}"]
+    hours = [thousands(hours) for hours in (*row["hours"].values(), row["mean"], row["engine"])]
+    return [*first, *hours, f"{ratio(row):.1f}"]
+
+
+def ratio(row: Mapping[str, Any]) -> float:
+    """Hours of the engine over the mean of the rules."""
+    return row["engine"] / row["mean"]
+
+
+def summary(rows: list[Mapping[str, Any]]) -> str:
+    """How far engine and single rules are from the mean, in words."""
+    ratios = sorted(map(ratio, rows))
+    near = sum(1.0 / WITHIN <= one <= WITHIN for one in ratios)
+    logs = [math.log(h / row["mean"]) for row in rows for h in row["hours"].values() if h is not None]
+    spread = math.exp(math.sqrt(sum(log**2 for log in logs) / len(logs)))
+    return (
+        f"Engine over mean: {ratios[0]:.1f} to {ratios[-1]:.1f}, median {ratios[len(ratios) // 2]:.1f}; within a factor of "
+        f"{WITHIN:g} on {near} of {len(rows)} drives. Single rules over mean: a factor of {spread:.1f} (root mean square)."
+    )
+
+
+def page(rows: Iterable[Row]) -> str:
+    """The whole page of drives as test, line of the test, and what the fixture recorded."""
+    drives = sorted((row for _, _, row in rows), key=lambda row: row["no"])
+    names = [f"{name} [1000 h]" for name in (*drives[0]["hours"], "mean", "engine")]
+    parts = {
+        "RULES": table(RULES, ([rule[key] for key in RULES] for rule in catalogue_rows("practice_rules"))),
+        "DRIVES": table([*DRIVES, *names, "engine over mean"], map(cells, drives)),
+        "SUMMARY": summary(drives),
+        "LIMITS": whole("recommended_lubrication"),
+        "FACTORS": whole("lubrication_life_factors"),
+    }
+    text = HEAD.read_text(encoding="utf-8")
+    for word, part in parts.items():
+        text = text.replace(f"\n{word}\n", f"\n{part}\n")
+    return text
+
+
+def whole(name: str) -> str:
+    """A table of the catalogue."""
+    rows = catalogue_rows(name)
+    return table(list(rows[0]), (list(row.values()) for row in rows))

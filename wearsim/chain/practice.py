@@ -1,0 +1,260 @@
+"""Wear life of a chain by the rules that the trade publishes: practice, not measurement.
+
+Handbooks and standards of four schools, each with hours of its own for a drive. They are second
+opinions beside a computed life: single rules scatter by a factor of 1.8 about their mean, and for
+most of them the constants were not checked against the printed page. Written in the handbooks'
+units: m/s, rpm, kW.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from wearsim.catalogue.catalogues import catalogue_rows
+from wearsim.chain.chain_length import handbook_centre
+from wearsim.chain.joint_pressure import allowable_joint_pressure
+from wearsim.chain.power_rating import power_rating, strand_factor
+from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
+from wearsim.chain.selection import LARGEST_PITCH, RatingFinding, rating_note
+from wearsim.errors import GeometryError
+
+RATED_HOURS = 15_000.0
+"""Hours to 3 % that ANSI, ISO 10823 and DIN 8195 rate a drive for."""
+
+GOST_HOURS = 10_000.0
+"""Hours to 3 % assumed behind the [p] of GOST practice; handbooks have 3000 to 10 000."""
+
+GREATEST_PRESSURE = 45.0
+"""Joint pressure above which no rule has been in use [MPa]; neither above twice [p]."""
+
+PRESSURE_VELOCITY = 110.0, 130.0
+"""Joint pressure times chain speed at which the pressures of DIN 8195 end [MPa m/s]."""
+
+NOT_WEAR_HOURS = 100_000.0
+"""Life above which wear is not what a chain ends by."""
+
+_RATED_LINKS, _RATED_RATIO = 120.0, 3.0
+_MOST_STRANDS_GOST = 3
+_SLOWEST, _FASTEST = 0.1, 10.0
+_HANDBOOK_CHARTS = 0.9
+"""c1 c3 of the cube law, for its charts: with it no. 40 lasts 15 000 h at its rating."""
+
+
+@dataclass(frozen=True)
+class PracticeRule:
+    """A published rule of wear life."""
+
+    name: str
+    school: str  # rules of one school differ in one constant
+    formula: str  # in plain text: T in h, p in MPa, v in m/s, powers in kW, lengths in mm
+    valid: str  # range in which it is used
+    source: str  # where it comes from
+    trust: str  # how well its constants are known
+    # hours to 3 % with the recommended lubrication, of the drive and its joint pressure with
+    # shocks [MPa]; or why there are none
+    hours: Callable[[PracticeDrive, float], float | str]
+
+
+@dataclass(frozen=True)
+class Opinion:
+    """Hours of a rule for a drive."""
+
+    rule: PracticeRule
+    hours: float | None  # to the elongation of the drive [h]; None outside the range of the rule
+    note: str = ""  # why there are no hours, or what limits their worth
+
+
+def _kinematics(drive: PracticeDrive) -> float:
+    """Life over that of 120 links and a ratio of 3: links by their number, joints by their angles."""
+    bends = (drive.ratio / (drive.ratio + 1.0)) / (_RATED_RATIO / (_RATED_RATIO + 1.0))
+    return drive.links / _RATED_LINKS * bends
+
+
+def _by_rating(drive: PracticeDrive, pressure: float) -> float | str:
+    if drive.pitch > LARGEST_PITCH:
+        return f"no rating above a pitch of {LARGEST_PITCH:g} mm"
+    rating = power_rating(drive.pitch, drive.teeth, drive.speed, drive.light)
+    carried = rating * strand_factor(drive.strands) / (drive.shock_factor * drive.power)
+    return RATED_HOURS * carried**3 * _kinematics(drive)
+
+
+def _by_din(drive: PracticeDrive, pressure: float) -> float | str:
+    if not _SLOWEST <= drive.chain_speed <= _FASTEST:
+        return f"p_v is tabled from {_SLOWEST:g} to {_FASTEST:g} m/s"
+    rows = catalogue_rows("din_joint_pressure")
+    speeds = [float(row["speed_m_per_s"]) for row in rows]
+    allowed = np.interp(drive.chain_speed, speeds, [float(row["pressure_MPa"]) for row in rows])
+    return RATED_HOURS * float(allowed / pressure) ** 3 * _kinematics(drive)
+
+
+def _by_gost(exponent: float) -> Callable[[PracticeDrive, float], float | str]:
+    def hours(drive: PracticeDrive, pressure: float) -> float | str:
+        if drive.strands > _MOST_STRANDS_GOST:
+            return f"m_p is tabled to {_MOST_STRANDS_GOST} strands"
+        allowed = allowable_joint_pressure(drive.pitch, drive.speed)
+        if allowed is None:
+            return f"[p] is not tabled for {drive.pitch:g} mm at {drive.speed:g} rpm"
+        return float(GOST_HOURS * (allowed / pressure) ** exponent)
+
+    return hours
+
+
+def _by_vorobyev(constant: float) -> Callable[[PracticeDrive, float], float | str]:
+    def hours(drive: PracticeDrive, pressure: float) -> float | str:
+        speed = drive.chain_speed
+        if not _SLOWEST <= speed <= _FASTEST:
+            return f"in use from about {_SLOWEST:g} to {_FASTEST:g} m/s"
+        try:
+            centre = handbook_centre(round(drive.teeth), round(drive.teeth * drive.ratio), drive.links)
+        except GeometryError:
+            return "two wheels of this ratio need more links: no centre distance to reckon with"
+        supply = 1.2 if speed <= 1.5 else 1.5 if speed <= 3.0 else 2.5
+        lubrication = supply / math.sqrt(speed)
+        drives = math.sqrt(drive.teeth) * math.cbrt(centre * drive.ratio / speed)
+        return constant * 100.0 * RATED_ELONGATION * lubrication * drives / pressure
+
+    return hours
+
+
+def _by_handbook(drive: PracticeDrive, pressure: float) -> float | str:
+    rows = catalogue_rows("wear_pitch_factors")
+    pitches = [float(row["pitch_mm"]) for row in rows]
+    if not pitches[0] <= drive.pitch <= pitches[-1]:
+        return f"c2 is tabled for pitches from {pitches[0]:g} to {pitches[-1]:g} mm"
+    factor = np.interp(drive.pitch, pitches, [float(row["factor"]) for row in rows])
+    load = float(_HANDBOOK_CHARTS * factor / pressure) ** 3
+    bends = drive.teeth * drive.ratio / (drive.ratio + 1.0)
+    path = drive.links / drive.chain_speed * bends * drive.pitch / (3.2 * drive.pin_diameter)
+    return 91_500.0 * load * path * 100.0 * RATED_ELONGATION
+
+
+_HOURS: dict[str, Callable[[PracticeDrive, float], float | str]] = {
+    "rating rule": _by_rating,
+    "Vorobyev 4350": _by_vorobyev(4350.0),
+    "Vorobyev 5200": _by_vorobyev(5200.0),
+    "handbook cube law": _by_handbook,
+    "DIN 8195 pressure": _by_din,
+    "GOST pressure, m = 3": _by_gost(3.0),
+    "GOST pressure, m = 1.5": _by_gost(1.5),
+}
+
+RULES: tuple[PracticeRule, ...] = tuple(
+    PracticeRule(
+        row["rule"],
+        row["school"],
+        row["formula"],
+        row["range"],
+        row["source"],
+        row["trust"],
+        _HOURS[row["rule"]],
+    )
+    for row in catalogue_rows("practice_rules")
+)
+"""The rules in the order of `opinions`."""
+
+
+def outside_practice(drive: PracticeDrive) -> str:
+    """Return why no rule has been in use at the joint pressure of a drive; empty where rules are.
+
+    Examples
+    --------
+    >>> outside_practice(PracticeDrive(19.05, 21, 3.0, 120.0, 124, 5000.0, 100.0, 5.72))
+    'joint pressure 50 MPa, in practice at most 45 MPa'
+    """
+    allowed = allowable_joint_pressure(drive.pitch, drive.speed)
+    limit = min(GREATEST_PRESSURE, math.inf if allowed is None else 2.0 * allowed)
+    if drive.pressure <= limit:
+        return ""
+    twice = "" if limit == GREATEST_PRESSURE else ", twice [p]"
+    return f"joint pressure {drive.pressure:.3g} MPa, in practice at most {limit:.3g} MPa{twice}"
+
+
+def opinions(drive: PracticeDrive) -> tuple[Opinion, ...]:
+    """Return the hours of every published rule for a drive, in the order of `RULES`.
+
+    To the elongation of the drive, all rules being linear in it, and with the lubrication that it
+    has: hours with the recommended one times `PracticeDrive.lubrication_factor`. The pull of the
+    rules is that of the drive times its shock factor. Of a chain of several strands the rules of
+    pressure take the strand that carries most, F_t/m_p, the rating rule its strand factor.
+
+    Parameters
+    ----------
+    drive : PracticeDrive
+        The drive.
+
+    Returns
+    -------
+    tuple of Opinion
+        One for each rule. None has hours where `outside_practice` says why.
+
+    Examples
+    --------
+    No. 60 with 21 teeth is rated at 2.546 kW at 120 rpm, and carries 3 kW for 15 000 (2.546/3)^3 1.007 h:
+
+    >>> conveyor = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
+    >>> first = opinions(conveyor)[0]
+    >>> first.rule.name, round(first.hours, -2)
+    ('rating rule', 9200.0)
+    """
+    return tuple(_opinion(rule, drive) for rule in RULES)
+
+
+def _opinion(rule: PracticeRule, drive: PracticeDrive) -> Opinion:
+    if outside := outside_practice(drive):
+        return Opinion(rule, None, f"outside any published practice: {outside}")
+    found = rule.hours(drive, drive.pressure * drive.shock_factor)
+    if isinstance(found, str):
+        return Opinion(rule, None, found)
+    hours = found * drive.elongation / RATED_ELONGATION * drive.lubrication_factor.factor
+    notes = [rating_note(drive.series)] if rule.school == "rating" else []
+    if hours > NOT_WEAR_HOURS:
+        notes.append("above 100 000 h it is not wear that a chain ends by")
+    return Opinion(rule, hours, "; ".join(filter(None, notes)))
+
+
+def geometric_mean(found: Iterable[Opinion]) -> float | None:
+    """Return the mean of the schools: Vorobyev 5200, rating with DIN, and GOST with m = 3.
+
+    (T_V sqrt(T_r T_D) T_G)^(1/3), rating and DIN counting as one as they share exponent and
+    hours. The handbook's cube law is left out, whose charts are not at hand. A rule without hours
+    is left out as well.
+
+    Parameters
+    ----------
+    found : iterable of Opinion
+        Of `opinions`.
+
+    Returns
+    -------
+    float or None
+        Hours [h]; None where none of these rules has any.
+    """
+    hours = {one.rule.name: one.hours for one in found if one.hours is not None}
+    groups = [
+        [math.log(hours[name]) for name in names if name in hours]
+        for names in (("Vorobyev 5200",), ("rating rule", "DIN 8195 pressure"), ("GOST pressure, m = 3",))
+    ]
+    means = [sum(logs) / len(logs) for logs in groups if logs]
+    return math.exp(sum(means) / len(means)) if means else None
+
+
+def pressure_velocity(drive: PracticeDrive) -> RatingFinding:
+    """Return joint pressure times chain speed beside the value at which DIN 8195 ends.
+
+    Examples
+    --------
+    >>> slow = PracticeDrive(19.05, 21, 3.0, 120.0, 124, 4000.0, 100.0, 5.72)  # 40 MPa at 0.8 m/s
+    >>> round(pressure_velocity(slow).value, 2)
+    32.0
+    """
+    least, most = PRESSURE_VELOCITY
+    return RatingFinding(
+        "pressure times chain speed",
+        drive.pressure * drive.chain_speed,
+        least,
+        "MPa m/s",
+        "p_v of DIN 8195",
+        f"indicative, p_v ends at {least:g} to {most:g}; ANSI ratings reach 165 with a stream of oil",
+    )
