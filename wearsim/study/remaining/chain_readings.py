@@ -61,6 +61,13 @@ class ChainReading:
         """The value, or the mark of the gauge [%]."""
         return self.low if math.isfinite(self.low) else self.high
 
+    @property
+    def result(self) -> str:
+        """What a gauge says: go or no-go; empty where it was measured."""
+        if self.measured:
+            return ""
+        return GO if self.high == self.mark else NO_GO
+
 
 @dataclass(frozen=True)
 class ChainLog:

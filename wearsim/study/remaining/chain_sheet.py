@@ -8,7 +8,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
-from wearsim.study.remaining.chain_readings import GAUGE, GO, NO_GO, ChainReading
+from wearsim.study.remaining.chain_readings import GAUGE
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
 from wearsim.study.remaining.relubrications import RelubricationLog
 
@@ -103,7 +103,7 @@ def reading_rows(found: ChainState) -> list[dict[str, Any]]:
             "time_hours": one.hours,
             "quantity": one.quantity,
             "elongation_percent": one.mark,
-            "result": _result(one),
+            "result": one.result,
             "error": one.error,
             "predicted": factor * expected,
         }
@@ -123,12 +123,6 @@ def save_chain(found: ChainState, folder: Path, force: bool) -> None:
         pd.DataFrame(reading_rows(found)).to_csv(place / "readings.csv", index=False)
         (place / "summary.md").write_text(f"```\n{chain_text(found)}\n```\n", encoding="utf-8")
         save_figure(chain_figure(found), place, "readings")
-
-
-def _result(one: ChainReading) -> str:
-    if one.measured:
-        return ""
-    return GO if one.high == one.mark else NO_GO
 
 
 def _intervals(one: Quantiles) -> str:

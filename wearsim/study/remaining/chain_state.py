@@ -1,19 +1,27 @@
 """The present state of a chain, and what is left of its life, from all that was read."""
 
-import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
 import numpy as np
 
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WearBand
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.simulation import case_clock
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
+from wearsim.study.remaining.contradictions import (
+    CHAIN,
+    JOINTS,
+    Contradiction,
+    WearReading,
+    band_warning,
+    contradiction_warnings,
+    contradictions,
+)
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.study.remaining.relubrications import relubricated
@@ -75,7 +83,7 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     Raises
     ------
     CaseError
-        What is wrong with case or readings, or a reading beyond the limit.
+        What is wrong with case or readings, or a reading beyond the limit that no other one contradicts.
     """
     first = chain_case(case)
     if not first.drive.wear_coefficients:
@@ -84,7 +92,6 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     drive = wrap_of(first)
     limit = 100.0 * drive.joint.elongation_limit
     log = read_chain_log(path, first.inputs, drive.chain.pitch, usual_error)
-    _check_within(log, limit)
     return _state(first, relubricated(case, log.relubrications), log, limit)
 
 
@@ -95,11 +102,14 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     today = log.relubrications.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    # Of the teeth, which is wide: readings tell more than a band from ratings of chains.
-    prior = FactorPrior(as_logged.wear.low, as_logged.wear.high)
-    posterior = factor_posterior(log.readings, expected, prior)
+    band = as_logged.drive.wear_band("chain", as_logged.wear)
+    posterior = factor_posterior(log.readings, expected, FactorPrior(band.low, band.high))
     factors = np.array(posterior.quantiles)
     lives = tuple((clock.running_cycles(cycles_per_chain / factors[::-1]) / per_hour).tolist())
+    excluding = contradictions(
+        [_beside(one, posterior.nearest * at) for one, at in zip(log.readings, expected, strict=True)]
+    )
+    _check_within(log, limit, excluding, lives[len(LEVELS) // 2])
     now = rate * clock.steady_cycles(today * per_hour) * factors
     hours = np.linspace(0.0, _BEYOND * max(lives[-1], today), _POINTS)
     return ChainState(
@@ -116,8 +126,12 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
             Quantiles("life_hours", lives),
             Quantiles("coefficient_factor", posterior.quantiles),
         ),
-        assumptions=(*_assumptions(log, prior), *case.assumptions),
-        warnings=(*_warnings(log, posterior, prior, lives), *case.warnings),
+        assumptions=(*_assumptions(log, band), *case.assumptions),
+        warnings=(
+            *contradiction_warnings(excluding),
+            *_warnings(log, posterior, band, lives),
+            *case.warnings,
+        ),
     )
 
 
@@ -136,12 +150,19 @@ def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quant
         yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
 
 
-def _check_within(log: ChainLog, limit: float) -> None:
-    """Raise where a reading says that the limit is reached."""
+def _beside(one: ChainReading, predicted: float) -> WearReading:
+    """Return a reading beside what a fit says of it [%]."""
+    words = f"{one.mark:.4g} %" if one.measured else f"{one.result} at {one.mark:g} %"
+    return WearReading(one.line, one.hours, CHAIN, one.low, one.high, one.error, predicted, words)
+
+
+def _check_within(log: ChainLog, limit: float, excluding: Sequence[Contradiction], life: float) -> None:
+    """Raise where a reading says that the limit is reached, and neither another one nor all of them deny it."""
+    denied = {one.line for pair in excluding for one in (pair.earlier, pair.later)}
     faults = []
     for one in log.readings:
         beyond = one.low >= limit if not one.measured else one.low > limit
-        if beyond:
+        if beyond and one.line not in denied and life <= one.hours:
             what = f"{NO_GO} at {one.low:g} %" if not one.measured else f"{one.low:.4g} %"
             text = (
                 f"{what} says that the limit of stop.elongation_percent = {limit:g} is reached and no hours "
@@ -152,7 +173,7 @@ def _check_within(log: ChainLog, limit: float) -> None:
         raise CaseError(faults)
 
 
-def _assumptions(log: ChainLog, prior: FactorPrior) -> Iterator[str]:
+def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
     if log.relubrications.hours:
         yield (
             f"the load stays as it was, and the chain is relubricated every "
@@ -161,43 +182,22 @@ def _assumptions(log: ChainLog, prior: FactorPrior) -> Iterator[str]:
     else:
         yield "load and lubrication stay as they were"
     yield (
-        f"before any reading it is {prior.low:.3g} to {prior.high:.3g} times the case's (90 % of a "
+        f"before any reading it is {band.low:.3g} to {band.high:.3g} times the case's (90 % of a "
         "log-normal distribution, the band of the case)"
     )
     yield "errors of the readings are normal, independent and as stated; intervals hold no error of the model"
-    yield "of a gauge only the side of its mark is known"
+    yield "of a gauge only the side of its mark is known, within its error"
 
 
 def _warnings(
-    log: ChainLog, posterior: FactorPosterior, prior: FactorPrior, lives: tuple[float, ...]
+    log: ChainLog, posterior: FactorPosterior, band: WearBand, lives: tuple[float, ...]
 ) -> Iterator[str]:
-    factor = posterior.quantiles[len(LEVELS) // 2]
-    if not prior.low <= factor <= prior.high:
-        yield (
-            f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its band of "
-            f"{prior.low:.3g} to {prior.high:.3g}: check the readings and the load"
-        )
+    yield from band_warning(posterior.nearest, band, JOINTS)
     if posterior.scale > 1.0:
         yield (
             f"the readings are {posterior.scale:.2g} times as far from one line as their errors say: check "
             "them, the load and the lubrication; their errors are taken as so much larger"
         )
-    yield from _contradictions(log)
     yield from log.relubrications.warnings()
     if lives[0] <= log.relubrications.today:
         yield "the limit may be reached already: measure again, with a smaller error"
-
-
-def _contradictions(log: ChainLog) -> Iterator[str]:
-    """Give gauges that fell in and later did not, at a mark that is no smaller."""
-    fell: ChainReading | None = None
-    for one in log.readings:
-        if one.measured:
-            continue
-        if math.isinf(one.high) and (fell is None or one.low >= fell.low):
-            fell = one
-        elif fell is not None and one.high <= fell.low:
-            yield (
-                f"line {one.line}: go at {one.high:g} % contradicts no-go at {fell.low:g} % in line "
-                f"{fell.line}: chains do not become shorter"
-            )

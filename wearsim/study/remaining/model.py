@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WearBand
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import wrap_of
+from wearsim.study.remaining.contradictions import JOINTS, TEETH, band_warning
 from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 
@@ -128,13 +129,7 @@ def remaining_life(
     model = history.hours_of(reading.value)
     low = history.hours_of(min(reading.value + reading.error, greatest))
     high = history.hours_of(reading.value - reading.error)
-    warnings = list(history.warnings)
     factor = (model / reading.hours) ** exponent
-    if not case.wear.low <= factor <= case.wear.high and reading.quantity != ELONGATION:
-        warnings.append(
-            f"the reading asks for {factor:.3g} times the wear coefficient of the case, outside its band "
-            f"of {case.wear.low:.3g} to {case.wear.high:.3g}: check the reading and the load"
-        )
     return RemainingLife(
         case=case.name,
         title=case.title,
@@ -148,8 +143,15 @@ def remaining_life(
         remaining_low=_stretched(history.life, reading.hours / low, reading.hours),
         remaining_high=_stretched(history.life, reading.hours / high, reading.hours),
         assumptions=history.assumptions,
-        warnings=tuple(warnings),
+        warnings=(*history.warnings, *band_warning(factor, *_band(case, reading))),
     )
+
+
+def _band(case: Case, reading: SingleReading) -> tuple[WearBand, str]:
+    """Return the band of the coefficient that a reading gives, and what that is."""
+    of_chain = reading.quantity == ELONGATION
+    part, coefficient = ("chain", JOINTS) if of_chain else ("sprocket", TEETH)
+    return case.drive.wear_band(part, case.wear), coefficient
 
 
 def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | LowerBound:

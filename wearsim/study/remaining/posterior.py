@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 from scipy.special import log_ndtr
 from scipy.stats import chi2
 
@@ -50,8 +51,9 @@ class FactorPosterior:
     """A factor after the readings."""
 
     quantiles: tuple[float, ...]  # at `LEVELS`
-    # what the errors were multiplied by: 1, or more where the values lie too far from one line for chance
+    # what the errors were multiplied by: 1, or more where the readings lie too far from one line for chance
     scale: float
+    nearest: float  # that of the readings alone, by least squares; of gauges that all agree, the median
 
 
 def factor_posterior(
@@ -60,7 +62,10 @@ def factor_posterior(
     """Return the distribution of a factor from readings that should be it times what is expected.
 
     The prior times the likelihood: of a measured value the normal density of its error, of a gauge
-    that fell in or not the probability of that side of its mark.
+    that fell in or not the probability of that side of its mark. Readings that are too far from one
+    line for chance have larger errors than they state. These are taken so much larger, a gauge on the wrong
+    side of its mark as a value at the mark, and the factor that they give as log-normal about that of least
+    squares: a normal density would reach below 0, and leave the answer to the prior.
 
     Parameters
     ----------
@@ -80,12 +85,19 @@ def factor_posterior(
     1.2
     """
     pairs = list(zip(readings, expected, strict=True))
-    scale = _scale([(one, at) for one, at in pairs if one.measured])
+    nearest = _nearest(pairs)
+    fixing = [(one, at) for one, at in pairs if one.measured or _miss(one, nearest * at) != 0.0]
+    scale = _scale(fixing, nearest)
+    # Of readings whose errors are too small, what they say together; else each of them.
+    together = _log_normal(fixing, nearest, scale) if scale > 1.0 else None
+    alone = [pair for pair in pairs if together is None or pair not in fixing]
 
     def density(logs: Vector) -> Vector:
         found = -0.5 * ((logs - prior.middle) / prior.sigma) ** 2
-        for one, at in pairs:
-            found += _log_likelihood(one, at * np.exp(logs), scale)
+        if together is not None:
+            found -= 0.5 * ((logs - together[0]) / together[1]) ** 2
+        for one, at in alone:
+            found += _log_likelihood(one, at * np.exp(logs))
         return found
 
     reach = _FAR * prior.sigma
@@ -96,8 +108,8 @@ def factor_posterior(
     fine = density(logs)
     weight = np.exp(fine - fine.max())
     below = np.concatenate([[0.0], np.cumsum(0.5 * (weight[1:] + weight[:-1]))])
-    found = np.exp(np.interp(LEVELS, below / below[-1], logs))
-    return FactorPosterior(tuple(float(value) for value in found), scale)
+    found = tuple(float(value) for value in np.exp(np.interp(LEVELS, below / below[-1], logs)))
+    return FactorPosterior(found, scale, nearest if fixing else found[len(LEVELS) // 2])
 
 
 def _where_it_matters(logs: Vector, density: Vector) -> Vector:
@@ -107,9 +119,9 @@ def _where_it_matters(logs: Vector, density: Vector) -> Vector:
     return np.linspace(logs[first], logs[last], _FINE)
 
 
-def _log_likelihood(one: ChainReading, predicted: Vector, scale: float) -> Vector:
+def _log_likelihood(one: ChainReading, predicted: Vector) -> Vector:
     if one.measured:
-        return -0.5 * ((predicted - one.low) / (scale * one.error)) ** 2
+        return -0.5 * ((predicted - one.low) / one.error) ** 2
     return log_probability(one, predicted)
 
 
@@ -119,16 +131,40 @@ def log_probability(one: ChainReading, predicted: Vector) -> Vector:
     return np.asarray(log_ndtr(side * (one.mark - predicted) / one.error))
 
 
-def _scale(measured: Sequence[tuple[ChainReading, float]]) -> float:
-    """Return what the errors must be multiplied by for the values to lie on one line.
+def _miss(one: ChainReading, predicted: float) -> float:
+    """Return by how many errors a prediction lies beyond what was read; of a gauge on its side 0."""
+    return (max(predicted - one.high, 0.0) - max(one.low - predicted, 0.0)) / one.error
 
-    Least squares of the values over their errors, in closed form as there is one factor.
+
+def _nearest(pairs: Sequence[tuple[ChainReading, float]]) -> float:
+    """Return the factor of least squares, to which a gauge on the wrong side of its mark adds that mark.
+
+    The slope of the sum of squares rises with the factor, and changes its sign between the least and the
+    greatest factor that a reading asks for.
     """
-    freedom = len(measured) - 1
-    if freedom < 1:
+
+    def slope(factor: float) -> float:
+        return math.fsum(_miss(one, factor * at) * at / one.error for one, at in pairs)
+
+    asked = [one.mark / at for one, at in pairs]
+    low, high = min(asked), max(asked)
+    if slope(low) >= 0.0:
+        return low
+    return float(brentq(slope, low, high)) if slope(high) > 0.0 else high
+
+
+def _log_normal(
+    fixing: Sequence[tuple[ChainReading, float]], nearest: float, scale: float
+) -> tuple[float, float]:
+    """Return the mean and the standard deviation of the logarithm of a factor by least squares."""
+    error = scale / math.hypot(*(at / one.error for one, at in fixing))
+    return math.log(nearest), error / nearest
+
+
+def _scale(fixing: Sequence[tuple[ChainReading, float]], nearest: float) -> float:
+    """Return what the errors must be multiplied by for the readings that fix a factor to lie on one line."""
+    freedom = len(fixing) - 1
+    if freedom < 1 or nearest <= 0.0:
         return 1.0
-    values = np.array([one.low / one.error for one, _ in measured])
-    slopes = np.array([at / one.error for one, at in measured])
-    factor = float(slopes @ values) / float(slopes @ slopes)
-    square = float(((values - factor * slopes) ** 2).sum())
+    square = math.fsum(_miss(one, nearest * at) ** 2 for one, at in fixing)
     return math.sqrt(square / freedom) if chi2.sf(square, freedom) < _UNLIKELY else 1.0
