@@ -46,6 +46,7 @@ class JointTable(Table):
     reference_speed_rpm: Annotated[Positive, Field(le=1e5)] | None = None
     reference_pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
+    source: Annotated[str, Field(min_length=1, max_length=200)] | None = None
     pitch: Literal["alternating", "uniform"] | None = None
 
     @field_validator("condition")
@@ -56,10 +57,20 @@ class JointTable(Table):
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
+        if key == "specific_wear_rate_mm2_per_N":
+            return ("source",)
         return JOINT_LAW_KEYS if (key, value) == ("law", "constant") else ()
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
+        return [*self._source_alone(), *self._law_keys_without_law()]
+
+    def _source_alone(self) -> list[tuple[str, str]]:
+        if self.source is None or self.specific_wear_rate_mm2_per_N is not None:
+            return []
+        return [("source", "says where specific_wear_rate_mm2_per_N comes from: give that, or remove it")]
+
+    def _law_keys_without_law(self) -> list[tuple[str, str]]:
         if self.law == "pressure_speed" or (self.law is None and self.specific_wear_rate_mm2_per_N is None):
             return []
         why = "law = 'constant'" if self.law else "a rate without a law"

@@ -141,7 +141,10 @@ def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: 
 
 
 def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition) -> None:
-    if _named(case):
+    source = _table(case).source
+    if source is not None:
+        case.assumptions.append(f"{JOINT_COEFFICIENT} = {law.coefficient:.4g} comes from: {source}")
+    elif _named(case):
         _warn_of_rate(case, condition, law.coefficient)
     if law.is_constant:
         case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
@@ -173,9 +176,10 @@ def _warn_of_rate(case: ChainRecord, state: WearCondition, given: float) -> None
     if given <= high if state.lubricated else given >= low:
         return
     kinds = ("dry or contaminated", "lubricated")
+    table, of_what = ("joint", "joints") if _table(case).condition else ("wear", "teeth")
     case.warnings.append(
-        f"wear.condition = {state.condition!r} contradicts joint.specific_wear_rate_mm2_per_N = "
-        f"{given:g}: the teeth are {kinds[state.lubricated]}, and joints in that state have {low:g} to "
-        f"{high:g} mm2/N; this is a rate of {kinds[not state.lubricated]} joints: remove it, which takes "
-        f"{state.joint_typical:g}, or name another condition"
+        f"{table}.condition = {state.condition!r} contradicts {JOINT_COEFFICIENT} = {given:g}: the {of_what} "
+        f"are {kinds[state.lubricated]}, and joints in that state have {low:g} to {high:g} mm2/N; this is a "
+        f"rate of {kinds[not state.lubricated]} joints: delete this key to use {state.joint_typical:g}, "
+        "choose another condition, or say in joint.source where it was measured"
     )

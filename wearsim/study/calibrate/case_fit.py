@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,12 @@ from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
 from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions, FittedCoefficient, PartLife
-from wearsim.study.calibrate.fit_warnings import fit_assumptions, fit_warnings, warnings_of_runs
+from wearsim.study.calibrate.fit_warnings import (
+    fit_assumptions,
+    fit_warnings,
+    warnings_of_readings,
+    warnings_of_runs,
+)
 from wearsim.study.calibrate.history_interpolation import PredictedHistories
 from wearsim.study.calibrate.least_squares import (
     LeastSquaresFit,
@@ -26,8 +32,8 @@ from wearsim.study.calibrate.least_squares import (
 )
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.measured_profiles import ProfileObservation, observation
-from wearsim.study.calibrate.observations import Observation, PredictedState
-from wearsim.study.calibrate.parameters import JOINT, FitParameters, shape_values
+from wearsim.study.calibrate.observations import GoNoGoReading, Observation, PredictedState
+from wearsim.study.calibrate.parameters import JOINT, JOINT_SOURCE, FitParameters, shape_values
 from wearsim.study.calibrate.reading_checks import reading_faults
 from wearsim.study.calibrate.readings import PROFILE, Reading
 from wearsim.study.remaining.chain_readings import GAUGE
@@ -120,6 +126,7 @@ class CaseFit:
                 *self.case.assumptions,
             ),
             warnings=(
+                *warnings_of_readings(self.observations, state),
                 *fit_warnings(self.case, values, correlation, found, self.observations, self.freedom),
                 *self.time.log.warnings(),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
@@ -165,7 +172,13 @@ class CaseFit:
                 break
         else:
             self.settled = False
-        return found
+        return self._with_missed_gauges(found)
+
+    def _with_missed_gauges(self, found: LeastSquaresFit) -> LeastSquaresFit:
+        """Return a fit to which each gauge on the wrong side of its mark adds a degree of freedom."""
+        state = self.parameters.state(found.point)
+        self.freedom += sum(isinstance(one, GoNoGoReading) and one.misses(state) for one in self.observations)
+        return stated_at(self._problem(), found.point)
 
     def _follow(self, point: Vector) -> bool:
         """Take up what a fit says about the runs and the registration; whether it matters."""
@@ -252,20 +265,28 @@ class CaseFit:
     def _fitted_tables(
         self, values: Sequence[FittedCoefficient], parts: Sequence[PartLife]
     ) -> Mapping[str, Any]:
-        """Tables of the case with the values, the band of a known coefficient, and enough time."""
+        """Tables of the case with the values, the bands of known coefficients, and enough time."""
         tables = self.tables
+        banded = {JOINT} if self.parameters.shapes else {JOINT, coefficient_key(self.case)}
         for one in values:
             tables = replaced(tables, one.key.split("."), one.value)
-        if self.parameters.teeth and not self.parameters.shapes and values[0].interval.known:
-            ends = values[0].interval
-            band = max(ends.high / values[0].value, values[0].value / ends.low)
-            tables = replaced(tables, ("wear", "band_factor"), band)
+            if one.key in banded and one.interval.known:
+                band = max(one.interval.high / one.value, one.value / one.interval.low)
+                tables = replaced(tables, (one.key.partition(".")[0], "band_factor"), band)
+        if self.parameters.chain:
+            for key, setting in {**self.case.drive.wear_settings, JOINT_SOURCE: self._source()}.items():
+                tables = replaced(tables, key.split("."), setting)
         longest = max(part.life for part in parts)
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
         if self.time.log.hours:
             given = {key: value for key, value in tables["lubrication"].items() if key not in SCHEDULES}
             tables = {**tables, "lubrication": {**given, **self.time.log.schedule}}
         return replaced(tables, ("run", "horizon_hours"), horizon)
+
+    def _source(self) -> str:
+        """Say where the coefficient of the joints comes from."""
+        count = sum(one.of_chain for one in self.readings)
+        return f"wearsim calibrate, {count} reading{'s' if count > 1 else ''} in {Path(self.file).name}"
 
     def _parts(self, found: LeastSquaresFit, values: Sequence[FittedCoefficient]) -> tuple[PartLife, ...]:
         parts = []

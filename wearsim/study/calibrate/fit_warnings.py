@@ -8,11 +8,22 @@ from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile_points import Vector
+from wearsim.runner.scatter import coefficient_key
 from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import LeastSquaresFit
-from wearsim.study.calibrate.observations import Observation
-from wearsim.study.calibrate.parameters import EXPONENT, SHAPES
-from wearsim.study.calibrate.readings import Reading
+from wearsim.study.calibrate.observations import Observation, PredictedState
+from wearsim.study.calibrate.parameters import EXPONENT, JOINT, SHAPES
+from wearsim.study.calibrate.readings import PROFILE, Reading
+from wearsim.study.remaining.chain_readings import GO, NO_GO
+from wearsim.study.remaining.contradictions import (
+    CHAIN,
+    JOINTS,
+    TEETH,
+    WearReading,
+    band_warning,
+    contradiction_warnings,
+    contradictions,
+)
 from wearsim.study.remaining.relubrications import RelubricationLog
 
 _TOGETHER = 0.95
@@ -85,13 +96,7 @@ def fit_warnings(
     """Give what is doubtful about a fit."""
     yield from _identifiability(values, correlation)
     yield from _residuals(found, freedom)
-    if values[0].key.startswith("wear.") and not any(one.key in SHAPES for one in values):
-        factor = values[0].value / values[0].given
-        if not case.wear.low <= factor <= case.wear.high:
-            yield (
-                f"the readings ask for {factor:.3g} times the wear coefficient of the case, outside its "
-                f"band of {case.wear.low:.3g} to {case.wear.high:.3g}: check the readings and the load"
-            )
+    yield from _outside_bands(case, values)
     for one in observations:
         if one.left_out > _MANY * one.reading.x.size:
             yield (
@@ -101,6 +106,41 @@ def fit_warnings(
     if case.fatigue is not None:
         yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it before)"
     yield from case.warnings
+
+
+def _outside_bands(case: Case, values: Sequence[FittedCoefficient]) -> Iterator[str]:
+    """Give coefficients outside of their bands; that of the teeth goes with the values fitted besides."""
+    shaped = any(one.key in SHAPES for one in values)
+    parts = {JOINT: ("chain", JOINTS), **({} if shaped else {coefficient_key(case): ("sprocket", TEETH)})}
+    for one in values:
+        if one.key in parts:
+            part, of = parts[one.key]
+            yield from band_warning(one.value / one.given, case.drive.wear_band(part, case.wear), of)
+
+
+def warnings_of_readings(observations: Sequence[Observation], state: PredictedState) -> Iterator[str]:
+    """Give readings of one coefficient that exclude each other; profiles are left to the sum of squares."""
+    single = [one for one in observations if one.reading.quantity != PROFILE]
+    for of_chain in (False, True):
+        alike = [_beside(one, state) for one in single if one.reading.of_chain == of_chain]
+        yield from contradiction_warnings(contradictions(alike))
+
+
+def _beside(one: Observation, state: PredictedState) -> WearReading:
+    """Return a reading of one value beside what a fit says of it."""
+    reading, (row,) = one.reading, one.shown(state)
+    kind = CHAIN if reading.of_chain else f"{reading.quantity} {reading.arc_length} {reading.gap_kind}"
+    read = f"{row.value:.4g} %" if reading.of_chain else f"{reading.quantity} = {row.value:.4g}"
+    return WearReading(
+        line=reading.row,
+        hours=reading.hours,
+        kind=kind,
+        low=-math.inf if reading.result == GO else row.value,
+        high=math.inf if reading.result == NO_GO else row.value,
+        error=row.error,
+        predicted=row.predicted,
+        words=f"{reading.result} at {read}" if reading.result else read,
+    )
 
 
 def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -> Iterator[str]:

@@ -10,7 +10,7 @@ from wearsim.study.calibrate.history_interpolation import WeightedHistory
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import DEEPEST, POINT, Reading
-from wearsim.study.remaining.chain_readings import ELONGATION, side_of_mark
+from wearsim.study.remaining.chain_readings import ELONGATION, NO_GO, side_of_mark
 from wearsim.study.remaining.posterior import log_probability
 
 
@@ -135,13 +135,18 @@ class GoNoGoReading:
 
     @property
     def freedom(self) -> int:
-        """None: a side of a mark fixes no value."""
+        """None: a side of a mark fixes no value, unless the fit misses it."""
         return 0
 
     @property
     def left_out(self) -> int:
         """No points."""
         return 0
+
+    def misses(self, state: PredictedState) -> bool:
+        """Whether the elongation lies on the wrong side of the mark, which then counts as a value."""
+        below = state.elongation(self.reading.hours) < self.reading.value
+        return below == (self.reading.result == NO_GO)
 
     def residuals(self, state: PredictedState) -> Vector:
         """Return the residual, not negative."""

@@ -18,7 +18,7 @@ from wearsim.study.calibrate.history_interpolation import (
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.observations import PredictedState
 
-JOINT = "joint.specific_wear_rate_mm2_per_N"
+JOINT, JOINT_SOURCE = "joint.specific_wear_rate_mm2_per_N", "joint.source"
 EXPONENT = "wear.pressure_exponent"
 SLIP = "mechanism.roller_slip_fraction"
 

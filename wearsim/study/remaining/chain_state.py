@@ -157,7 +157,7 @@ def _beside(one: ChainReading, predicted: float) -> WearReading:
 
 
 def _check_within(log: ChainLog, limit: float, excluding: Sequence[Contradiction], life: float) -> None:
-    """Raise where a reading says that the limit is reached, and neither another one nor all of them deny it."""
+    """Raise where a reading says that the limit is reached, and no other one nor all together deny it."""
     denied = {one.line for pair in excluding for one in (pair.earlier, pair.later)}
     faults = []
     for one in log.readings:

@@ -53,9 +53,8 @@ class Contradiction:
         todo = "measure again, and remove the wrong one"
         if then.hours > first.hours:
             before += f", {grouped(then.hours - first.hours)} h before"
-            why = (
-                "chains do not become shorter; " if first.kind == CHAIN else "wear does not grow back; "
-            ) * (self.shrinks)
+            grows = "chains do not become shorter" if first.kind == CHAIN else "wear does not grow back"
+            why = f"{grows}; " if self.shrinks else ""
             at_one_rate = "" if self.shrinks else " at one rate of wear"
             todo = "check both" if self.shrinks else "check both, the load and the lubrication"
         return (
