@@ -7,8 +7,10 @@ from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressur
 from wearsim.chain.power_rating import (
     REFERENCE_TEETH,
     corrected_power,
+    galling_speed,
     plate_fatigue_rating,
     power_rating,
+    roller_impact_hours,
     roller_impact_rating,
     strand_factor,
 )
@@ -17,18 +19,25 @@ from wearsim.errors import CaseError, Fault
 LARGEST_PITCH = 76.2
 """Of the chains that the ANSI rating knows, no. 240 [mm]."""
 
+PLATES, IMPACT, GALLING = "plate fatigue", "roller impact", "galling speed"
+"""Names of findings about what ends a chain but wear."""
+
 _SAFETY = "safety against breaking"
 
 RULES = (
-    "plate fatigue",
-    "roller impact",
+    PLATES,
+    IMPACT,
     "corrected power",
     "joint pressure",
     "recommended speed",
     "greatest speed",
     _SAFETY,
+    GALLING,
 )
 """Names of the findings in the order of `assess`."""
+
+RATED_FOR_HOURS = RULES[:3]
+"""Those of them whose limit is for 15 000 h."""
 
 _CAPACITY = RULES[:4]
 """Those of them that say how much load a chain carries."""
@@ -63,6 +72,7 @@ class RatedDrive:
     own_tension: float = 0.0  # catenary and centrifugal tension of the tight span [N]
     series: str = ""  # as in the catalogue: `ISO606-A/ANSI B29.1`, `ISO606-B`, `ISO606-H`, `GOST13568`
     light: bool = False  # whether the chain is no. 41 (085-1).
+    links: float = 0.0  # length of the chain in pitches
 
     def __post_init__(self) -> None:
         faults = [
@@ -98,6 +108,7 @@ class RatingFinding:
     note: str = ""  # why the rule is only indicative here; empty where it applies as it stands
     at_least: bool = False  # whether the limit is a lower one
     load: str = ""  # which of several loads of the drive it is about; empty where there is one
+    hours: float | None = None  # life by this rule [h]; None where it has no hours but those it is rated for
 
     @property
     def used(self) -> float:
@@ -222,6 +233,7 @@ def assess(
         *_pressure_findings(drive, exploitation),
         *_speed_findings(drive),
         *_tensile_findings(drive),
+        *_galling_findings(drive),
     )
 
 
@@ -235,11 +247,12 @@ def _power_findings(drive: RatedDrive, service_factor: float) -> list[RatingFind
     reference = power_rating(drive.pitch, REFERENCE_TEETH, drive.speed, drive.light)
     plates = several * plate_fatigue_rating(*here)
     impact = several * roller_impact_rating(*here)
+    hours = roller_impact_hours(required / impact, drive.links) if drive.links else None
     corrected = corrected_power(drive.power, service_factor, drive.teeth)
     iso = "ISO 10823, f1 f2; rating of 19 teeth by ANSI B29.1"
     return [
-        RatingFinding("plate fatigue", required, plates, "kW", "ANSI B29.1, H1", note),
-        RatingFinding("roller impact", required, impact, "kW", "ANSI B29.1, H2", note),
+        RatingFinding(PLATES, required, plates, "kW", "ANSI B29.1, H1", note),
+        RatingFinding(IMPACT, required, impact, "kW", "ANSI B29.1, H2", note, hours=hours),
         RatingFinding("corrected power", corrected, several * reference, "kW", iso, note),
     ]
 
@@ -271,6 +284,15 @@ def _tensile_findings(drive: RatedDrive) -> list[RatingFinding]:
     safety = drive.tensile / (drive.pull + drive.own_tension)
     rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
     return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+
+
+def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
+    if drive.pitch > LARGEST_PITCH:
+        return []
+    tension = (drive.pull + drive.own_tension) / strand_factor(drive.strands)
+    limit = galling_speed(drive.pitch, drive.teeth, tension)
+    rule = "American Chain Association; Shigley, chapter 17"
+    return [RatingFinding(GALLING, drive.speed, limit, "rpm", rule, rating_note(drive.series))]
 
 
 def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
