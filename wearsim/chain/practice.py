@@ -227,6 +227,14 @@ def geometric_mean(found: Iterable[Opinion]) -> float | None:
     -------
     float or None
         Hours [h]; None where none of these rules has any.
+
+    Examples
+    --------
+    (11.9 sqrt(9.2 * 4.1) 4.7)^(1/3) in thousands for the drive of `PracticeDrive`:
+
+    >>> conveyor = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
+    >>> round(geometric_mean(opinions(conveyor)), -2)
+    7000.0
     """
     hours = {one.rule.name: one.hours for one in found if one.hours is not None}
     groups = [
