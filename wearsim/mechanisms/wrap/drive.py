@@ -66,6 +66,7 @@ class JointInput:
 
     law: JointLaw  # specific wear rate of pin and bush together
     band: WearBand  # of its coefficient
+    tooth_band: WearBand  # of the coefficient of the teeth, where they run on this chain
     bearing_area: float  # projected area of pin in bush [mm2]
     alternating: bool  # whether wear lengthens every other link only, as it does
     elongation_limit: float  # relative elongation at which the chain's life ends
@@ -143,7 +144,7 @@ class WrapDrive(Drive):
 
     def wear_band(self, part: str, wear: WearInput) -> WearBand:
         """Return that of the joints for the chain, that of the teeth for the sprocket."""
-        return self.joint.band if part == "chain" else super().wear_band(part, wear)
+        return self.joint.band if part == "chain" else self.joint.tooth_band
 
     @property
     def heaviest(self) -> WrapLoad:
