@@ -101,9 +101,11 @@ def _part_rows(found: DriveLife) -> list[str]:
 
 def _chain(found: DriveLife) -> list[str]:
     """Return the life of the chain with what stands against its hours in the same line; then less of it."""
-    against = against_hours(found)
+    against, worst = against_hours(found), against_hours(found, only_worst=True)
+    if not against:
+        return _part(found, CHAIN)
     forms = _part(found, CHAIN)
-    return [f"{form}; {against}" for form in forms] + [against] if against else forms
+    return [*(f"{form}; {against}" for form in forms), *(f"{form}; {worst}" for form in forms)]
 
 
 def _part(found: DriveLife, name: str) -> list[str]:

@@ -34,10 +34,10 @@ from wearsim.study.whole_drive.wheels import (
     power_shares,
 )
 
-SERVICE_YEARS, LONGEST = 100.0, 8e4
+SERVICE_YEARS, LONGEST = 100.0, 7e4
 """Years of service, and hours, after which the runs of a drive with [service] end that gives no horizon.
 
-Nobody plans a part for more: 80 000 h are nine years without a stop.
+Nobody plans a part for more: 70 000 h are eight years without a stop.
 """
 
 JOINT_FRICTION = 0.11

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.chain.selection import RATED_FOR_HOURS
 from wearsim.quantities import grouped
 from wearsim.report.answer import (
     JUMPING,
@@ -43,7 +44,7 @@ _MAX_THEN = 2
 def found_rows(found: DriveLife) -> list[tuple[str, str]]:
     """Return the life of every part, what is replaced first, the band and the ratings."""
     return [
-        (CHAIN.capitalize(), part_text(found, CHAIN)),
+        (CHAIN.capitalize(), "; ".join(filter(None, (part_text(found, CHAIN), against_hours(found))))),
         *((name, part_text(found, name)) for name in found.results),
         ("First", first_text(drive_plan(found))),
         ("Band", band_text(found)),
@@ -58,13 +59,18 @@ def practice_agrees(found: DriveLife) -> bool:
     return found.practice is None or found.practice.within(*ends)
 
 
-def against_hours(found: DriveLife) -> str:
+def against_hours(found: DriveLife, only_worst: bool = False) -> str:
     """Return in words why the chain may end before its life by wear; empty where nothing says so."""
-    first, beyond = first_end(found.ends), beyond_ratings(found.overloaded)
-    reasons = [beyond] if beyond else []
+    first, overloaded = first_end(found.ends), list(found.overloaded)
+    if only_worst:
+        rated = [finding for finding in overloaded if finding.name in RATED_FOR_HOURS]
+        overloaded = [max(rated, key=lambda finding: finding.used)] if rated else []
+    reasons = [beyond_ratings(overloaded)]
     if first is not None and first.part == CHAIN and first.mode != JOINT_WEAR:
         reasons.insert(0, f"by {first.mode} {grouped(first.hours or 0.0)} h")
-    return "; ".join(reasons)
+    if found.practice is not None and found.practice.outside:
+        reasons.insert(0, "outside any published practice")
+    return "; ".join(filter(None, reasons))
 
 
 def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
