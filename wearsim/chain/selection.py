@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressure, speed_limits
+from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressure, least_safety, speed_limits
 from wearsim.chain.power_rating import (
     REFERENCE_TEETH,
     corrected_power,
@@ -43,7 +43,9 @@ _CAPACITY = RULES[:4]
 """Those of them that say how much load a chain carries."""
 
 LEAST_SAFETY = 7.0
-"""Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
+"""Tensile strength over tension of the tight span, without shocks (iwis: 7; Renold: 8)."""
+
+_GOST = "GOST13568"
 
 
 @dataclass(frozen=True)
@@ -219,7 +221,9 @@ def assess(
     """Return what the handbooks say about a drive.
 
     Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference
-    drive; joint pressure and speed against the tables of GOST practice; tensile strength.
+    drive; joint pressure and speed against the tables of GOST practice; tensile strength against
+    the rule that belongs to the chain: GOST practice by pitch and speed for its chains of one and two
+    strands, with the service factor on the pull, else iwis, without it.
 
     Examples
     --------
@@ -232,7 +236,7 @@ def assess(
         *_power_findings(drive, service_factor),
         *_pressure_findings(drive, exploitation),
         *_speed_findings(drive),
-        *_tensile_findings(drive),
+        *_tensile_findings(drive, service_factor),
         *_galling_findings(drive),
     )
 
@@ -262,7 +266,7 @@ def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[RatingFin
     if allowed is None or not drive.bearing_area or drive.strands > 3:
         return []
     found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, exploitation)
-    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
     return [RatingFinding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
 
 
@@ -270,7 +274,7 @@ def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     limits = speed_limits(drive.pitch)
     if limits is None:
         return []
-    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
     names = ("recommended speed", "greatest speed")
     return [
         RatingFinding(name, drive.speed, limit, "rpm", "GOST practice", note)
@@ -278,12 +282,19 @@ def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     ]
 
 
-def _tensile_findings(drive: RatedDrive) -> list[RatingFinding]:
+def _tensile_findings(drive: RatedDrive, shocks: float) -> list[RatingFinding]:
     if not drive.tensile:
         return []
-    safety = drive.tensile / (drive.pull + drive.own_tension)
-    rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
-    return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+    # The handbook's table is for chains of one and two strands.
+    tabled = drive.series == _GOST and drive.strands <= 2
+    asked = least_safety(drive.pitch, drive.speed) if tabled else None
+    if asked is None:
+        safety = drive.tensile / (drive.pull + drive.own_tension)
+        rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
+        return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+    safety = drive.tensile / (shocks * drive.pull + drive.own_tension)
+    rule = "GOST practice (Chernavsky), by pitch and speed"
+    return [RatingFinding(_SAFETY, safety, asked, "", rule, at_least=True)]
 
 
 def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
@@ -296,8 +307,15 @@ def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
 
 
 def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
-    """Return a warning for every rating that a drive is outside of."""
-    return [warning(finding) for finding in findings if not finding.ok and finding.name != _SAFETY]
+    """Return a warning for every rating that a drive is outside of.
+
+    A pull above a seventh of the tensile strength is warned of where the load is read.
+    """
+    return [
+        warning(finding)
+        for finding in findings
+        if not finding.ok and (finding.name, finding.limit) != (_SAFETY, LEAST_SAFETY)
+    ]
 
 
 def warning(finding: RatingFinding) -> str:
