@@ -26,7 +26,7 @@ Row = tuple[str, int, Mapping[str, Any]]
 
 
 def thousands(hours: float | None) -> str:
-    """Hours in thousands, to three figures at most; empty for none."""
+    """Hours in thousands, above 100 whole ones; empty for none."""
     if hours is None:
         return ""
     digits = 0 if hours >= 99_950.0 else 1
@@ -53,16 +53,18 @@ def summary(rows: list[Mapping[str, Any]]) -> str:
     near = sum(1.0 / WITHIN <= one <= WITHIN for one in ratios)
     logs = [math.log(h / row["mean"]) for row in rows for h in row["hours"].values() if h is not None]
     spread = math.exp(math.sqrt(sum(log**2 for log in logs) / len(logs)))
+    middle = ratios[len(ratios) // 2]
     return (
-        f"Engine over mean: {ratios[0]:.1f} to {ratios[-1]:.1f}, median {ratios[len(ratios) // 2]:.1f}; within a factor of "
-        f"{WITHIN:g} on {near} of {len(rows)} drives. Single rules over mean: a factor of {spread:.1f} (root mean square)."
+        f"Engine over mean: {ratios[0]:.1f} to {ratios[-1]:.1f}, median {middle:.1f}, and within a factor of "
+        f"{WITHIN:g} on {near} of {len(rows)} drives. Single rules are a factor of {spread:.1f} off the mean "
+        "(root mean square)."
     )
 
 
 def page(rows: Iterable[Row]) -> str:
     """The whole page of drives as test, line of the test, and what the fixture recorded."""
     drives = sorted((row for _, _, row in rows), key=lambda row: row["no"])
-    names = [f"{name} [1000 h]" for name in (*drives[0]["hours"], "mean", "engine")]
+    names = [*drives[0]["hours"], "mean", "engine"]
     parts = {
         "RULES": table(RULES, ([rule[key] for key in RULES] for rule in catalogue_rows("practice_rules"))),
         "DRIVES": table([*DRIVES, *names, "engine over mean"], map(cells, drives)),

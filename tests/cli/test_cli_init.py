@@ -196,11 +196,24 @@ def test_commented_keys_of_a_drive_are_the_defaults(start, tmp_path):
     assert bare.driver.case.inputs["service"]["start_date"] == "2027-01-04"
 
 
+@pytest.mark.parametrize("chain", ["#25", "ANSI 35", "41", "081", "084", "80H", "72B", "2ПР-25,4-114"])
+def test_chains_that_had_no_mass(cli, tmp_path, chain):
+    """A drive of each passes check, and takes the mass that its maker gives."""
+    path = tmp_path / "drive.toml"
+    name = "ANSI 41" if chain == "41" else chain
+    assert cli("init", "--chain", name, "--driver", "24", "--driven", "24", "--out", path).code == 0
+    assert cli("check", path).code == 0
+    mass = load_drive(path).driver.case.drive.chain.mass_per_length
+    heavier = 1.12e6 * mass
+    given = path.read_text("utf-8").replace("[chain]", f"[chain]\nmass_kg_per_m = {heavier}", 1)
+    path.write_text(given, "utf-8")
+    assert load_drive(path).driver.case.drive.chain.mass_per_length == pytest.approx(1.12 * mass, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("option", "value", "message"),
     [
         ("--chain", "12C", "no such chain in the catalogue; did you mean '12B'"),
-        ("--chain", "081", "chain.mass_kg_per_m: "),
         ("--driver", "4", "must be a whole number from 5 to 1000 (got '4')"),
         ("--driver", "x", "must be a whole number"),
         ("--driven", "19.5", "must be a whole number"),

@@ -254,10 +254,18 @@ def test_nothing_passes(cli, tmp_path):
     assert all(used > 1.0 for used in found["nearest_miss"]["used"].values())
 
 
-def test_no_chain_is_left(cli):
-    done = cli("select", *NEED, "--series", "H")
+def test_no_chain_is_left(cli, tmp_path):
+    """The only chain with a price has a doubtful pin."""
+    prices = tmp_path / "prices.csv"
+    prices.write_text("designation,price_per_m,sprocket_price_per_kg\n48B-1,300,9\n", "utf-8")
+    done = cli("select", *NEED, "--price", prices)
     assert done.code == 3
     assert "no chain of these series" in done.out
+
+
+def test_heavy_chains_are_considered(cli):
+    found = json.loads(cli("select", *NEED, "--series", "H", "--json").out)
+    assert {one["designation"][-3:-1] for one in found["drives"]} == {"H-"}
 
 
 def test_verified_lives_are_those_of_the_whole_drive(cli, tmp_path):

@@ -399,7 +399,7 @@ CHANGES = {
     "chain.bush_diameter_mm": [("wrap", 6.0), ("own wrap", 9.0, "chain.bush_diameter_mm")],
     "chain.bearing_area_mm2": [("own wrap", 50.0), ("wrap", 50.0, "chain.bearing_area_mm2")],
     "chain.strands": [("wrap", 2), ("own wrap", 2)],
-    "chain.mass_kg_per_m": [("own wrap", 0.71), ("wrap", 0.71, "chain.mass_kg_per_m")],
+    "chain.mass_kg_per_m": [("own wrap", 0.71), ("wrap", 0.71)],
     "sprocket.role": [("wrap", "driven"), ("strand", "driven", "sprocket.role")],
     "sprocket.form": [("wrap", "max"), ("gost", "max", "sprocket.form")],
     "sprocket.seat_radius_mm": [

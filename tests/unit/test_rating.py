@@ -53,7 +53,7 @@ def test_power_of_other_loads(load):
 
 
 def test_no_41_is_the_light_chain():
-    chain = {"designation": "085-1", "mass_kg_per_m": 0.4}
+    chain = {"designation": "085-1"}
     found = case(chain=chain, load={"power_kW": 0.2, "speed_rpm": 100})
     assert found.drive.rated_drive(found, found.drive.heaviest).light
 

@@ -14,8 +14,10 @@ from wearsim.catalogue.catalogues import catalogue_rows, chains
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,
+    joint_application,
     joint_application_factor,
     joint_pressure,
+    least_safety,
     speed_limits,
 )
 from wearsim.chain.power_rating import (
@@ -28,7 +30,16 @@ from wearsim.chain.power_rating import (
     strand_factor,
     tooth_factor,
 )
-from wearsim.chain.selection import RatedDrive, RatingFinding, assess, elongation_limit, rating_note
+from wearsim.chain.selection import (
+    RatedDrive,
+    RatingFinding,
+    assess,
+    elongation_limit,
+    overloading,
+    rating_note,
+    rating_warnings,
+    warning,
+)
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import CaseError
 
@@ -358,6 +369,79 @@ def test_safety_is_a_lower_limit() -> None:
     assert not finding(weak, "safety against breaking").ok
 
 
+# Norms [s] of chains ПР and 2ПР, course notes after Chernavsky: pitch [mm] down, speed [rpm] across.
+SAFETY_SPEEDS = (50, 100, 300, 500, 750, 1000, 1250)
+SAFETIES = {
+    12.7: (7.1, 7.3, 7.9, 8.5, 9.3, 10.0, 10.6),
+    15.875: (7.2, 7.4, 8.2, 8.9, 10.0, 10.8, 11.6),
+    19.05: (7.2, 7.5, 8.4, 9.4, 10.7, 11.7, 12.7),
+    25.4: (7.3, 7.6, 8.9, 10.2, 12.0, 13.3, 14.5),
+    31.75: (7.4, 7.8, 9.4, 11.0, 13.0, 15.0),
+    38.1: (7.5, 8.0, 9.8, 11.8, 14.0),
+    44.45: (7.6, 8.1, 10.3, 12.5),
+    50.8: (7.6, 8.3, 10.8),
+}
+
+
+@pytest.mark.parametrize("pitch", SAFETIES)
+def test_least_safety(pitch: float) -> None:
+    column = SAFETIES[pitch]
+    for speed, safety in zip(SAFETY_SPEEDS, column, strict=False):
+        assert least_safety(pitch, speed) == safety
+    assert least_safety(pitch, 200.0) == pytest.approx(0.5 * (column[1] + column[2]), rel=1e-14)
+    assert least_safety(pitch, 5.0) == column[0]
+    assert least_safety(pitch, SAFETY_SPEEDS[len(column) - 1] + 1.0) is None
+
+
+def test_pitches_without_a_least_safety() -> None:
+    assert all(least_safety(pitch, 100.0) is None for pitch in (8.0, 9.525, 20.0, 63.5))
+
+
+GOST = {"tensile": 60_000.0, "own_tension": 100.0, "series": "GOST13568"}
+
+
+def test_safety_of_a_gost_chain_is_that_of_the_handbook() -> None:
+    """s = Q/(k_d F_t + F_v + F_f), 60 kN over 1.4 * 4724.41 N + 100 N, against 12 at 750 rpm."""
+    drive = RatedDrive(25.4, 20, 750.0, 30.0, **GOST)
+    found = finding(drive, "safety against breaking", 1.4)
+    assert found.value == pytest.approx(60_000.0 / (1.4 * 4724.41 + 100.0), rel=1e-6)
+    assert (found.limit, found.note, found.ok) == (12.0, "", False)
+    said = "outside a rating: safety against breaking 8.936, allowed at least 12 (GOST practice"
+    assert warning(found).startswith(said)
+    assert found in overloading(assess(drive, 1.4))
+    assert warning(found) in rating_warnings(assess(drive, 1.4))
+
+
+def test_other_chains_keep_the_safety_of_their_makers() -> None:
+    """7 without shocks: the table of [s] is for chains ПР and 2ПР, and of 50.8 mm pitch to 300 rpm."""
+    for series in ("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H", ""):
+        drive = RatedDrive(25.4, 20, 750.0, 30.0, **{**GOST, "series": series})
+        found = finding(drive, "safety against breaking", 1.4)
+        assert found.value == pytest.approx(60_000.0 / 4824.41, rel=1e-6)
+        assert (found.limit, found.note) == (7.0, "")
+    for drive in (
+        RatedDrive(25.4, 20, 750.0, 30.0, strands=3, **GOST),
+        RatedDrive(50.8, 20, 301.0, 30.0, **GOST),
+    ):
+        assert finding(drive, "safety against breaking").limit == 7.0
+
+
+def test_application_factor_has_a_part_for_the_pressure_and_one_for_hours() -> None:
+    """1.35, 1.1 and 0.15 sqrt(81) = 1.35 press the joint harder; 1.5 and 1.45 stand for hours."""
+    words = ("moderate shocks", "periodic", "three", "tensioner")
+    used = joint_application(*words, slope=math.radians(81.0))
+    assert used.pressure == pytest.approx(1.35 * 1.1 * 1.35, rel=1e-14)
+    assert used.hours == pytest.approx(1.5 * 1.45, rel=1e-14)
+    assert used.factor == pytest.approx(used.pressure * used.hours, rel=1e-14)
+    assert used.factor == joint_application_factor(*words, slope=math.radians(81.0))
+
+
+def test_shifts_are_hours_by_the_cube_law() -> None:
+    """Twice and three times the hours, life ~ p^-3: 1.260 and 1.442. 1.5 for three is 4 % more."""
+    for shifts, word in ((1, "one"), (2, "two"), (3, "three")):
+        assert joint_application(shifts=word).shifts == pytest.approx(shifts ** (1 / 3), rel=0.01)
+
+
 def test_speed_beyond_the_limit_is_found() -> None:
     fast = RatedDrive(25.4, 20, 1201.0, 1.0)
     assert not finding(fast, "greatest speed").ok
@@ -410,7 +494,14 @@ def test_numbers_and_words_that_cannot_be(call, message: str) -> None:
 
 @pytest.mark.parametrize(
     "table",
-    ["application_factors", "exploitation_factors", "joint_pressure", "speed_limits", "strand_factors"],
+    [
+        "application_factors",
+        "exploitation_factors",
+        "joint_pressure",
+        "least_safety",
+        "speed_limits",
+        "strand_factors",
+    ],
 )
 def test_every_row_has_a_source(table: str) -> None:
     assert all(row["source"].strip() for row in catalogue_rows(table))

@@ -168,8 +168,13 @@ def _chain(case: ChainRecord, table: ChainTable) -> Chain:
         chain,
         pin_diameter=chain.pin_diameter or table.pin_diameter_mm or 0.0,
         bearing_area=chain.bearing_area or table.bearing_area_mm2 or 0.0,
-        mass_per_length=chain.mass_per_length or KG_PER_M * (table.mass_kg_per_m or 0.0),
+        mass_per_length=KG_PER_M * (table.mass_kg_per_m or 0.0) or chain.mass_per_length,
     )
+    if table.mass_kg_per_m and chains()[name].mass_per_length:
+        known = chains()[name].mass_per_length / KG_PER_M
+        case.assumptions.append(
+            f"chain.mass_kg_per_m {table.mass_kg_per_m:g} in place of the catalogue's {known:.4g}"
+        )
     if chain.note:
         case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.note}")
     return chain

@@ -211,6 +211,14 @@ def joint_band(
     return band
 
 
+def extrapolated(band: JointBand, law: JointLaw, state: JointState) -> JointBand:
+    """Return a band of a rate that goes by a law, wider where that is used beyond what it was found for."""
+    outside = extrapolation(law, state)
+    if not outside:
+        return band
+    return _together([_Spread(band.low, band.high, band.source), _EXTRAPOLATED._replace(why=outside)])
+
+
 def _together(spreads: Iterable[_Spread]) -> JointBand:
     """Return the band of independent causes."""
     known = [spread for spread in spreads if (spread.low, spread.high) != (1.0, 1.0)]

@@ -3,6 +3,8 @@
 The formulas are empirical and written in the handbooks' units: power in kW, speed in rpm.
 """
 
+import math
+
 from wearsim.catalogue.catalogues import table_factor
 
 HORSEPOWER = 0.745699872
@@ -11,7 +13,15 @@ HORSEPOWER = 0.745699872
 REFERENCE_TEETH = 19
 """Teeth of the small sprocket of the reference drive of ISO 10823."""
 
-_INCH = 25.4
+RATED_HOURS = 15_000.0
+"""Hours that the ratings of ANSI B29.1 and ISO 10823 are for [h]."""
+
+IMPACT_BAND = 2.0
+"""Factor by which the hours until rollers fail may be shorter or longer: assumed, no scatter is published."""
+
+_INCH, _POUND = 25.4, 4.4482216
+
+_IMPACT_SLOPE, _IMPACT_LINKS = 2.5, 100.0
 
 
 def application_factor(driver: str, driven: str) -> float:
@@ -192,3 +202,65 @@ def power_rating(pitch: float, teeth: float, speed: float, light: bool = False) 
     return min(
         plate_fatigue_rating(pitch, teeth, speed, light), roller_impact_rating(pitch, teeth, speed, light)
     )
+
+
+def roller_impact_hours(used: float, links: float) -> float:
+    """Return the hours until rollers and bushes fail by impact, from how far their rating is used.
+
+    h = 15000 (H2/H)^2.5 X/100: impact on rollers and bushes follows H^2.5 h/X = constant (Shigley's
+    Mechanical Engineering Design, eq. 17-39 and 17-40; the exponent is the Diamond Chain Company's). The
+    rating H2 is that of 100 pitches for 15 000 h. No slope is published for the fatigue of link plates.
+
+    Parameters
+    ----------
+    used : float
+        Power with its service factor over the rating H2, above 0.
+    links : float
+        X, length of the chain in pitches.
+
+    Returns
+    -------
+    float
+        Hours [h].
+
+    Examples
+    --------
+    A quarter of the rating, 32 times the hours; twice the links, twice the hours:
+
+    >>> roller_impact_hours(0.25, 100), roller_impact_hours(1.0, 200)
+    (480000.0, 30000.0)
+    """
+    return float(RATED_HOURS * used**-_IMPACT_SLOPE * links / _IMPACT_LINKS)
+
+
+def galling_speed(pitch: float, teeth: float, tension: float) -> float:
+    """Return the speed of the small sprocket above which pin and bush may gall.
+
+    (n/1000)^(1.59 lg P + 1.873) = 82.5/(7.95^P 1.0278^z 1.323^(F/1000)), P in inches, F in lbf
+    (American Chain Association; Shigley's Mechanical Engineering Design, chapter 17). From tests,
+    without hours.
+
+    Parameters
+    ----------
+    pitch : float
+        Chain pitch [mm].
+    teeth : float
+        Gaps of the smaller sprocket.
+    tension : float
+        F of the tight span of one strand [N].
+
+    Returns
+    -------
+    float
+        Speed [rpm].
+
+    Examples
+    --------
+    One inch, no load: 82.5/(7.95 1.0278^20) = 5.997, and 5.997^(1/1.873) = 2.602
+
+    >>> round(galling_speed(25.4, 20, 0.0))
+    2602
+    """
+    inches, pounds = pitch / _INCH, tension / _POUND
+    right = 82.5 / (7.95**inches * 1.0278**teeth * 1.323 ** (pounds / 1000.0))
+    return float(1000.0 * right ** (1.0 / (1.59 * math.log10(inches) + 1.873)))

@@ -15,13 +15,10 @@ import numpy as np
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.chain.chain_length import handbook_centre
 from wearsim.chain.joint_pressure import allowable_joint_pressure
-from wearsim.chain.power_rating import power_rating, strand_factor
+from wearsim.chain.power_rating import RATED_HOURS, power_rating, strand_factor
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
 from wearsim.chain.selection import LARGEST_PITCH, RatingFinding, rating_note
 from wearsim.errors import GeometryError
-
-RATED_HOURS = 15_000.0
-"""Hours to 3 % that ANSI, ISO 10823 and DIN 8195 rate a drive for."""
 
 GOST_HOURS = 10_000.0
 """Hours to 3 % assumed behind the [p] of GOST practice; handbooks have 3000 to 10 000."""
@@ -230,6 +227,14 @@ def geometric_mean(found: Iterable[Opinion]) -> float | None:
     -------
     float or None
         Hours [h]; None where none of these rules has any.
+
+    Examples
+    --------
+    (11.9 sqrt(9.2 * 4.1) 4.7)^(1/3) in thousands for the drive of `PracticeDrive`:
+
+    >>> conveyor = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
+    >>> round(geometric_mean(opinions(conveyor)), -2)
+    7000.0
     """
     hours = {one.rule.name: one.hours for one in found if one.hours is not None}
     groups = [

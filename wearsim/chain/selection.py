@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressure, speed_limits
+from wearsim.chain.joint_pressure import allowable_joint_pressure, joint_pressure, least_safety, speed_limits
 from wearsim.chain.power_rating import (
     REFERENCE_TEETH,
     corrected_power,
+    galling_speed,
     plate_fatigue_rating,
     power_rating,
+    roller_impact_hours,
     roller_impact_rating,
     strand_factor,
 )
@@ -17,24 +19,33 @@ from wearsim.errors import CaseError, Fault
 LARGEST_PITCH = 76.2
 """Of the chains that the ANSI rating knows, no. 240 [mm]."""
 
+PLATES, IMPACT, GALLING = "plate fatigue", "roller impact", "galling speed"
+"""Names of findings about what ends a chain but wear."""
+
 _SAFETY = "safety against breaking"
 
 RULES = (
-    "plate fatigue",
-    "roller impact",
+    PLATES,
+    IMPACT,
     "corrected power",
     "joint pressure",
     "recommended speed",
     "greatest speed",
     _SAFETY,
+    GALLING,
 )
 """Names of the findings in the order of `assess`."""
+
+RATED_FOR_HOURS = RULES[:3]
+"""Those of them whose limit is for 15 000 h."""
 
 _CAPACITY = RULES[:4]
 """Those of them that say how much load a chain carries."""
 
 LEAST_SAFETY = 7.0
-"""Tensile strength over tension of the tight span (iwis: 7; Renold: 8)."""
+"""Tensile strength over tension of the tight span, without shocks (iwis: 7; Renold: 8)."""
+
+_GOST = "GOST13568"
 
 
 @dataclass(frozen=True)
@@ -63,6 +74,7 @@ class RatedDrive:
     own_tension: float = 0.0  # catenary and centrifugal tension of the tight span [N]
     series: str = ""  # as in the catalogue: `ISO606-A/ANSI B29.1`, `ISO606-B`, `ISO606-H`, `GOST13568`
     light: bool = False  # whether the chain is no. 41 (085-1).
+    links: float = 0.0  # length of the chain in pitches
 
     def __post_init__(self) -> None:
         faults = [
@@ -98,6 +110,7 @@ class RatingFinding:
     note: str = ""  # why the rule is only indicative here; empty where it applies as it stands
     at_least: bool = False  # whether the limit is a lower one
     load: str = ""  # which of several loads of the drive it is about; empty where there is one
+    hours: float | None = None  # life by this rule [h]; None where it has no hours but those it is rated for
 
     @property
     def used(self) -> float:
@@ -208,7 +221,9 @@ def assess(
     """Return what the handbooks say about a drive.
 
     Power against the ANSI ratings and, corrected by ISO 10823, against that of the reference
-    drive; joint pressure and speed against the tables of GOST practice; tensile strength.
+    drive; joint pressure and speed against the tables of GOST practice; tensile strength against
+    the rule that belongs to the chain: GOST practice by pitch and speed for its chains of one and two
+    strands, with the service factor on the pull, else iwis, without it.
 
     Examples
     --------
@@ -221,7 +236,8 @@ def assess(
         *_power_findings(drive, service_factor),
         *_pressure_findings(drive, exploitation),
         *_speed_findings(drive),
-        *_tensile_findings(drive),
+        *_tensile_findings(drive, service_factor),
+        *_galling_findings(drive),
     )
 
 
@@ -235,11 +251,12 @@ def _power_findings(drive: RatedDrive, service_factor: float) -> list[RatingFind
     reference = power_rating(drive.pitch, REFERENCE_TEETH, drive.speed, drive.light)
     plates = several * plate_fatigue_rating(*here)
     impact = several * roller_impact_rating(*here)
+    hours = roller_impact_hours(required / impact, drive.links) if drive.links else None
     corrected = corrected_power(drive.power, service_factor, drive.teeth)
     iso = "ISO 10823, f1 f2; rating of 19 teeth by ANSI B29.1"
     return [
-        RatingFinding("plate fatigue", required, plates, "kW", "ANSI B29.1, H1", note),
-        RatingFinding("roller impact", required, impact, "kW", "ANSI B29.1, H2", note),
+        RatingFinding(PLATES, required, plates, "kW", "ANSI B29.1, H1", note),
+        RatingFinding(IMPACT, required, impact, "kW", "ANSI B29.1, H2", note, hours=hours),
         RatingFinding("corrected power", corrected, several * reference, "kW", iso, note),
     ]
 
@@ -249,7 +266,7 @@ def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[RatingFin
     if allowed is None or not drive.bearing_area or drive.strands > 3:
         return []
     found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, exploitation)
-    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
     return [RatingFinding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
 
 
@@ -257,7 +274,7 @@ def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     limits = speed_limits(drive.pitch)
     if limits is None:
         return []
-    note = "" if drive.series == "GOST13568" else "indicative, the table is for GOST 13568 chains"
+    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
     names = ("recommended speed", "greatest speed")
     return [
         RatingFinding(name, drive.speed, limit, "rpm", "GOST practice", note)
@@ -265,17 +282,40 @@ def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     ]
 
 
-def _tensile_findings(drive: RatedDrive) -> list[RatingFinding]:
+def _tensile_findings(drive: RatedDrive, shocks: float) -> list[RatingFinding]:
     if not drive.tensile:
         return []
-    safety = drive.tensile / (drive.pull + drive.own_tension)
-    rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
-    return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+    # The handbook's table is for chains of one and two strands.
+    tabled = drive.series == _GOST and drive.strands <= 2
+    asked = least_safety(drive.pitch, drive.speed) if tabled else None
+    if asked is None:
+        safety = drive.tensile / (drive.pull + drive.own_tension)
+        rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
+        return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+    safety = drive.tensile / (shocks * drive.pull + drive.own_tension)
+    rule = "GOST practice (Chernavsky), by pitch and speed"
+    return [RatingFinding(_SAFETY, safety, asked, "", rule, at_least=True)]
+
+
+def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
+    if drive.pitch > LARGEST_PITCH:
+        return []
+    tension = (drive.pull + drive.own_tension) / strand_factor(drive.strands)
+    limit = galling_speed(drive.pitch, drive.teeth, tension)
+    rule = "American Chain Association; Shigley, chapter 17"
+    return [RatingFinding(GALLING, drive.speed, limit, "rpm", rule, rating_note(drive.series))]
 
 
 def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
-    """Return a warning for every rating that a drive is outside of."""
-    return [warning(finding) for finding in findings if not finding.ok and finding.name != _SAFETY]
+    """Return a warning for every rating that a drive is outside of.
+
+    A pull above a seventh of the tensile strength is warned of where the load is read.
+    """
+    return [
+        warning(finding)
+        for finding in findings
+        if not finding.ok and (finding.name, finding.limit) != (_SAFETY, LEAST_SAFETY)
+    ]
 
 
 def warning(finding: RatingFinding) -> str:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from wearsim.catalogue.catalogues import nearest
-from wearsim.chain.joint_pressure import joint_application_factor
+from wearsim.chain.joint_pressure import JointApplication, joint_application
 from wearsim.chain.power_rating import application_factor
 from wearsim.errors import CaseError, Fault
 
@@ -52,7 +52,12 @@ class ServiceConditions:
 
     wear_condition: str  # row of the table of wear conditions
     service_factor: float  # f1 of ISO 10823, for an electric motor or another smooth driver
-    joint_application_factor: float  # K_e of GOST practice, for a shaft that can be moved
+    joint_application: JointApplication  # factors of GOST practice, for a shaft that can be moved
+
+    @property
+    def joint_application_factor(self) -> float:
+        """K_e, their product."""
+        return self.joint_application.factor
 
 
 def service_conditions(
@@ -72,7 +77,8 @@ def service_conditions(
     Returns
     -------
     ServiceConditions
-        Wear condition, f1 of `application_factor` and K_e of `joint_application_factor`.
+        Wear condition, f1 of `application_factor`, and the factors of `joint_application` with their
+        product K_e.
 
     Raises
     ------
@@ -104,5 +110,5 @@ def service_conditions(
     return ServiceConditions(
         wear_condition=condition,
         service_factor=application_factor("smooth", driven),
-        joint_application_factor=joint_application_factor(load, oil, shifts),
+        joint_application=joint_application(load, oil, shifts),
     )

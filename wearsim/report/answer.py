@@ -2,14 +2,18 @@
 
 import math
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.power_rating import RATED_HOURS
+from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
 from wearsim.quantities import DAYS_OF_YEAR, grouped
+from wearsim.report.events import Event, drive_events, event_rows
 from wearsim.report.service import service_measures
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
+from wearsim.result.ends import JOINT_WEAR, TOOTH_WEAR, PartEnd, end_rows, first_end
+from wearsim.result.second_opinions import SecondOpinions, practice_text, rule_rows
 from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 if TYPE_CHECKING:
@@ -45,8 +49,24 @@ def hours(life: Life | LowerBound) -> str:
 
 
 def headline(result: WearResult) -> str:
-    """Return the life in hours, with the word where the drive is overloaded."""
-    return f"{hours(result.life)} (overloaded)" if result.overloaded else hours(result.life)
+    """Return the hours of what ends first, with the word where the drive is overloaded."""
+    first = first_end(result.ends)
+    text = hours(result.life) if first is None or first.hours is None else f"{grouped(first.hours)} h"
+    return f"{text} (overloaded)" if result.overloaded else text
+
+
+def beyond_ratings(overloaded: Sequence[RatingFinding]) -> str:
+    """Return in words which ratings for 15 000 h a drive is beyond; empty where it is within."""
+    beyond = [used_text(finding) for finding in overloaded if finding.name in RATED_FOR_HOURS]
+    return f"beyond its rating for {grouped(RATED_HOURS)} h: {', '.join(beyond)}" if beyond else ""
+
+
+def practice_line(result: WearResult) -> str:
+    """Return what published rules say of the chain, and whether that is within its band."""
+    assert result.practice is not None
+    ends = [one.hours_run for one in (result.parts["chain"], *result.bands["chain"])]
+    differs = "" if result.practice.within(*ends) else "outside the band of the chain: "
+    return f"{differs}{practice_text(result.practice)}"
 
 
 def limit_text(name: str, value: float) -> str:
@@ -116,7 +136,8 @@ def answer(result: WearResult, source: str, explain: bool = False) -> str:
     """Return the answer of one case as ``wearsim life`` prints it, on request with all that it rests on."""
     found = findings(result)
     if explain:
-        found += [("Band from", result.band), ("Assumes", numbered_assumptions(result.assumptions))]
+        found += [("Band from", result.band), *_explained(result)]
+        found.append(("Assumes", numbered_assumptions(result.assumptions)))
     else:
         short = {LIMITS: _limits_in_short(result)}
         found = [(label, short.get(label, text)) for label, text in found if label != REMOVED]
@@ -129,12 +150,44 @@ def answer(result: WearResult, source: str, explain: bool = False) -> str:
     return "\n".join([result.title, *(row(label, text) for label, text in rows)])
 
 
+def _explained(result: WearResult) -> list[tuple[str, str]]:
+    """Return what ends first, each published rule and what happens when, of a chain."""
+    if result.practice is None:
+        return []
+    return chain_rows(result.ends, result.practice, result_events(result))
+
+
+def chain_rows(
+    ends: Sequence[PartEnd], practice: SecondOpinions, events: Sequence[Event]
+) -> list[tuple[str, str]]:
+    """Return a line for everything that may end a part, for every published rule and for every event."""
+    rows = {
+        "Ends": [", ".join(cell for cell in row if cell != "-") for row in end_rows(ends)],
+        "Rules": [f"{rule}: {told} ({trust}; {why})" for rule, told, trust, why in rule_rows(practice)],
+        "Events": [
+            f"{told}{f' ({day})' if day != '-' else ''}: {part} {what}"
+            for told, day, part, what in event_rows(events)
+        ],
+    }
+    return [("" if i else label, text) for label, texts in rows.items() for i, text in enumerate(texts)]
+
+
+def result_events(result: WearResult) -> tuple[Event, ...]:
+    """Return what happens to the chain and the sprocket of a result when; none where no chain wraps it."""
+    limit = next((one.limit for one in result.limits if one.name == "elongation_percent"), None)
+    if limit is None or "chain" not in result.parts:
+        return ()
+    sprocket = {"sprocket": result.parts["sprocket"]}
+    return drive_events(result.inputs, result.history_columns, result.parts["chain"], limit, sprocket)
+
+
 def findings(result: WearResult) -> list[tuple[str, str]]:
     """Return what a run has found, the life first; before it that the drive is overloaded."""
     return [
         *(((OVERLOADED, overload_text(result)),) if result.overloaded else ()),
         ("Life", _life(result)),
         (BAND, _band(result)),
+        *([("Practice", practice_line(result))] if result.practice else []),
         *_service(result),
         *((("Governs", governing_text(result)),) if result.fatigue else ()),
         *_parts(result),
@@ -150,7 +203,7 @@ def overload_text(result: WearResult) -> str:
     used = ", ".join(used_text(finding) for finding in result.overloaded if not finding.at_least)
     short = [used_text(finding) for finding in result.overloaded if finding.at_least]
     found = "; ".join([f"{used} of the rating"] * bool(used) + short)
-    return f"{found}; the hours are for wear only"
+    return f"{found}; life counts wear only, fatigue may end it sooner"
 
 
 def used_text(finding: RatingFinding) -> str:
@@ -284,6 +337,17 @@ def ending(result: WearResult) -> str:
 
 
 def _life(result: WearResult) -> str:
+    """Return what ends first, with what stands against its hours in the same line."""
+    text, first = _wear_life(result), first_end(result.ends)
+    if first is not None and first.mode not in (JOINT_WEAR, TOOTH_WEAR):
+        text = f"{grouped(first.hours or 0.0)} h by {first.mode} of the {first.part}; by wear {text}"
+    if result.practice is not None and result.practice.outside:
+        text = f"outside any published practice ({result.practice.outside}): {text}"
+    beyond = beyond_ratings(result.overloaded)
+    return f"{text}; {beyond}, which may end it sooner" if beyond else text
+
+
+def _wear_life(result: WearResult) -> str:
     speed = f"{result.speed_rpm:g} rpm"
     if isinstance(result.life, Life):
         error = result.numerical_error

@@ -17,6 +17,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.quantities import quantities
 from wearsim.result.lives import Life, LimitState, LowerBound
+from wearsim.result.second_opinions import read_opinions
 
 SCHEMA_VERSION = 1
 
@@ -39,7 +40,8 @@ def write_result(
     with new_folder(folder, force) as place:
         lives = {name: asdict(result[name]) for name in ("life", "life_low", "life_high")}
         parts = {name: asdict(life) for name, life in result["parts"].items()}
-        _write_json(place / "result.json", {**summary, "lives": lives, "parts": parts})
+        bands = {name: [asdict(life) for life in band] for name, band in result["bands"].items()}
+        _write_json(place / "result.json", {**summary, "lives": lives, "parts": parts, "bands": bands})
         _write_json(place / "environment.json", result["environment"])
         (place / "case.lock.toml").write_text(_lock(result["case"], result["inputs"]), encoding="utf-8")
         for name, text in result["input_files"].items():
@@ -154,6 +156,8 @@ def _stored(folder: Path) -> dict[str, Any]:
         **{name: stored[name] for name in same},
         **{name: _life(life) for name, life in stored["lives"].items()},
         "parts": {name: _life(life) for name, life in stored["parts"].items()},
+        "bands": {name: tuple(map(_life, band)) for name, band in stored.get("bands", {}).items()},
+        "practice": read_opinions(stored["practice"]) if "practice" in stored else None,
         "limits": tuple(LimitState(**state) for state in stored["limits"]),
         "ratings": tuple(map(_rating, stored.get("ratings", ()))),
         "max_depth": stored["max_depth_mm"],
@@ -180,7 +184,9 @@ def _life(stored: dict[str, float]) -> Life | LowerBound:
 
 
 def _rating(stored: dict[str, Any]) -> RatingFinding:
-    return RatingFinding(**{field.name: stored[field.name] for field in fields(RatingFinding)})
+    return RatingFinding(
+        **{field.name: stored[field.name] for field in fields(RatingFinding) if field.name in stored}
+    )
 
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:

@@ -15,8 +15,10 @@ from wearsim.chain.selection import RatingFinding, overloading
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.notebook import html_rows, one_line
+from wearsim.result.ends import Lives, PartEnd, ends_json, part_ends
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
+from wearsim.result.second_opinions import SecondOpinions, opinions_json
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,8 +75,13 @@ class WearResult:
         materials are given: hours until pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
         Every limit and what its quantity has come to at the end of the life.
+    bands : mapping
+        Of ``chain`` and ``sprocket`` on a wrap, their lives at the high and at the low end of their
+        coefficients; empty otherwise.
     ratings : tuple of RatingFinding
         What the handbooks allow of the drive, on a wrap; empty otherwise.
+    practice : SecondOpinions or None
+        What published rules say of the chain's life; None where no chain wraps the sprocket.
     assumptions, warnings : tuple of str
         What was taken for granted, and what the user should look at.
     inputs : mapping
@@ -110,7 +117,9 @@ class WearResult:
     life_tolerance: float
     parts: Mapping[str, Life | LowerBound]
     limits: tuple[LimitState, ...]
+    bands: Mapping[str, Lives]
     ratings: tuple[RatingFinding, ...]
+    practice: SecondOpinions | None
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
     inputs: Mapping[str, Any]
@@ -189,6 +198,13 @@ class WearResult:
         return self.fatigue.get(self.governing or "", self.life)
 
     @property
+    def ends(self) -> tuple[PartEnd, ...]:
+        """Everything that may end a part, that which comes first at the head."""
+        wear = self.parts if "chain" in self.parts else {"sprocket": self.life, **self.parts}
+        bands = self.bands or {"sprocket": (self.life_low, self.life_high)}
+        return part_ends(wear, bands, self.ratings)
+
+    @property
     def overloaded(self) -> tuple[RatingFinding, ...]:
         """Those of `ratings` that overload the drive; the lives do not count them."""
         return overloading(self.ratings)
@@ -234,6 +250,8 @@ class WearResult:
             **self._parts(),
             "limits": [asdict(state) for state in self.limits],
             **self._rated(),
+            "ends": ends_json(self.ends),
+            **({} if self.practice is None else {"practice": opinions_json(self.practice)}),
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,
             "flank_length_mm": float(self.flank_columns["arc_length_mm"][-1]),

@@ -67,7 +67,9 @@ def simulate_points(case: Case) -> WearResult:
         life_tolerance=case.run.life_tolerance,
         parts=fatigue,
         limits=limit_states(task.stop_limits, run.x[-1], run.y[-1], run.depth[-1]),
+        bands={},
         ratings=(),
+        practice=None,
         assumptions=(
             *mechanism.assumptions(),
             *clock_assumptions(task.clock.part),

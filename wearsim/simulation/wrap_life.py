@@ -16,6 +16,7 @@ from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
+from wearsim.result.second_opinions import SecondOpinions, second_opinions
 from wearsim.simulation.lubricant import late_relubrication, with_knees
 from wearsim.simulation.wear_task import clock_assumptions, contact_clock, limit_states, wear_law
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
@@ -50,8 +51,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     drive = wrap_of(case)
     contact = drive.contact(case)
     law, stop_limits, horizon, clock = wrap_problem(case, contact)
-    ratings = drive.ratings(case)
-    warnings = [*case.warnings, *rating_warnings(ratings)]
+    ratings, practice = drive.ratings(case), chain_practice(case)
+    warnings = [*case.warnings, *rating_warnings(ratings), *practice_warnings(practice)]
     run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
     warnings += _gave_up(run, horizon)
     constant = run.cycles
@@ -60,7 +61,11 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     ended = "chain" if stop == "elongation_percent" else "sprocket"
-    low, high = _band(case, ended, life, clock)
+    bands = {
+        "chain": _band(case, "chain", chain, clock),
+        "sprocket": _band(case, "sprocket", sprocket, clock),
+    }
+    low, high = bands[ended]
     history, flank = _tables(case, contact, drive, run, law)
     history = with_knees(history, constant, clock, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
@@ -94,7 +99,9 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         life_tolerance=case.run.life_tolerance,
         parts=parts,
         limits=_limits(contact, drive, stop_limits, run, life),
+        bands=bands,
         ratings=ratings,
+        practice=practice,
         assumptions=(*contact.assumptions(), *clock_assumptions(clock.part), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
@@ -103,6 +110,20 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         flank_columns=flank,
         environment=environment(),
     )
+
+
+def chain_practice(case: Case) -> SecondOpinions | None:
+    """Return what published rules say of the chain of a case; None where it transmits nothing."""
+    seen = wrap_of(case).practice(case)
+    return None if seen is None else second_opinions(seen)
+
+
+def practice_warnings(found: SecondOpinions | None) -> list[str]:
+    """Return what practice warns of: a joint pressure outside of it, and a poorer lubrication."""
+    if found is None:
+        return []
+    outside = f"outside any published practice: {found.outside}" if found.outside else ""
+    return [text for text in (outside, found.lubrication) if text]
 
 
 def wrap_problem(

@@ -188,11 +188,8 @@ class ChainTable(Table):
 
     def _known_by_designation(self) -> list[str]:
         chain = chains()[chain_name(self.designation or "") or ""]
-        values = {
-            "pin_diameter_mm": chain.pin_diameter,
-            "bearing_area_mm2": chain.bearing_area,
-            "mass_kg_per_m": chain.mass_per_length,
-        }
+        # No standard of ISO gives a mass: that of the chain's maker takes the place of the catalogue's.
+        values = {"pin_diameter_mm": chain.pin_diameter, "bearing_area_mm2": chain.bearing_area}
         return [key for key, value in values.items() if value]
 
 

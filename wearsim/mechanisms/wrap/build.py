@@ -21,7 +21,7 @@ from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
-from wearsim.mechanisms.wrap.joints import alternates, joint_input, joint_law_of
+from wearsim.mechanisms.wrap.joints import alternates, joint_input, joint_law_of, with_teeth_alike
 from wearsim.mechanisms.wrap.place_in_loop import (
     PlaceInLoop,
     check_travel,
@@ -86,7 +86,8 @@ def wrapped_drive(
     blocks, rated = loads
     slack = heaviest_block(rated).slack
     width = face_width(case, table, chain)
-    joint = joint_input(case, chain, layout, law, blocks)
+    joint = joint_input(case, chain, layout, law, blocks, wear)
+    blocks = with_teeth_alike(case, chain, law, blocks)
     if isinstance(layout, LoopLayout):
         check_travel(case, layout, joint.elongation_limit)
     mechanism = tables.mechanism

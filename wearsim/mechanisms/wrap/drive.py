@@ -15,6 +15,7 @@ from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
 from wearsim.chain.joint_wear import JointLaw, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
+from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
 from wearsim.chain.selection import RatedDrive, RatingFinding
 from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
@@ -65,6 +66,7 @@ class JointInput:
 
     law: JointLaw  # specific wear rate of pin and bush together
     band: WearBand  # of its coefficient
+    tooth_band: WearBand  # of the coefficient of the teeth, where they run on this chain
     bearing_area: float  # projected area of pin in bush [mm2]
     alternating: bool  # whether wear lengthens every other link only, as it does
     elongation_limit: float  # relative elongation at which the chain's life ends
@@ -142,7 +144,7 @@ class WrapDrive(Drive):
 
     def wear_band(self, part: str, wear: WearInput) -> WearBand:
         """Return that of the joints for the chain, that of the teeth for the sprocket."""
-        return self.joint.band if part == "chain" else super().wear_band(part, wear)
+        return self.joint.band if part == "chain" else self.joint.tooth_band
 
     @property
     def heaviest(self) -> WrapLoad:
@@ -411,6 +413,40 @@ class WrapDrive(Drive):
             own_tension=load.base + load.centrifugal,
             series=chain.series,
             light=chain.designation == LIGHT_CHAIN,
+            links=self.layout.links,
+        )
+
+    def practice(self, case: Case) -> PracticeDrive | None:
+        """Return the drive as the published rules see it, at the mean of its duty weighted by the pull.
+
+        None where it pulls nothing, or where the rules know no such number of strands.
+        """
+        worn = [block.share * block.pull for block in self.blocks]
+        whole, small = math.fsum(worn), min(self.layout.rated_teeth)
+        if not whole > 0.0 or self.chain.strands > MOST_STRANDS:
+            return None
+        own = self.gaps / case.engaged_every
+        pull, speed = (
+            math.fsum(weight * value for weight, value in zip(worn, values, strict=True)) / whole
+            for values in ([b.pull for b in self.blocks], [b.speed_rpm * own / small for b in self.blocks])
+        )
+        supplied, environment = supply_in_words(case)
+        return PracticeDrive(
+            pitch=self.chain.pitch,
+            teeth=small,
+            ratio=max(self.layout.rated_teeth) / small,
+            speed=speed,
+            links=self.layout.links,
+            pull=pull,
+            bearing_area=self.chain.bearing_area,
+            pin_diameter=self.chain.pin_diameter,
+            strands=self.chain.strands,
+            series=self.chain.series,
+            light=self.chain.designation == LIGHT_CHAIN,
+            elongation=self.joint.elongation_limit,
+            shock_factor=self.service_factor,
+            lubrication=supplied,
+            environment=environment,
         )
 
     def forces(self, load: WrapLoad) -> LoopForces:
@@ -457,6 +493,29 @@ def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
     centres = path.worn(x, y).locus
     lowest = float((centres[0] ** 2 + centres[1] ** 2).min()) ** 0.5
     return measurement_over_pins(lowest, 2.0 * path.roller_radius, gaps)
+
+
+_SUPPLY = {
+    "drip": "drip",
+    "oil bath": "oil-bath",
+    "forced": "forced",
+    "manual": "periodic",
+    "greased": "grease",
+    "dry": "dry",
+    "normalised, greased": "periodic",
+    "hardened, dry": "dry",
+    "unhardened, dry": "dry",
+    "soil-contaminated": "dry",
+}
+"""Word for the supply of a lubricant or of a wear condition, where it stands for one."""
+
+
+def supply_in_words(case: Case) -> tuple[str, str]:
+    """Return the word for the supply of lubricant, empty where it is not known, and for the surroundings."""
+    lubrication, condition = case.inputs.get("lubrication") or {}, case.inputs["wear"].get("condition", "")
+    supplied = _SUPPLY.get(lubrication.get("lubricant") or condition, "")
+    soil = condition == "soil-contaminated" or lubrication.get("environment") == "soil"
+    return supplied, "mud" if soil else lubrication.get("environment", "clean")
 
 
 def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str = "") -> WrapDrive:

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
-from wearsim.case.model import WearBand
+from wearsim.case.model import WearBand, WearInput
 from wearsim.case.table_inputs import DEFAULT_BAND
 from wearsim.catalogue.catalogues import Chain, Environment, WearCondition, environments, wear_conditions
 from wearsim.chain.drive_layout import DriveLayout
-from wearsim.chain.joint_wear import JointLaw, JointState, joint_band, joint_law
+from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.schema import JointTable
@@ -49,6 +49,7 @@ def joint_input(
     layout: DriveLayout | LoopLayout,
     law: JointLaw,
     blocks: Sequence[WrapLoad],
+    wear: WearInput,
 ) -> JointInput:
     """Return how the joints of a chain under a duty wear; what is taken goes to the record."""
     if _table(case).pitch is None:
@@ -60,10 +61,44 @@ def joint_input(
     return JointInput(
         law=law,
         band=_band(case, law, state),
+        tooth_band=_tooth_band(case, law, state, wear),
         bearing_area=chain.bearing_area,
         alternating=alternates(case),
         elongation_limit=0.01 * limit,
     )
+
+
+def with_teeth_alike(
+    case: ChainRecord, chain: Chain, law: JointLaw, blocks: Sequence[WrapLoad]
+) -> tuple[WrapLoad, ...]:
+    """Return loads whose teeth wear by the law of the joints, where both have the rate of one condition.
+
+    What speed and pressure do to the lubricant between pin and bush they do to it between roller and tooth.
+    With it sprockets last two or three chains at every speed, as in practice; without it 20 at 120 rpm.
+    """
+    if not _teeth_alike(case, law):
+        return tuple(blocks)
+    factors = [
+        law.pressure_factor((block.tension + block.centrifugal) / chain.bearing_area)
+        * block.turning_factors[0]
+        for block in blocks
+    ]
+    shown = " to ".join(dict.fromkeys(f"{end:.3g}" for end in (min(factors), max(factors))))
+    case.assumptions.append(
+        f"teeth wear {shown} times as fast as their condition says, by the law of the joints: no tooth was "
+        "measured, but so sprockets last two or three chains at every speed, as in practice"
+    )
+    return tuple(
+        replace(block, wear_factor=block.wear_factor * factor)
+        for block, factor in zip(blocks, factors, strict=True)
+    )
+
+
+def _teeth_alike(case: ChainRecord, law: JointLaw) -> bool:
+    """Return whether teeth and joints take the rates of one condition by a law that is not constant."""
+    table, of_teeth = _table(case), case.tables.wear.condition
+    own = table.specific_wear_rate_mm2_per_N is not None
+    return of_teeth is not None and table.condition in (None, of_teeth) and not own and not law.is_constant
 
 
 def joint_state(chain: Chain, blocks: Sequence[WrapLoad], own_teeth: float, small: int) -> JointState:
@@ -122,6 +157,14 @@ def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
         return WearBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
     known = _named(case) is not None
     return WearBand(*joint_band(law, condition, state, known, _environment(case)))
+
+
+def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearInput) -> WearBand:
+    """Return the band of the teeth, wider where they wear by the joints' law beyond its window."""
+    band = WearBand(wear.low, wear.high, wear.band)
+    if case.tables.wear.band_factor is not None or not _teeth_alike(case, law):
+        return band
+    return WearBand(*extrapolated(JointBand(*band), law, state))
 
 
 def _environment(case: ChainRecord) -> Environment | None:

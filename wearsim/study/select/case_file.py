@@ -3,7 +3,6 @@
 import math
 from typing import Any
 
-from wearsim.catalogue.catalogues import KG_PER_M, chains
 from wearsim.chain.selection import elongation_limit
 from wearsim.chain.standard_teeth import standard_form
 from wearsim.study.select.model import SAG, CandidateDrive
@@ -32,7 +31,7 @@ def case_tables(
     return {
         "format_version": 1,
         "title": f"{chain.designation}, {layout.teeth_1} to {layout.teeth_2} teeth",
-        "chain": {"designation": chain.designation, **_mass(drive)},
+        "chain": {"designation": chain.designation},
         "sprocket": [
             {"role": "driver", "teeth": layout.teeth_1, "profile": profile},
             {"role": "driven", "teeth": layout.teeth_2, "profile": profile},
@@ -57,13 +56,6 @@ def case_text(tables: dict[str, Any], command: str) -> str:
 
     text = tomlkit.dumps(tables)
     return f"# Chosen by {command}\n# All that it assumes: wearsim check, with this file.\n{text}"
-
-
-def _mass(drive: CandidateDrive) -> dict[str, float]:
-    """Return the mass of a chain that the catalogue has none for."""
-    if chains()[drive.chain.designation].mass_per_length:
-        return {}
-    return {"mass_kg_per_m": _digits(drive.chain.mass_per_length / KG_PER_M)}
 
 
 def _digits(value: float) -> float:

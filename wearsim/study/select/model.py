@@ -59,7 +59,7 @@ class Refusal:
 class CandidateDrive:
     """A chain on two sprockets and what speaks for and against it."""
 
-    chain: Chain  # with its mass
+    chain: Chain
     layout: DriveLayout  # sprocket 1 drives
     speed: float  # of the driver [rpm]
     slack: float  # tension of the slack span, that of its catenary [N]

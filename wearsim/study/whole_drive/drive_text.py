@@ -5,13 +5,16 @@ import shlex
 from wearsim.report.answer import hours, used_text
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
+from wearsim.result.second_opinions import practice_text
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
 from wearsim.study.whole_drive.sheet import (
     Lives,
+    against_hours,
     band_source,
     band_text,
+    explained_rows,
     first_stop_text,
     first_text,
     found_rows,
@@ -22,6 +25,7 @@ from wearsim.study.whole_drive.sheet import (
     own_lives,
     part_words,
     parts_in_words,
+    practice_agrees,
     stop_text,
     taken_for_granted,
     within_text,
@@ -50,7 +54,8 @@ def _all_rows(found: DriveLife) -> list[str]:
         *found_rows(found),
         ("Worn most", f"{places} from the right tip"),
         ("Band from", band_source(found)),
-        ("Warnings", "; ".join(found.doubts) or "none"),
+        *explained_rows(found),
+        ("Warnings", "; ".join(found.warnings) or "none"),
         ("Assumes", numbered(*taken_for_granted(found))),
     ]
     return [row(label, text) for label, text in rows]
@@ -64,11 +69,20 @@ def _short_rows(found: DriveLife) -> list[str]:
         *_stop_rows(drive_plan(found)),
         _line("Band", band, band.partition(",")[0]),
         _line("Ratings", *_ratings(found)),
-        _line("Worn most", *_worn_most(found)),
+        _practice_row(found) or _line("Worn most", *_worn_most(found)),
     ]
     assumes = row("Assumes", counted(*taken_for_granted(found)))
     left = _MAX_LINES - _TITLE_ASSUMES_NEXT - len(before)
-    return [*before, row("Warnings", _first_warning(found.doubts), left), assumes]
+    return [*before, row("Warnings", _first_warning(found.warnings), left), assumes]
+
+
+def _practice_row(found: DriveLife) -> str:
+    """Return what published rules say where that is outside the band of the chain; empty where it is not."""
+    practice = found.practice
+    if practice is None or (practice_agrees(found) and not practice.outside):
+        return ""
+    said = practice_text(practice)
+    return _line("Practice", said if practice.outside else f"outside the band of the chain: {said}", said)
 
 
 def _line(label: str, *forms: str) -> str:
@@ -78,11 +92,20 @@ def _line(label: str, *forms: str) -> str:
 
 
 def _part_rows(found: DriveLife) -> list[str]:
-    rows = [_line(CHAIN.capitalize(), *_part(found, CHAIN))]
+    rows = [_line(CHAIN.capitalize(), *_chain(found))]
     for label, names in grouped_parts(found, _MAX_ROWS):
         alone = names == (label,)
         rows.append(_line(label, *(_part(found, label) if alone else _lives(own_lives(found, label, names)))))
     return rows
+
+
+def _chain(found: DriveLife) -> list[str]:
+    """Return the life of the chain with what stands against its hours in the same line; then less of it."""
+    against, worst = against_hours(found), against_hours(found, only_worst=True)
+    if not against:
+        return _part(found, CHAIN)
+    forms = _part(found, CHAIN)
+    return [*(f"{form}; {against}" for form in forms), *(f"{form}; {worst}" for form in forms)]
 
 
 def _part(found: DriveLife, name: str) -> list[str]:
@@ -136,7 +159,7 @@ def _ratings(found: DriveLife) -> list[str]:
     worst = used_text(max(driver.overloaded, key=lambda finding: finding.used))
     others = len(driver.overloaded) - 1
     over = f"OVERLOADED: {worst}" + (f" and {others} more" if others else "")
-    return [f"{over}; the hours are for wear only", f"{over}; hours of wear only", over]
+    return [f"{over}; life counts wear only", over]
 
 
 def _worn_most(found: DriveLife) -> list[str]:

@@ -181,15 +181,12 @@ class UseFactors:
 
 def use_factors(values: Values) -> UseFactors:
     """Return the factors that follow from lubrication, shocks and hours of a day."""
-    from wearsim.chain.joint_pressure import joint_application_factor
-
-    _, load = SHOCKS[values["shock"]]
     used = service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
     return UseFactors(
         service=used.service_factor,
-        load=joint_application_factor(load=load),
-        lubrication=joint_application_factor(lubrication=LUBRICATIONS[values["lubrication"]][1]),
-        shifts=joint_application_factor(shifts=shifts_in_words(values)),
+        load=used.joint_application.load,
+        lubrication=used.joint_application.lubrication,
+        shifts=used.joint_application.shifts,
         joint=used.joint_application_factor,
     )
 

@@ -6,13 +6,17 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.notebook import html_rows, one_line
 from wearsim.report.answer import hours
+from wearsim.report.events import Event, drive_events
 from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result.ends import PartEnd, part_ends
+from wearsim.result.second_opinions import SecondOpinions
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import part_band
 from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
@@ -153,6 +157,29 @@ class DriveLife:
         """
         return int(self.results[name].history_columns["chain"][-1])
 
+    @cached_property
+    def ends(self) -> tuple[PartEnd, ...]:
+        """Everything that may end a part, that which comes first at the head."""
+        bands = {name: self.band(name) for name in self.parts}
+        pitting = {name: life for one in self.results.values() for name, life in _named_fatigue(one).items()}
+        return part_ends({**self.parts, **pitting}, bands, self._driver.ratings)
+
+    @property
+    def practice(self) -> SecondOpinions | None:
+        """What published rules say of the life of the chain."""
+        return self._driver.practice
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What happens to the chain and the sprockets when, in the order of time."""
+        limit = 100.0 * self.drive.driver.drive.joint.elongation_limit
+        history = self._driver.history_columns
+        return drive_events(self.drive.driver.case.inputs, history, self.chain, limit, self.sprockets)
+
+    @property
+    def _driver(self) -> WearResult:
+        return self.results[self.drive.driver.name]
+
     @property
     def overloaded(self) -> tuple[RatingFinding, ...]:
         """Ratings that the drive does not meet; both sprockets have the same."""
@@ -171,6 +198,11 @@ class DriveLife:
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful: first the ratings that are not kept, with the loads and speeds of the driver."""
         return (*rating_warnings(self.results[self.drive.driver.name].ratings), *self.doubts)
+
+
+def _named_fatigue(result: WearResult) -> dict[str, Life | LowerBound]:
+    """Return lives of a sprocket by contact fatigue under the name of the sprocket."""
+    return {f"{result.case}_fatigue": life for life in result.fatigue.values()}
 
 
 def drive_life(

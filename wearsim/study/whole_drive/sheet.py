@@ -4,11 +4,25 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.chain.selection import RATED_FOR_HOURS
 from wearsim.quantities import grouped
-from wearsim.report.answer import JUMPING, SAFE, ending, hours, jumping_margin, overload_text, service_text
+from wearsim.report.answer import (
+    JUMPING,
+    SAFE,
+    beyond_ratings,
+    chain_rows,
+    ending,
+    hours,
+    jumping_margin,
+    overload_text,
+    service_text,
+)
+from wearsim.report.events import events_json
 from wearsim.report.service import service_keys, service_measures
 from wearsim.report.text_lines import listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
+from wearsim.result.ends import JOINT_WEAR, ends_json, first_end
+from wearsim.result.second_opinions import opinions_json, practice_text
 from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
@@ -30,12 +44,38 @@ _MAX_THEN = 2
 def found_rows(found: DriveLife) -> list[tuple[str, str]]:
     """Return the life of every part, what is replaced first, the band and the ratings."""
     return [
-        (CHAIN.capitalize(), part_text(found, CHAIN)),
+        (CHAIN.capitalize(), "; ".join(filter(None, (part_text(found, CHAIN), against_hours(found))))),
         *((name, part_text(found, name)) for name in found.results),
         ("First", first_text(drive_plan(found))),
         ("Band", band_text(found)),
+        *([("Practice", practice_text(found.practice))] if found.practice else []),
         ("Ratings", ratings_text(found)),
     ]
+
+
+def practice_agrees(found: DriveLife) -> bool:
+    """Return whether the published rules lie within the band of the chain."""
+    ends = [one.hours_run for one in (found.chain, *found.band(CHAIN))]
+    return found.practice is None or found.practice.within(*ends)
+
+
+def against_hours(found: DriveLife, only_worst: bool = False) -> str:
+    """Return in words why the chain may end before its life by wear; empty where nothing says so."""
+    first, overloaded = first_end(found.ends), list(found.overloaded)
+    if only_worst:
+        rated = [finding for finding in overloaded if finding.name in RATED_FOR_HOURS]
+        overloaded = [max(rated, key=lambda finding: finding.used)] if rated else []
+    reasons = [beyond_ratings(overloaded)]
+    if first is not None and first.part == CHAIN and first.mode != JOINT_WEAR:
+        reasons.insert(0, f"by {first.mode} {grouped(first.hours or 0.0)} h")
+    if found.practice is not None and found.practice.outside:
+        reasons.insert(0, "outside any published practice")
+    return "; ".join(filter(None, reasons))
+
+
+def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
+    """Return a line for everything that may end a part, for every published rule and for every event."""
+    return [] if found.practice is None else chain_rows(found.ends, found.practice, found.events)
 
 
 def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str, ...]]]:
@@ -252,6 +292,9 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
             {"name": name, **result.summary(), "chains": found.chains_with(name)}
             for name, result in found.results.items()
         ],
+        "ends": ends_json(found.ends),
+        "events": events_json(found.events),
+        **({} if found.practice is None else {"practice": opinions_json(found.practice)}),
         "layout": layout_json(drive),
         "warnings": list(found.warnings),
     }

@@ -1,0 +1,148 @@
+"""What ends a part first, by whatever mode: wear, contact fatigue, or a rating of its chain."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wearsim.chain.power_rating import IMPACT_BAND, RATED_HOURS
+from wearsim.chain.selection import GALLING, IMPACT, PLATES, RatingFinding
+from wearsim.quantities import grouped
+from wearsim.result.lives import Life, LowerBound
+
+CHAIN, SPROCKET = "chain", "sprocket"
+
+JOINT_WEAR, TOOTH_WEAR, PITTING = "joint wear", "tooth wear", "contact fatigue"
+
+NO_MORE_HOURS = 1e5
+"""Hours above which a mode is not what ends a chain, and no number is told."""
+
+Lives = tuple[Life | LowerBound, Life | LowerBound]
+"""A life at the high and at the low end of its coefficient."""
+
+
+@dataclass(frozen=True)
+class PartEnd:
+    """What may end a part, and when.
+
+    Examples
+    --------
+    >>> PartEnd("chain", "joint wear", 9600.0, 3200.0, 25_000.0).reached
+    True
+    """
+
+    part: str  # `chain`, or the name of a sprocket
+    mode: str
+    hours: float | None  # running time [h]; None where no slope is published
+    low: float | None = None  # ends of its 90 % band [h]
+    high: float | None = None
+    reached: bool = True  # whether it ends then, or not before
+    verdict: str = ""  # how it stands to its rating
+
+    @property
+    def ends(self) -> bool:
+        """Whether hours are known after which the part is at its end."""
+        return self.reached and self.hours is not None
+
+
+def wear_end(part: str, mode: str, life: Life | LowerBound, band: Lives | None) -> PartEnd:
+    """Return the end of a part by wear."""
+    low, high = (None, None) if band is None else (band[0].hours_run, band[1].hours_run)
+    return PartEnd(part, mode, life.hours_run, low, high, isinstance(life, Life))
+
+
+def rating_ends(ratings: Iterable[RatingFinding]) -> list[PartEnd]:
+    """Return how plates, rollers and pins of a chain stand to their ratings, and when rollers fail."""
+    found = {finding.name: finding for finding in ratings}
+    ends = []
+    if PLATES in found:
+        ends.append(_verdict_only("link plate fatigue", _verdict(found[PLATES], True)))
+    if IMPACT in found:
+        ends.append(_impact_end(found[IMPACT]))
+    if GALLING in found:
+        ends.append(_verdict_only("galling of pin and bush", _verdict(found[GALLING], False)))
+    return ends
+
+
+def _verdict_only(mode: str, verdict: str) -> PartEnd:
+    return PartEnd(CHAIN, mode, None, reached=False, verdict=verdict)
+
+
+def _impact_end(finding: RatingFinding) -> PartEnd:
+    mode, verdict = "roller and bush impact", _verdict(finding, True)
+    if finding.hours is None or finding.hours > NO_MORE_HOURS:
+        bound = None if finding.hours is None else NO_MORE_HOURS
+        return PartEnd(CHAIN, mode, bound, reached=False, verdict=verdict)
+    ends = finding.hours / IMPACT_BAND, finding.hours * IMPACT_BAND
+    return PartEnd(CHAIN, mode, finding.hours, *ends, verdict=verdict)
+
+
+def _verdict(finding: RatingFinding, rated: bool) -> str:
+    side = "within" if finding.ok else "BEYOND"
+    what = f"rating for {grouped(RATED_HOURS)} h" if rated else "limit of speed"
+    note = ", indicative" if finding.note else ""
+    return f"{side} its {what}{note}: {grouped(100.0 * finding.used)} % used"
+
+
+def part_ends(
+    parts: Mapping[str, Life | LowerBound], bands: Mapping[str, Lives], ratings: Sequence[RatingFinding]
+) -> tuple[PartEnd, ...]:
+    """Return everything that may end the parts of a drive, that which comes first at the head.
+
+    Parameters
+    ----------
+    parts : mapping
+        Lives by wear of ``chain`` and sprockets, and of names that end in ``_fatigue`` by contact fatigue.
+    bands : mapping
+        Bands of those that have one.
+    ratings : sequence of RatingFinding
+        Of the chain.
+
+    Examples
+    --------
+    >>> parts = {"sprocket": Life(1e9, 5000.0), "chain": Life(1e9, 900.0)}
+    >>> [end.mode for end in part_ends(parts, {}, ())]
+    ['joint wear', 'tooth wear']
+    """
+    found = []
+    for name, life in parts.items():
+        part = name.removesuffix("_fatigue")
+        mode = PITTING if part != name else JOINT_WEAR if name == CHAIN else TOOTH_WEAR
+        found.append(wear_end(part, mode, life, bands.get(name)))
+    found += rating_ends(ratings)
+    return tuple(sorted(found, key=_order))
+
+
+def _order(end: PartEnd) -> tuple[int, float]:
+    return (0 if end.ends else 1 if end.hours is not None else 2), end.hours or 0.0
+
+
+def first_end(ends: Sequence[PartEnd]) -> PartEnd | None:
+    """Return what ends first; None where nothing is known to end."""
+    return next((end for end in ends if end.ends), None)
+
+
+def ends_json(ends: Sequence[PartEnd]) -> list[dict[str, Any]]:
+    """Return what may end the parts as JSON."""
+    return [
+        {
+            "part": end.part,
+            "mode": end.mode,
+            "life_hours": end.hours if end.reached else None,
+            "life_hours_at_least": None if end.reached else end.hours,
+            "life_hours_low": end.low,
+            "life_hours_high": end.high,
+            "verdict": end.verdict,
+        }
+        for end in ends
+    ]
+
+
+def end_rows(ends: Sequence[PartEnd]) -> list[tuple[str, str, str, str, str]]:
+    """Return part, mode, hours, band and verdict of everything that may end a part, in words."""
+    rows = []
+    for end in ends:
+        told = "-" if end.hours is None else f"{'' if end.reached else '> '}{grouped(end.hours)} h"
+        known = end.reached and end.low is not None and end.high is not None
+        band = f"{grouped(end.low or 0.0)} to {grouped(end.high or 0.0)} h" if known else "-"
+        rows.append((end.part, end.mode, told, band, end.verdict or "-"))
+    return rows
