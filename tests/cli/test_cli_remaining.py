@@ -173,3 +173,20 @@ def test_pictures_are_of_tables(cli, drive, tmp_path):
     done = cli("remaining", drive(), *READING, "--out", tmp_path / "out")
     assert done.code == 2
     assert "--out needs READINGS" in done.err
+
+
+@pytest.mark.parametrize("command", ["remaining", "calibrate"])
+def test_readings_that_exclude_each_other_are_named_in_text_and_json(cli, tmp_path, command):
+    """309.0 mm over 24 links are 1.378 %: 0.628/root(0.0328^2 + 0.02^2) = 16.3 errors above 0.75 %."""
+    if command == "calibrate":
+        pytest.importorskip("pandera", reason="pandera is not installed")
+    case, log = tmp_path / "wrap.toml", tmp_path / "log.csv"
+    case.write_text(WRAP, encoding="utf-8")
+    rows = "time_hours,quantity,value,links,result,error\n2000,chain_length_mm,309.0,24,,0.1\n"
+    log.write_text(rows + "2000,gauge_percent,0.75,,go,0.02\n", encoding="utf-8")
+    words = (
+        "line 3: go at 0.75 % contradicts 1.378 % in line 2: they exclude each other by 16.3 standard errors"
+    )
+    assert words in " ".join(cli(command, case, log).out.split())
+    found = json.loads(cli(command, case, log, "--json").out)
+    assert any(words in text for text in found["warnings"])

@@ -157,9 +157,9 @@ def test_joints_without_a_condition_are_well_lubricated_and_say_so(load):
 @pytest.mark.parametrize(
     ("condition", "rate", "words"),
     [
-        ("hardened, dry", 1.2e-10, "is a rate of lubricated joints: remove it, which takes 7e-09,"),
+        ("hardened, dry", 1.2e-10, "is a rate of lubricated joints: delete this key to use 7e-09,"),
         ("soil-contaminated", 9.9e-10, "joints in that state have 1e-09 to 1e-07 mm2/N"),
-        ("hardened, oiled", 7e-9, "is a rate of dry or contaminated joints: remove it"),
+        ("hardened, oiled", 7e-9, "is a rate of dry or contaminated joints: delete this key to use 1.2e-10"),
         ("normalised, greased", 1.01e-9, "the teeth are lubricated, and joints in that state have 9e-11"),
         ("hardened, dry", 1e-9, None),
         ("soil-contaminated", 1e-6, None),
@@ -178,3 +178,26 @@ def test_two_states_of_lubrication_are_warned_of_by_name(load, condition, rate, 
     (warning,) = case.warnings
     assert warning.startswith(f"wear.condition = {condition!r} contradicts {JOINT} = {rate:g}: ")
     assert words in warning
+
+
+def test_a_rate_that_was_measured_is_not_argued_with(load):
+    joint = '[joint]\nspecific_wear_rate_mm2_per_N = 7e-9\nsource = "read on the drive, 2026"\n'
+    case = load(WRAPPED + joint)
+    assert case.warnings == ()
+    assert f"{JOINT} = 7e-09 comes from: read on the drive, 2026" in case.assumptions
+    typed = case.with_({JOINT: 8e-9})
+    assert any("contradicts" in text for text in typed.warnings)
+
+
+def test_a_source_needs_its_rate(load):
+    with pytest.raises(
+        wearsim.CaseError, match=r"joint\.source: says where specific_wear_rate"
+    ):
+        load(WRAPPED + '[joint]\nsource = "read on the drive"\n')
+
+
+def test_the_state_that_a_joint_has_of_its_own_is_named(load):
+    joint = '[joint]\ncondition = "hardened, dry"\nspecific_wear_rate_mm2_per_N = 1e-10\n'
+    (warning,) = load(WRAPPED + joint).warnings
+    assert warning.startswith("joint.condition = 'hardened, dry' contradicts ")
+    assert "the joints are dry or contaminated" in warning

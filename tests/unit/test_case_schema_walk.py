@@ -445,7 +445,7 @@ CHANGES = {
         ("wrap", 1.1e-9),
         ("strand", 1e-9, "joint.specific_wear_rate_mm2_per_N"),
     ],
-    "joint.source": [("wrap", "a rig")],
+    "joint.source": [("strand", "a rig", "joint.source")],
     "joint.pitch": [("wrap", "uniform")],
     "stop.elongation_percent": [("wrap", 0.01), ("strand", 1.0, "stop.elongation_percent")],
     "wear.case_depth_mm": [("layers", 0.03), ("wrap layers", 0.001), ("strand", 0.03, "wear.core_factor")],
