@@ -286,3 +286,13 @@ def test_a_calibrated_case_is_believed():
     assert fitted.found.tables["joint"]["band_factor"] == pytest.approx(band)
     typed = case.with_({JOINT: 1.01 * value.value})
     assert any("contradicts" in text for text in typed.warnings)
+
+
+@pytest.mark.parametrize("tables", [ROAD, TAKE_OFF], ids=["one sprocket", "drive"])
+def test_before_any_reading_the_band_is_that_of_the_life(tables):
+    """A gauge of 10 % that does not fall in after an hour says nothing."""
+    row = {"time_hours": 1, "quantity": "gauge_percent", "value": 10, "result": "go"}
+    found = wearsim.remaining(tables, readings=[row]).found
+    band = found.case.drive.wear_band("chain", found.case.wear)
+    low, *_, high = found.of("coefficient_factor").values
+    assert (low, high) == pytest.approx((band.low, band.high), rel=2e-3)
