@@ -279,7 +279,7 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float) -> Wr
         pull=tight - slack,
         base=slack,
         turns=((tight, slack),) * 2,
-        spans=(slack, tight),
+        spans=(tight, slack) if load.reverse else (slack, tight),
     )
 
 
