@@ -12,7 +12,7 @@ BINS = [20, 8]
 """Bins of load and speed that a log is sorted into."""
 
 _KEY = "load.duty_file"
-_DAY = 24.0
+_DAY, _ROUNDING = 24.0, 1e-9
 
 
 @dataclass(frozen=True)
@@ -37,11 +37,13 @@ def log_blocks(case: ChainRecord, greatest: int, chain: Chain) -> LogBlocks | No
     if found is None or not _within_strength(case, found, path.name, chain):
         return None
     sorted_in = [log_bins(found.log.of_flank(other), *bins) for other in (False, True)]
-    kept = [merged(blocks, greatest) if greatest else blocks for blocks in sorted_in]
-    case.assumptions.append(_summary(path.name, found, sum(sorted_in, []), sum(kept, [])))
+    blocks, reverse = (merged(part, greatest) if greatest else part for part in sorted_in)
+    case.assumptions.append(_summary(path.name, found, [*sorted_in[0], *sorted_in[1]], [*blocks, *reverse]))
+    _say_gaps(case, path.name, found)
     _say_stops(case, path.name, found)
-    _say_reverse(case, path.name, *kept)
-    return LogBlocks(found.kind, *kept)
+    if reverse:
+        _say_reverse(case, path.name, blocks, reverse)
+    return LogBlocks(found.kind, blocks, reverse)
 
 
 def _within_strength(case: ChainRecord, found: LogFile, name: str, chain: Chain) -> bool:
@@ -57,14 +59,14 @@ def _within_strength(case: ChainRecord, found: LogFile, name: str, chain: Chain)
         return True
     case.faults.add(
         _KEY,
-        f"{name}:{found.lines[heaviest]}: {found.column} must keep the pull below the chain's tensile strength "
-        f"{chain.tensile:g} N (got {pull:.6g} N)",
+        f"{name}:{found.lines[heaviest]}: {found.column} must keep the pull below the chain's tensile "
+        f"strength {chain.tensile:g} N (got {pull:.6g} N)",
     )
     return False
 
 
 def _summary(name: str, found: LogFile, sorted_in: list[LogBin], blocks: list[LogBin]) -> str:
-    held = f"every row holds {'for one step' if found.gaps else 'until the next'}"
+    held = f"every row holds {'for one step at most' if found.gaps else 'until the next'}"
     text = f"{name}: {found.duration:.6g} s, {held}, {len(sorted_in)} blocks"
     if len(blocks) < len(sorted_in):
         square = [sum(b.revolutions * b.load**2 for b in part) for part in (blocks, sorted_in)]
@@ -73,35 +75,41 @@ def _summary(name: str, found: LogFile, sorted_in: list[LogBin], blocks: list[Lo
             f"mean load and takes {100 * (1 - square[0] / square[1]):.2g} % off its mean square"
         )
     if found.renamed:
-        text += f"; columns {', '.join(found.renamed)} are read as seconds, rpm and watts of a power meter"
+        text += f"; columns {', '.join(found.renamed)} are read as {' and '.join(found.renamed.values())}"
     return text
 
 
+def _say_gaps(case: ChainRecord, name: str, found: LogFile) -> None:
+    """Say what is taken for standstill as rows are missing: beyond doubt only in an evenly sampled log."""
+    if not found.gaps:
+        return
+    text = (
+        f"{name}: {found.gaps} of the steps are much longer than the usual one of {found.usual:.4g} s: the "
+        f"row before holds for that, the rest, {found.missing:.6g} s, counts as standstill"
+    )
+    if found.even:
+        case.assumptions.append(text)
+    else:
+        case.warnings.append(f"{text}; if the drive ran on there, add rows")
+
+
 def _say_stops(case: ChainRecord, name: str, found: LogFile) -> None:
-    """Say how long the drive stands, what of it follows from missing rows, and what calendar time it takes."""
-    if found.gaps:
-        of = "the sample step" if found.even else "the usual step"
-        text = (
-            f"{name}: {found.gaps} step{'s' if found.gaps > 1 else ''} much longer than {of} of {found.usual:.4g} s: the row before "
-            f"holds for that, and the rest, {found.missing:.6g} s, counts as standstill"
-        )
-        if found.even:
-            case.assumptions.append(text)
-        else:
-            case.warnings.append(f"{text}; if the drive ran on there, add rows")
-    standing = found.duration - found.running
-    if not (found.gaps or standing > 1e-9 * found.duration):
+    """Say which part of the time the drive stands, and what calendar time it takes."""
+    standing = 1.0 - found.running / found.duration
+    if standing < _ROUNDING:
         return
     per_hour = found.duration / found.running
     case.assumptions.append(
-        f"{name}: the drive stands for {100 * standing / found.duration:.3g} % of the time, which counts no cycles "
-        f"and no running hours: 1000 running hours take {1000 * per_hour:.4g} h with the stops"
+        f"{name}: the drive stands for {100 * standing:.3g} % of the time, which counts no cycles and no "
+        f"running hours: 1000 running hours take {1000 * per_hour:.4g} h with the stops"
     )
     day = case.tables.service.hours_per_day if case.tables.service else None
     if day is None:
         return
-    text = f"service.hours_per_day = {day:g} running hours take {day * per_hour:.4g} h with the stops of {name}"
-    if day * per_hour > _DAY * (1.0 + 1e-6):
+    text = (
+        f"service.hours_per_day = {day:g} running hours take {day * per_hour:.4g} h with the stops of {name}"
+    )
+    if day * per_hour > _DAY * (1.0 + _ROUNDING):
         case.warnings.append(f"{text}, more than a day has: give the running hours alone")
     else:
         case.assumptions.append(text)
@@ -109,23 +117,16 @@ def _say_stops(case: ChainRecord, name: str, found: LogFile) -> None:
 
 def _say_reverse(case: ChainRecord, name: str, blocks: list[LogBin], reverse: list[LogBin]) -> None:
     """Say which part of the cycles loads the other flank."""
-    if not reverse:
-        return
-    turns, work = (
-        [math.fsum(values) for values in of]
-        for of in (
-            [[block.revolutions for block in part] for part in (blocks, reverse)],
-            [[block.revolutions * block.load for block in part] for part in (blocks, reverse)],
-        )
-    )
+    ahead, turned = (math.fsum(block.revolutions for block in part) for part in (blocks, reverse))
     case.assumptions.append(
-        f"{name}: for {100 * turns[1] / sum(turns):.3g} % of the cycles the load is negative: tight and slack "
-        "strand change places, the joints wear under its size, and the teeth wear on their other flank, which "
-        "is not calculated"
+        f"{name}: for {100 * turned / (ahead + turned):.3g} % of the cycles the load is negative: tight and "
+        "slack strand change places, the joints wear under the size of the load, and the teeth wear on their "
+        "other flank, which is not calculated"
     )
-    if work[1] > work[0]:
+    work, more = (math.fsum(block.revolutions * block.load for block in part) for part in (blocks, reverse))
+    if more > work:
         case.warnings.append(
-            f"{name}: negative loads do {work[1] / work[0]:.3g} times the work of positive ones: the other flank "
-            "of the teeth wears faster than the one calculated: reverse the signs of the log, and the role of "
-            "the sprocket, to calculate that"
+            f"{name}: negative loads do {more / work:.3g} times the work of positive ones, so that the other "
+            "flank of the teeth wears faster than the one calculated: reverse the signs of the log to "
+            "calculate that, and the role of a sprocket that a chain wraps"
         )

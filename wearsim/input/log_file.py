@@ -45,7 +45,7 @@ class LogFile:
     even: bool  # whether it is sampled evenly
     gaps: int  # steps in which rows are missing
     missing: float  # time without rows [s]
-    renamed: tuple[str, ...]  # columns that have the name of a power meter
+    renamed: Mapping[str, str]  # columns by the names of a power meter, and what they are
 
     @property
     def running(self) -> float:
@@ -91,7 +91,7 @@ def read_log(path: Path, key: str, faults: Faults) -> LogFile | None:
         even=even,
         gaps=int(missing.sum()),
         missing=float((step - held).sum()),
-        renamed=tuple(name for name in names if name in _OF_METERS),
+        renamed={name: _OF_METERS[name] for name in names if name in _OF_METERS},
     )
 
 

@@ -51,7 +51,9 @@ class WrapBlock:
 class WrapContact(RestingContact):
     """Contact events of a wrap over one revolution, for the wear engine."""
 
-    blocks: tuple[WrapBlock, ...]  # the duty that loads this side of the gaps; they differ in their tensions and speeds only
+    blocks: tuple[
+        WrapBlock, ...
+    ]  # the duty that loads this side of the gaps; they differ in their tensions and speeds only
     face_width: float  # b [mm]
     phases: int  # phases of one pitch
     sliding: RollerSliding  # how far rollers slide
