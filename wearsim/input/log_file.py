@@ -74,9 +74,10 @@ def read_log(path: Path, key: str, faults: Faults) -> LogFile | None:
     if faults.count > before:
         return None
     usual, even = float(np.median(step)), _sampled_evenly(step)
-    missing = step > (_MISSING if even else _GAP) * usual
+    runs = speed[:-1] != 0.0
+    missing = runs & (step > (_MISSING if even else _GAP) * usual)
     held = np.where(missing, usual, step)
-    rows = np.flatnonzero(speed[:-1])
+    rows = np.flatnonzero(runs)
     log = _running(held[rows], load[rows], speed[rows], names[2] in _POWERS)
     _check_running(log, names, path, key, faults)
     if faults.count > before:
