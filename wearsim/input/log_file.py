@@ -20,6 +20,9 @@ _LOAD = {"tension_N": 1.0, "torque_N_m": 1.0, "power_kW": 1e3, "power_W": 1.0, "
 _OF_METERS = {"secs": "time_s", "cad": "speed_rpm", "watts": "power_W"}
 """Columns as power meters of bicycles write them."""
 
+COLUMNS = tuple(name for name in (*_TIME, *_SPEED, *_LOAD) if name not in _OF_METERS)
+"""Columns that a log may have, by their names of the table of quantities."""
+
 _POWERS = ("power_kW", "power_W", "watts")
 
 _ALIKE, _MOST, _FEWEST = 0.1, 0.6, 5
@@ -55,7 +58,7 @@ class LogFile:
 
 def read_log(path: Path, key: str, faults: Faults) -> LogFile | None:
     """Read a log of load and speed."""
-    columns = read_columns(path, (), (*_TIME, *_SPEED, *_LOAD), key, faults)
+    columns = read_columns(path, (), (*COLUMNS, *_OF_METERS), key, faults)
     if not columns:
         return None
     before = faults.count
