@@ -304,6 +304,14 @@ class TestWholeDrives:
         assert braked.spans == pytest.approx((40.0 + pull, 40.0 + 0.4 * pull, 40.0))
         assert (braked.pull, braked.wear_factor, braked.joint_factor) == (pytest.approx(pull), 0.0, 1.0)
 
+    def test_a_sprung_take_up_that_braking_pushes_back_is_named(self, logged):
+        """150 N hold the slack span, not one that pulls with 650 N."""
+        fan = cog(19, name="fan", position_mm=[150, 250], power_share=0.4)
+        sprung = {**fan, "take_up": {"guide_deg": 90, "tensioner_force_N": 150}}
+        drive = {**PLACED, "sprocket": [*PLACED["sprocket"][:2], sprung], "drive": {}}
+        with pytest.raises(CaseError, match=r"every span must be pulled.*below 0 of the log swap"):
+            load_drive({**drive, **logged((0, 1.0, 90), (60, -25.0, 90), (120, 0.0, 0), head=self.HEAD)})
+
     def test_idling_in_a_loop(self, logged):
         rows = (0, 25.0, 90), (60, 0.0, 90), (120, 0.0, 0)
         drive = load_drive({**PLACED, **logged(*rows, head=self.HEAD)})

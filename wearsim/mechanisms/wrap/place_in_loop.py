@@ -178,8 +178,9 @@ def loop_loads(
             for loads in (duty.blocks, duty.rated)
         )
     except CaseError as error:
+        braked = " (loads below 0 of the log swap tight and slack spans)" if len(sides) > 1 else ""
         for fault in error.faults:
-            case.faults.add(LOOP_KEY, fault.message)
+            case.faults.add(LOOP_KEY, f"{fault.message}{braked}")
         return None
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
     spans = ", ".join(
