@@ -564,6 +564,7 @@ CHANGES |= {
         ("fatigue", 0.9, "fatigue.sprocket.contact_safety"),
     ],
     "load.duty_bins": [("log", [1, 1]), ("strand", [4, 4], "load.duty_bins")],
+    "load.duty_speed_ratio": [("log", 0.5), ("strand", 0.5, "load.duty_speed_ratio")],
 }
 
 

@@ -26,6 +26,7 @@ _LABELS = {
     "displaced": "Halves of the gap moved apart",
     "dry_factor": "Wear without lubricant, times",
     "duty_file": "File of the load spectrum",
+    "duty_speed_ratio": "Speed over that of the logged shaft",
     "dxf_file": "Drawing (DXF)",
     "dxf_layer": "Layer of the drawing",
     "elongation_percent": "Elongation of the chain",

@@ -165,8 +165,9 @@ def loop_loads(
         sag = 0.02
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
-    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag)
-    if not level.force > _NO_TENSION:
+    sides = (layout, layout.braked) if any(load.reverse for load in duty.blocks) else (layout,)
+    levels = [side.level(chain.mass_per_length, table.slack_tension_N, sag) for side in sides]
+    if not min(level.force for level in levels) > _NO_TENSION:
         case.faults.add(
             "drive.slack_tension_N",
             "the loosest span is vertical and has no tension of its own: give this, or take_up with a force",
@@ -174,11 +175,14 @@ def loop_loads(
     if case.faults.count > before:
         return None
     try:
-        found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
-        rated = [_forces(case, chain, layout, load, level, table) for load in duty.rated]
+        found, rated = (
+            [_forces(case, chain, sides[load.reverse], load, levels[load.reverse], table) for load in loads]
+            for loads in (duty.blocks, duty.rated)
+        )
     except CaseError as error:
+        braked = " (loads below 0 of the log swap tight and slack spans)" if len(sides) > 1 else ""
         for fault in error.faults:
-            case.faults.add(LOOP_KEY, fault.message)
+            case.faults.add(LOOP_KEY, f"{fault.message}{braked}")
         return None
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
     spans = ", ".join(
@@ -236,7 +240,7 @@ def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces, turning: flo
     arriving, leaving = forces.arriving.tolist(), forces.tensions.tolist()
     own = layout.wheel
     order = [own, *(i for i in range(len(leaving)) if i != own)]
-    pull = float(forces.pulls[[share > 0.0 for share in layout.drive.shares]].sum())
+    pull = abs(float(forces.pulls[[share > 0.0 for share in layout.drive.shares]].sum()))
     return WrapLoad(
         share=load.share,
         speed_rpm=load.speed_rpm,
