@@ -28,6 +28,7 @@ _LABELS = {
     "duty_file": "File of the load spectrum",
     "duty_speed_ratio": "Speed over that of the logged shaft",
     "dxf_file": "Drawing (DXF)",
+    "dxf_join_tolerance_mm": "Open ends of the drawing joined up to, mm",
     "dxf_layer": "Layer of the drawing",
     "elongation_percent": "Elongation of the chain",
     "engaged_every": "A roller in every n-th gap",

@@ -197,6 +197,7 @@ _BELONGS_TO = {
     "points_noise_mm": ("points", "dxf"),
     "dxf_file": ("dxf",),
     "dxf_layer": ("dxf",),
+    "dxf_join_tolerance_mm": ("dxf",),
     "back_flank": ("evolute", "points"),
     "evolute_offset_mm": ("evolute", "points"),
     "contact_start_mm": ("evolute", "points"),
@@ -222,6 +223,7 @@ class SprocketTable(Table):
     points_noise_mm: NotNegative | None = None
     dxf_file: str | None = None
     dxf_layer: str | None = None
+    dxf_join_tolerance_mm: Annotated[Positive, Field(le=0.1)] | None = None
     face_width_mm: Positive | None = None
     evolute_offset_mm: Positive | None = None
     contact_start_mm: Positive | None = None

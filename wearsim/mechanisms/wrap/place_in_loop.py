@@ -11,7 +11,7 @@ from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointLaw
-from wearsim.chain.loop_forces import LoopForces, SpanLevel
+from wearsim.chain.loop_forces import LoopForces, SpanLevel, direction_angles
 from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_from
 from wearsim.chain.span_tension import centrifugal_tension
 from wearsim.chain.take_up import TakeUp
@@ -117,7 +117,7 @@ def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp |
         at = loop.index(given.wheel)
         pulled = loop.directions[at] - loop.directions[at - 1]
         direction = -float(pulled[0]), -float(pulled[1])
-        degrees = math.degrees(math.atan2(direction[1], direction[0]))
+        degrees = math.degrees(float(direction_angles(-pulled[None, :])[0]))
         case.assumptions.append(
             f"take-up {given.wheel!r} moves against the pull of its two spans, at {degrees:.4g} degrees"
         )
