@@ -149,14 +149,15 @@ def replacement_rules(
 def cheapest(rules: list[ReplacementRule]) -> tuple[int, bool] | None:
     """Return the number of the cheapest rule, and whether no other can be cheaper.
 
-    None without prices, and where there is only one rule.
+    Parts that outlived their run count nothing in the choice: what they cost is not known. None without
+    prices, and where there is only one rule.
     """
-    costs = [(rule.cost, number) for number, rule in enumerate(rules) if rule.cost is not None]
+    costs = [rule.least_cost for rule in rules if rule.least_cost is not None]
     if len(costs) < 2:
         return None
-    cost, number = min(costs)
-    least = [rule.least_cost for i, rule in enumerate(rules) if i != number]
-    return number, all(other is not None and other >= cost * (1.0 - SAME) for other in least)
+    most = min(costs) * (1.0 + SAME)
+    number = next(number for number, cost in enumerate(costs) if cost <= most)
+    return number, all(not rule.at_most for rule in rules)
 
 
 def _rules(lives: Mapping[str, float], lasting: Mapping[str, float]) -> list[ReplacementRule]:

@@ -43,23 +43,27 @@ def rule_text(rule: ReplacementRule) -> str:
 
 def _cycle_text(cycle: Cycle) -> str:
     """Return in words what is replaced in a cycle, and what in some of them only."""
-    hours = f"{grouped(cycle.hours)} h"
     seldom: dict[int, list[str]] = {}
     for name, every in cycle.every.items():
         seldom.setdefault(every, []).append(name)
-    each = seldom.pop(1, [])
-    if not cycle.within:
-        head, after = f"{listed(each)} every {hours}", _end(cycle)
+    each, hours = seldom.pop(1), f"{grouped(cycle.hours)} h"
+    if cycle.within:
+        stops: dict[str, list[str]] = {}
+        for name in each:
+            stops.setdefault(_in_stops(cycle, name), []).append(name)
+        parts = ", ".join(f"{listed(names)} {which}" for which, names in stops.items())
+        head = f"{len(cycle.within) + 1} stops every {hours}: {parts}"
     else:
-        parts = ", ".join(f"{name} {_in_stops(cycle, name)}" for name in each)
-        head, after = f"every {hours} {len(cycle.within) + 1} stops: {parts}", "last of these stops"
+        head = f"{listed(each)} every {hours}"
     return ", ".join(
-        [head, *(f"{listed(names)} at every {ordinal(n)} {after}" for n, names in sorted(seldom.items()))]
+        [head, *(f"{listed(names)} at every {ordinal(n)} {_end(cycle)}" for n, names in seldom.items())]
     )
 
 
 def _end(cycle: Cycle) -> str:
-    """Return what the end of a cycle without other stops is called."""
+    """Return what the stop at the end of a cycle is called."""
+    if cycle.within:
+        return "last of these stops"
     return "chain change" if cycle.every.get(CHAIN) == 1 else "stop"
 
 
