@@ -265,7 +265,7 @@ role = "driver"
 teeth = 15
 profile = "iso606"
 nodes = 41
-wear = {specific_wear_rate_mm2_per_N = 9.3e-11}
+wear = {specific_wear_rate_mm2_per_N = 1.15e-10}
 [[sprocket]]
 name = "large"
 teeth = 23

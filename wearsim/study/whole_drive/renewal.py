@@ -1,17 +1,18 @@
 """Renewal cycles of a drive: which parts are replaced together, and the cheapest cycle.
 
-All parts are new at the beginning of a cycle. Within it there is a stop whenever a part is worn out. A part
-that would last longer is replaced in that stop too if the time it has left, or what that is worth, is
-at most a limit. All parts so replaced are new again at the end of the cycle; a part that outlives several
-cycles is replaced at the end of the last of them that it lasts.
+All parts are new at the beginning of a cycle, and there is a stop whenever a part is worn out. A part that would
+last longer is replaced in that stop too if the time it has left, or what that is worth, is at most a limit.
+All parts so replaced are new again at the end of the cycle; a part that outlives several cycles is replaced at
+the end of the last of them that it lasts.
 
 A limit of 0 leaves every part to its own end. With the life of the shortest-lived part as limit, whatever
 would not last to the next stop is replaced: the fewest stops. A larger limit only adds parts to these stops.
-In between there are as many different policies as different rests of life, and every one is priced, with
-every stop as the end of its cycle.
+In between a policy changes only where the limit passes what a part has left in one of its stops. Every such
+limit (in steps of 1 % at least) is priced, with every stop as the end of its cycle.
 
-Drives of 2 to 4 parts, against the optimum of all schedules by dynamic programming on whole hours: 0.1 %
-dearer in the mean, 2.1 % at most among 540.
+Such cycles are not all schedules, but no other saves much: against the optimum of all schedules (dynamic
+programming on whole hours, 350 random drives of 2 to 4 parts) the cheapest one, or each part at its own end,
+cost 0.2 % more in the mean and 2.1 % more at most.
 """
 
 import math
