@@ -1,9 +1,9 @@
 """Renewal cycles of a drive: which parts are replaced together, and the cheapest cycle.
 
-All parts are new at the beginning of a cycle, and there is a stop whenever a part is worn out. A part that would
-last longer is replaced in that stop too if the time it has left, or what that is worth, is at most a limit.
-All parts so replaced are new again at the end of the cycle; a part that outlives several cycles is replaced at
-the end of the last of them that it lasts.
+All parts are new at the beginning of a cycle, and there is a stop whenever a part is worn out. A part that
+would last longer is replaced in that stop too if the time it has left, or what that is worth, is at most a
+limit. All parts so replaced are new again at the end of the cycle; a part that outlives several cycles is
+replaced at the end of the last of them that it lasts.
 
 A limit of 0 leaves every part to its own end. With the life of the shortest-lived part as limit, whatever
 would not last to the next stop is replaced: the fewest stops. A larger limit only adds parts to these stops.
