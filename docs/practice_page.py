@@ -61,6 +61,29 @@ def summary(rows: list[Mapping[str, Any]]) -> str:
     )
 
 
+def held(rows: Iterable[Mapping[str, Any]]) -> tuple[int, int]:
+    """How many hours of single rules lie in the band of the engine, and how many there are."""
+    inside = [
+        row["band"][0] <= hours <= row["band"][1]
+        for row in rows
+        for hours in row["hours"].values()
+        if hours is not None
+    ]
+    return sum(inside), len(inside)
+
+
+def coverage(rows: list[Mapping[str, Any]]) -> str:
+    """How often the band holds the hours of a single rule, within the window of the rate and outside."""
+    parts = {"all drives": rows}
+    parts["within the window"] = [row for row in rows if not row["outside"]]
+    parts["outside"] = [row for row in rows if row["outside"]]
+    lines = []
+    for name, some in parts.items():
+        inside, count = held(some)
+        lines.append([name, str(len(some)), f"{inside} of {count}", f"{100.0 * inside / count:.0f} %"])
+    return table(["drives", "number", "hours of rules in the band", "part"], lines)
+
+
 def page(rows: Iterable[Row]) -> str:
     """The whole page of drives as test, line of the test, and what the fixture recorded."""
     drives = sorted((row for _, _, row in rows), key=lambda row: row["no"])
@@ -69,6 +92,7 @@ def page(rows: Iterable[Row]) -> str:
         "RULES": table(RULES, ([rule[key] for key in RULES] for rule in catalogue_rows("practice_rules"))),
         "DRIVES": table([*DRIVES, *names, "engine over mean"], map(cells, drives)),
         "SUMMARY": summary(drives),
+        "COVERAGE": coverage(drives),
         "LIMITS": whole("recommended_lubrication"),
         "FACTORS": whole("lubrication_life_factors"),
     }

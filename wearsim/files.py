@@ -3,10 +3,11 @@
 import contextlib
 import glob
 import os
+import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO
 
@@ -147,6 +148,26 @@ def _clear_beside(folder: Path) -> None:
             if old.exists() and not folder.exists():
                 os.rename(old, folder)
             shutil.rmtree(beside, ignore_errors=True)
+
+
+def file_names(cases: Sequence[str]) -> list[str]:
+    """Return names of files for cases, all different whatever the file system makes of capitals.
+
+    Examples
+    --------
+    >>> file_names(["drive", "Drive", "index", "a/b <c>"])
+    ['drive', 'Drive-2', 'index-2', 'a_b_c_']
+    """
+    taken, found = {"index"}, []
+    for case in cases:
+        stem = re.sub(r"[^\w.-]+", "_", case).lstrip(".") or "drive"
+        number, name = 1, stem
+        while name.lower() in taken:
+            number += 1
+            name = f"{stem}-{number}"
+        taken.add(name.lower())
+        found.append(name)
+    return found
 
 
 def write_file(path: Path, content: str | bytes, force: bool) -> None:

@@ -73,8 +73,15 @@ def test_bad_case_or_run_writes_nothing(cli, drive, tmp_path):
         assert not out.exists()
 
 
-def test_out_is_needed_and_set_is_for_cases(cli, drive, tmp_path):
-    assert cli("compare", drive()).code == 2
+def test_table_is_printed_without_a_folder(cli, drive, tmp_path):
+    cases = drive(), drive("heavy", power_kW=4)
+    alone = cli("compare", *cases)
+    assert alone.code == 0, alone.err
+    assert alone.out == cli("compare", *cases, "--out", tmp_path / "out").out
+    assert len(alone.out.splitlines()) == 4
+
+
+def test_set_is_for_cases(cli, drive, tmp_path):
     cli("life", drive(), "--out", tmp_path / "run")
     done = cli("compare", tmp_path / "run", "--out", tmp_path / "out", "--set", "title=x")
     assert done.code == 2

@@ -74,11 +74,10 @@ def test_shares_that_do_not_sum_point_at_the_first_block(cli, case):
 
 
 def test_fault_of_a_log_names_its_row(cli, case):
-    path = case('[load]\nduty_file = "log.csv"\n', LOG.replace("60,1600,150", "60,-1600,0"))
+    path = case('[load]\nduty_file = "log.csv"\n', LOG.replace("60,1600,150", "60,1600,fast"))
     done = cli("check", path)
     assert done.code == 2
-    assert "log.csv:3: tension_N must not be negative (got -1600)" in done.err
-    assert "log.csv:3: speed_rpm must be above 0 (got 0)" in done.err
+    assert "log.csv:3: speed_rpm must be a finite number (got 'fast')" in done.err
 
 
 def test_log_of_two_states_is_the_duty_of_two_blocks(cli, case):
@@ -110,3 +109,46 @@ def test_folder_runs_again(cli, case, load, tmp_path):
     assert again["cycles_run"] == first["cycles_run"]
     assert again["life_hours"] == first["life_hours"]
     assert (tmp_path / "run" / "inputs" / "log.csv").exists() == ("log.csv" in load)
+
+
+DRIVE = """\
+format_version = 1
+[chain]
+designation = "ANSI 40"
+[[sprocket]]
+teeth = 19
+profile = "ansi_b29"
+nodes = 51
+[[sprocket]]
+teeth = 38
+profile = "ansi_b29"
+nodes = 51
+[mechanism]
+phases = 2
+[drive]
+links = 110
+[load]
+duty_file = "brake.csv"
+[wear]
+condition = "hardened, oiled"
+[run]
+horizon_hours = 300
+life_tolerance = 0.1
+"""
+BRAKED = "time_s,torque_N_m,speed_rpm\n0,40,600\n60,-20,600\n120,0,0\n180,0,0\n"
+
+
+def test_log_of_a_whole_drive_is_told_kept_and_run_again(cli, tmp_path):
+    """Of 180 s the drive stands for 60, of the cycles half are braked."""
+    (tmp_path / "two.toml").write_text(DRIVE)
+    (tmp_path / "brake.csv").write_text(BRAKED)
+    first = cli("life", tmp_path / "two.toml", "--explain", "--out", tmp_path / "run")
+    assert (first.code, first.err.count("Traceback")) == (0, 0)
+    text = " ".join(first.out.split())
+    assert "the drive stands for 33.3 % of the time" in text
+    assert "for 50 % of the cycles the load is negative" in text
+    assert (tmp_path / "run" / "inputs" / "brake.csv").read_text() == BRAKED
+    again = cli("life", tmp_path / "run" / "drive.lock.toml", "--json", "--out", tmp_path / "again")
+    assert again.code == 0
+    history = [(tmp_path / name / "history.csv").read_text() for name in ("run", "again")]
+    assert history[0] == history[1]

@@ -165,7 +165,7 @@ def test_reader_of_drawings_takes_it(cli, wrap, tmp_path):
     path, out = wrap("iso606"), tmp_path / "new.dxf"
     assert cli("export", path, "--out", out).code == 0
     outline = load_case(path).drive.outline
-    gap, notes = outline_from_dxf(out, 12)
+    gap, notes, _ = outline_from_dxf(out, 12)
     assert not any("damaged" in note or "no unit" in note for note in notes)
     points = shapely.points(outline.x[3:-3], outline.y[3:-3])
     assert shapely.distance(points, shapely.LineString(gap)).max() < 2e-5

@@ -2,11 +2,14 @@
 
 import re
 import shlex
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+import wearsim
 from wearsim.cli.command_groups import COMMAND_GROUPS
 from wearsim.cli.main import wearsim_command
 
@@ -33,6 +36,37 @@ def test_example_is_a_command_line(example, tmp_path, monkeypatch):
     (tmp_path / "readings.csv").touch()
     _, name, *words = shlex.split(example)
     wearsim_command.commands[name].make_context(name, words)
+
+
+SHORT = {
+    "maintain": ("--set", "run.horizon_hours=20"),
+    "report": ("--set", "run.horizon_hours=20"),
+    "lubricate": ("--set", "run.horizon_hours=20"),
+    "uncertainty": ("--samples", "64"),
+    "sensitivity": ("--samples", "16"),
+    "optimise": ("--evaluations", "20"),
+    "judge": ("--particles", "100"),
+}
+"""What makes a command that runs many lives or fits short."""
+
+CASES = Path(wearsim.__file__).parents[1] / "cases"
+
+OWN = {
+    "calibrate": {"drive.toml": "16b-20t-oiled.toml", "readings.csv": "studies/16b-20t-readings.csv"},
+    "judge": {"readings.csv": "studies/metal-wear.csv"},
+}
+"""In place of the files that a user has, by command."""
+
+
+@pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in ("ui", "warm")])
+def test_example_runs(cli, example, tmp_path, monkeypatch):
+    """All but the page, which waits for a browser, and the kernels, which take a minute to compile."""
+    monkeypatch.chdir(tmp_path)
+    _, name, *words = shlex.split(example)
+    for file, shipped in OWN.get(name, {}).items():
+        shutil.copy(CASES / shipped, file)
+    done = cli(name, *words, *SHORT.get(name, ()))
+    assert done.code == 0, done.err
 
 
 def test_help_of_a_command_ends_with_its_example(cli):

@@ -93,7 +93,7 @@ def test_answer_on_screen(cli, wrapped):
         assert hours == pytest.approx(found[f"{key}life_hours"], rel=1e-3)
     for part in (
         "until 0.03 mm is worn off",
-        "of teeth and joints alike",
+        "Band from factor 3 to either side Ends sprocket, tooth wear, ",
         "Limits at the end of the life critical_depth_mm 0.03 of 0.03, elongation_percent 0.",
         "Worn most 0.03 mm at ",
         "from the gap's right tip; peak pressure ",

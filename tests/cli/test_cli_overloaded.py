@@ -47,7 +47,7 @@ life_tolerance = 0.1
 """
 SAYS = (
     "plate fatigue 152 %, corrected power 152 %, joint pressure (indicative) 173.8 % of the rating; "
-    "the hours are for wear only"
+    "life counts wear only, fatigue may end it sooner"
 )
 
 

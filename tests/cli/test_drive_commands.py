@@ -1,6 +1,7 @@
 """Commands about one case or several, given a whole drive."""
 
 import json
+import sys
 
 import pandas as pd
 import pytest
@@ -16,6 +17,40 @@ def drive(tmp_path, two_sprockets):
 
 
 SHORT = ("--set", "run.horizon_hours=20")
+
+EXTRAS = ("build123d", "jinja2", "markupsafe", "nicegui", "plotly", "pyarrow", "xlsxwriter")
+"""Libraries that not every user has."""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("life", "--out", "run", *SHORT),
+        ("compare", "--out", "compared", *SHORT),
+        ("export", "--out", "wheels"),
+        ("export", "--out", "wheels", "--format", "stl"),
+        ("check",),
+        ("loads",),
+        ("maintain", *SHORT),
+    ],
+    ids=" ".join,
+)
+def test_only_what_needs_an_extra_asks_for_it(cli, drive, tmp_path, monkeypatch, arguments):
+    monkeypatch.chdir(tmp_path)
+    for name in ("wearsim.report.html.page_writer", "wearsim.study.whole_drive.report_page"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    for name in EXTRAS:
+        monkeypatch.setitem(sys.modules, name, None)
+    command, *options = arguments
+    done = cli(command, drive, *options)
+    assert done.code == 0, done.err
+
+
+def test_a_shaft_that_is_pulled_along_an_axis_has_a_round_direction(cli, drive):
+    """Of two equal sprockets that lie level the shafts pull at each other, at 0 and at 180 degrees."""
+    settings = ("--set", "sprocket.2.teeth=17")
+    found = json.loads(cli("check", drive, "--json", *settings).out)["layout"]["sprockets"]
+    assert [one["shaft_direction_deg"] for one in found] == [0.0, 180.0]
 
 
 def test_loads_of_spans_and_of_every_tooth(cli, drive):

@@ -12,6 +12,7 @@ from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.maintenance import part_lives
 from wearsim.study.whole_drive.plan import Prices, cheapest, replacement_rules
+from wearsim.study.whole_drive.plan_words import ordinal, rule_text
 
 PRICES_OF_PARTS = """
 [maintenance]
@@ -87,25 +88,54 @@ def test_without_prices_there_are_counts_only():
 
 
 def test_a_sprocket_that_does_not_outlive_a_chain():
-    """400 h and 700 h: stops at 400, 700, 800 and 1000 h of each chain, 3 and 2 sprockets for it."""
+    """400 h and 700 h: a stop every 400 h, the chain in every second one."""
     lives = {"driver": 400.0, "roll": 700.0}
-    own, with_chain, together = replacement_rules(1000.0, lives, PRICES)
+    own, fewest, together, cheap = replacement_rules(1000.0, lives, PRICES)
     # In 14 000 h 14 + 35 + 20 ends, less those that two parts share, each 2800 h, 2000 h and 7000 h; at
     # 14 000 h three are taken off of the three that fall together, one of them is a stop.
     assert 14_000.0 * own.stop_rate == pytest.approx(14 + 35 + 20 - 5 - 7 - 2 + 1)
-    assert per_1000_h(with_chain)[:2] == ({"chain": 1.0, "driver": 3.0, "roll": 2.0}, 4.0)
-    assert [(stop.hours, *stop.parts) for stop in with_chain.schedule[:5]] == [
-        (400.0, "driver"),
-        (700.0, "roll"),
-        (800.0, "driver"),
-        (1000.0, "chain", "driver", "roll"),
-        (1400.0, "driver"),
+    assert per_1000_h(fewest) == ({"chain": 1.25, "driver": 2.5, "roll": 2.5}, 2.5, pytest.approx(950.0))
+    assert [(stop.hours, *stop.parts) for stop in fewest.schedule[:3]] == [
+        (400.0, "driver", "roll"),
+        (800.0, "chain", "driver", "roll"),
+        (1200.0, "driver", "roll"),
     ]
     # All with the first sprocket: 2.5 times in 1000 h.
     assert per_1000_h(together) == (
         {"chain": 2.5, "driver": 2.5, "roll": 2.5},
         2.5,
         pytest.approx(2.5 * (40.0 + 100.0 + 200.0 + 60.0)),
+    )
+    # In 2800 h 8 stops with 3 chains, 8 drivers and 4 rolls: 120 + 800 + 800 + 480 = 2200.
+    assert 2.8 * 1000.0 * cheap.cost == pytest.approx(2200.0)
+    assert cheapest([own, fewest, together, cheap]) == (3, True)
+    assert rule_text(cheap) == (
+        "8 stops every 2 800 h: chain at the 3rd, 5th and 8th, driver at each, "
+        "roll at the 2nd, 4th, 6th and 8th"
+    )
+
+
+def test_the_chain_at_a_stop_is_counted():
+    """3rd, 5th and 8th of 8 stops in 2800 h: 1200 h, 2000 h and 2800 h."""
+    rule = replacement_rules(1000.0, {"driver": 400.0, "roll": 700.0}, PRICES)[-1]
+    chains = {stop.hours: rule.chain_at(stop.hours) for stop in rule.schedule if "chain" in stop.parts}
+    assert list(chains.values()) == [1, 2, 3, 4, 5, 6, 7, 8, 9]
+    assert rule.chain_at(2800.0 * 100) == 300
+    assert not any(rule.chain_at(stop.hours) for stop in rule.schedule if "chain" not in stop.parts)
+    own = replacement_rules(1000.0, {"driver": 400.0})[0]
+    assert [own.chain_at(hours) for hours in (400.0, 1000.0, 7000.0)] == [0, 1, 7]
+
+
+def test_a_plan_in_words():
+    own, few, *_ = replacement_rules(1000.0, {"driver": 900.0, "roll": 36_100.0}, None, frozenset({"roll"}))
+    assert rule_text(own) == "chain every 1 000 h, driver every 900 h, roll not before 36 100 h"
+    assert rule_text(few) == "chain and driver every 900 h, roll at the 40th chain change or later"
+    few = replacement_rules(1000.0, {"driver": 900.0, "roll": 1900.0})[1]
+    assert rule_text(few) == "chain and driver every 900 h, roll at every 2nd chain change"
+    few = replacement_rules(1000.0, {"driver": 450.0, "roll": 1900.0})[1]
+    assert (few.name, rule_text(few)) == (
+        "fewest stops",
+        "driver every 450 h, chain at every 2nd stop, roll at every 4th stop",
     )
 
 
@@ -132,7 +162,18 @@ def test_a_part_that_outlived_its_run_is_a_bound():
     assert cheapest([own, with_chain, *together]) == (1, False)
 
 
-def test_without_the_life_of_the_chain_there_is_one_rule():
+def test_what_a_bound_would_cost_chooses_no_rule():
+    """800 h and 1300 h beside a chain of 1000 h at least.
+
+    Without the chain 5 drivers, 3 rolls and 7 stops in 3900 h cost 500 + 600 + 420, 389.7 in 1000 h.
+    """
+    rules = replacement_rules(1000.0, {"driver": 800.0, "roll": 1300.0}, PRICES, frozenset({"chain"}))
+    assert 1000.0 * rules[-1].least_cost == pytest.approx(1520.0 / 3.9)
+    assert rules[-1].cost > rules[0].cost
+    assert cheapest(rules) == (len(rules) - 1, False)
+
+
+def test_of_one_sprocket_that_wears_out_alone_there_is_one_rule():
     rules = replacement_rules(1000.0, {"roll": 400.0}, Prices(40.0, {"roll": 100.0}), frozenset({"chain"}))
     assert [rule.name for rule in rules] == ["each part at its own end"]
     assert cheapest(rules) is None
@@ -195,9 +236,10 @@ def test_text_json_and_files_agree(cli, drive, tmp_path):
 
 
 def test_the_answer_names_the_stops_of_the_cheapest_policy(cli, drive):
-    found = json.loads(cli("maintain", drive, "--json").out)
+    dear = ("--set", "maintenance.downtime_cost_per_hour=300")
+    found = json.loads(cli("maintain", drive, "--json", *dear).out)
     policy = found["policies"][found["cheapest"]]
-    text = " ".join(cli("life", drive).out.split())
+    text = " ".join(cli("life", drive, *dear).out.split())
     first = text.split(" First ")[1].split(" Band ")[0]
     for part in ("chain", "driver", "roll"):
         stop = next(stop for stop in policy["schedule"] if part in stop["parts"])
@@ -209,6 +251,60 @@ def test_the_answer_names_the_stops_of_the_cheapest_policy(cli, drive):
     text = " ".join(cli("life", drive, *free).out.split())
     lives = {one["part"]: one["life_hours"] for one in found["parts"]}
     assert f" Then driver at {grouped(lives['driver'])} h" in text
+
+
+SHORTER = """
+format_version = 1
+[chain]
+designation = "08B-1"
+[joint]
+specific_wear_rate_mm2_per_N = 1.2e-10
+[[sprocket]]
+name = "small"
+role = "driver"
+teeth = 15
+profile = "iso606"
+nodes = 41
+wear = {specific_wear_rate_mm2_per_N = 1.15e-10}
+[[sprocket]]
+name = "large"
+teeth = 23
+profile = "iso606"
+nodes = 41
+[drive]
+links = 100
+[mechanism]
+phases = 2
+[run]
+life_tolerance = 0.1
+[load]
+power_kW = 1
+speed_rpm = 300
+[wear]
+condition = "hardened, oiled"
+"""
+
+
+def test_a_sprocket_a_little_shorter_lived_than_the_chain_takes_it_along(cli, tmp_path):
+    path = tmp_path / "drive.toml"
+    path.write_text(SHORTER)
+    prices = "{chain_price = 20, sprocket_price = 15, downtime_hours = 1, downtime_cost_per_hour = 30}"
+    found = json.loads(cli("maintain", path, "--json", "--set", f"maintenance={prices}").out)
+    lives = {one["part"]: one["life_hours"] for one in found["parts"]}
+    assert 0.8 < lives["small"] / lives["chain"] < 1.0
+    small, seldom = lives["small"], int(lives["large"] / lives["small"])
+    policy = found["policies"][found["cheapest"]]
+    every = f"{grouped(small)} h"
+    assert policy["description"] == (
+        f"chain and small every {every}, large at every {ordinal(seldom)} chain change"
+    )
+    assert policy["cost_per_1000_h"] == pytest.approx(1000.0 * (65.0 + 15.0 / seldom) / small)
+    least = 20.0 / lives["chain"] + 15.0 / lives["small"] + 15.0 / lives["large"] + 30.0 / lives["small"]
+    assert found["least_possible_cost_per_1000_h"] == pytest.approx(1000.0 * least)
+    # Without prices too.
+    text = " ".join(cli("life", path).out.split())
+    assert f"First replace the chain and the sprocket 'small' at {every}, then every {every} Then" in text
+    assert f"large with the {ordinal(seldom)} chain at {grouped(seldom * small)} h" in text
 
 
 def test_a_day_of_toml_is_a_start_date(cli, drive):
@@ -248,7 +344,9 @@ def test_what_the_run_did_not_reach_is_a_bound(cli, drive):
     assert "driver >= 400 h, roll >= 400 h" in text
     table = next(line for line in text.splitlines() if line.startswith("  each part at its own end"))
     assert table.count("<= ") == 4
-    assert "  Not known  when to replace driver, roll: worn out in no run" in text
+    assert "Not known when to replace driver, roll: did not wear out in the simulated time" in " ".join(
+        text.split()
+    )
     assert "at most" in text
     assert "as far as is known" in text
     found = json.loads(cli("maintain", drive, *few, "--json").out)
@@ -268,6 +366,8 @@ def test_without_prices_no_cost_is_printed(cli, tmp_path, two_sprockets):
     done = cli("maintain", path)
     assert done.code == 0
     assert "  Cost       not known without maintenance.chain_price and a price of every sprocket" in done.out
+    assert "the plan with the fewest stops, and then parts" in " ".join(done.out.split())
+    assert json.loads(cli("maintain", path, "--json").out)["least_possible_cost_per_1000_h"] is None
     assert "Cheapest" not in done.out
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import wearsim
+from wearsim.chain.joint_wear import JointState, extrapolation
 from wearsim.chain.practice import geometric_mean, opinions
 from wearsim.chain.practice_drive import PracticeDrive
 from wearsim.mechanisms.wrap.drive import WrapDrive
@@ -49,8 +50,8 @@ def practice_drive(row: Row, **changes: float | str) -> PracticeDrive:
     return PracticeDrive(**{**given, **changes})
 
 
-def engine_hours(row: Row) -> float:
-    """Hours to 3 % of the chain as wearsim computes them, clean and with oil."""
+def engine_case(row: Row, **changes: object) -> wearsim.Case:
+    """A row as a case, clean and with oil, the chain to 3 %, with other keys of [drive] or [stop]."""
     case = wearsim.load_case(
         {
             "format_version": 1,
@@ -63,8 +64,24 @@ def engine_hours(row: Row) -> float:
             "stop": {"elongation_percent": 3},
         }
     )
+    return case.with_(changes) if changes else case
+
+
+def engine_hours(case: wearsim.Case) -> float:
+    """Hours of the chain as wearsim computes them."""
     assert isinstance(case.drive, WrapDrive)
     return case.drive.contact(case).cycles_per_chain / case.cycles_per_hour
+
+
+def row_state(row: Row) -> JointState:
+    """Where the joints of a row run."""
+    return JointState(practice_drive(row).pressure, row["speed_rpm"], row["pitch_mm"])
+
+
+def engine_band(case: wearsim.Case) -> tuple[float, float]:
+    """Ends of the band of these hours."""
+    band, hours = case.drive.wear_band("chain", case.wear), engine_hours(case)
+    return hours / band.high, hours / band.low
 
 
 @pytest.fixture(params=DRIVES, ids=lambda row: f"{row['no']} {row['chain']} {row['speed_rpm']:.0f} rpm")
@@ -90,7 +107,9 @@ def on_page(request: pytest.FixtureRequest) -> Callable[[Row], None]:
             cells = {key: row[key] for key in ("no", "drive", "chain", "teeth", "mate_teeth", "speed_rpm")}
             cells |= {"speed_m_per_s": drive.chain_speed, "pressure_MPa": drive.pressure}
             cells |= {"hours": {one.rule.name: one.hours for one in found}}
-            cells |= {"mean": geometric_mean(found), "engine": engine_hours(row)}
+            case = engine_case(row)
+            cells |= {"mean": geometric_mean(found), "engine": engine_hours(case), "band": engine_band(case)}
+            cells |= {"outside": extrapolation(case.drive.joint.law, row_state(row))}
             request.node.user_properties.append(("practised", cells))
 
     return record

@@ -148,6 +148,16 @@ BASES = {
         WRAP,
         sprocket={"teeth": 13, "profile": "dxf", "dxf_file": "gap.dxf", "dxf_layer": "first", "nodes": 101},
     ),
+    "open drawing": edited(
+        WRAP,
+        sprocket={
+            "teeth": 13,
+            "profile": "dxf",
+            "dxf_file": "open.dxf",
+            "dxf_join_tolerance_mm": 0.021,
+            "nodes": 101,
+        },
+    ),
     "catalogue": edited(STRAND, sprocket={"teeth": 20, "profile": "evolute", "nodes": 61}),
     "crawler": edited(
         STRAND,
@@ -427,6 +437,11 @@ CHANGES = {
     "sprocket.tip_diameter_mm": [("wrap", 57.0), ("drawing", 57.0, "sprocket.tip_diameter_mm")],
     "sprocket.dxf_file": [("drawing", "other.dxf"), ("wrap", "gap.dxf", "sprocket.dxf_file")],
     "sprocket.dxf_layer": [("drawing", "second"), ("drawing", "third", "sprocket.dxf_file")],
+    "sprocket.dxf_join_tolerance_mm": [
+        ("open drawing", 0.019, "sprocket.dxf_file"),
+        ("open drawing", 0.2, "sprocket.dxf_join_tolerance_mm"),
+        ("wrap", 0.01, "sprocket.dxf_join_tolerance_mm"),
+    ],
     "drive.mate_teeth": [("wrap", 21), ("strand", 21, "drive.mate_teeth")],
     "drive.links": [("wrap", 62), ("wrap", 61, "drive.links"), ("distance", 60, "drive.centre_distance_mm")],
     "drive.centre_distance_mm": [("distance", 300), ("distance", 20, "drive.centre_distance_mm")],
@@ -565,6 +580,7 @@ CHANGES |= {
         ("fatigue", 0.9, "fatigue.sprocket.contact_safety"),
     ],
     "load.duty_bins": [("log", [1, 1]), ("strand", [4, 4], "load.duty_bins")],
+    "load.duty_speed_ratio": [("log", 0.5), ("strand", 0.5, "load.duty_speed_ratio")],
 }
 
 
@@ -577,14 +593,16 @@ def test_every_base_and_every_law_profile_and_mechanism_takes_part():
     assert {change[0] for changes in CHANGES.values() for change in changes} == set(BASES)
 
 
-def draw(path, layers):
-    """A gap as a polyline, on every layer receded by so much."""
+def draw(path, layers, apart=None):
+    """A gap as a polyline, on every layer receded by so much; or as two, so far apart in the seat."""
     drawing = ezdxf.new(units=4)
     outline = load_case({**WRAP, "sprocket": {"teeth": 13, "profile": "iso606"}}).drive.outline
     for layer, depth in layers.items():
         moved = outline.recede(depth)
         points = np.column_stack([moved.x, moved.y])
-        drawing.modelspace().add_lwpolyline(points, dxfattribs={"layer": layer})
+        halves = [points] if apart is None else [points[:300], points[299:] - np.array([apart, 0.0])]
+        for half in halves:
+            drawing.modelspace().add_lwpolyline(half, dxfattribs={"layer": layer})
     drawing.saveas(path)
 
 
@@ -610,6 +628,7 @@ def run(tmp_path_factory):
     loads.to_csv(folder / "other_loads.csv", index=False)
     draw(folder / "gap.dxf", {"first": 0.0, "second": 0.01})
     draw(folder / "other.dxf", {"first": 0.02})
+    draw(folder / "open.dxf", {"first": 0.0}, apart=0.02)
     for name, pull in (("duty", 4000), ("other_duty", 4100)):
         rows = "".join(f"{i},{pull + 50 * i},{60 + i}\n" for i in range(20))
         (folder / f"{name}.csv").write_text("time_s,tension_N,speed_rpm\n" + rows)

@@ -155,6 +155,7 @@ MORE = {
             {"share_of_cycles": 0.5, "tension_N": 400, "speed_rpm": 200},
         ],
     ),
+    "log": edited(TWO, load={"duty_file": "duty.csv"}),
     "power law": edited(TWO, wear={"law": "power", "coefficient": 1e-14, "pressure_exponent": 2.0}),
 }
 # Key with the number of its sprocket: (base, another value) for a change, (base, value, fault's key) for an
@@ -206,8 +207,9 @@ OWN_CHANGES = {
     "load.torque_N_m": [("two", 10.0, "load.torque_N_m")],
     "load.tension_N": [("loop", 900.0, "load.power_kW")],
     "load.regime": [("regime", "III")],
-    "load.duty_file": [("two", "duty.csv", "load.duty_file")],
-    "load.duty_bins": [("two", [4, 4], "load.duty_bins")],
+    "load.duty_file": [("log", "other_duty.csv"), ("two", "duty.csv", "load.tension_N")],
+    "load.duty_bins": [("log", [1, 1]), ("two", [4, 4], "load.duty_bins")],
+    "load.duty_speed_ratio": [("log", 0.5), ("two", 0.5, "load.duty_speed_ratio")],
     "duty.1.power_share": [("loop duty", {"pump": 0.2, "fan": 0.8})],
     "duty.1.power_share.pump": [("loop duty", 0.2, "duty.1.power_share")],
     "duty.1.power_share.gear": [("loop duty", 0.2, "duty.1.power_share.gear")],
@@ -360,6 +362,9 @@ def folder(tmp_path_factory):
         moved = outline.recede(depth)
         rows = "".join(f"{x:.12g},{y:.12g}\n" for x, y in zip(moved.x, moved.y, strict=True))
         (folder / f"{name}.csv").write_text("x_mm,y_mm\n" + rows)
+    for name, pull in (("duty", 400), ("other_duty", 410)):
+        rows = "".join(f"{i},{pull + 5 * i},{60 + i}\n" for i in range(20))
+        (folder / f"{name}.csv").write_text("time_s,tension_N,speed_rpm\n" + rows)
     return folder
 
 

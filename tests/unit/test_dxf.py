@@ -44,7 +44,7 @@ def save(tmp_path: Path) -> Save:
 
 def test_gap_of_a_star_ends_below_its_tips(drawing: Drawing, save: Save) -> None:
     drawing.modelspace().add_lwpolyline(star(0.1), close=True)
-    points, notes = outline_from_dxf(save(drawing), TEETH)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH)
     assert points[np.hypot(*points.T).argmin()] == pytest.approx((0.0, 20.0), abs=1e-9)
     tip = (40.0 * math.sin(math.pi / TEETH), 40.0 * math.cos(math.pi / TEETH))
     assert points[0] == pytest.approx(tip, abs=2e-3)
@@ -55,23 +55,36 @@ def test_gap_of_a_star_ends_below_its_tips(drawing: Drawing, save: Save) -> None
 
 def test_old_style_polyline_and_lines_give_the_same(drawing: Drawing, save: Save) -> None:
     drawing.modelspace().add_polyline2d(star(), close=True)
-    old, _ = outline_from_dxf(save(drawing), TEETH)
+    old, *_ = outline_from_dxf(save(drawing), TEETH)
     lines = ezdxf.new(units=4)
     corners = star()
     for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
         lines.modelspace().add_line(a, b)
-    new, _ = outline_from_dxf(save(lines), TEETH)
+    new, *_ = outline_from_dxf(save(lines), TEETH)
     np.testing.assert_allclose(old, new, atol=1e-12)
 
 
-def test_difference_between_gaps_is_reported(drawing: Drawing, save: Save) -> None:
-    """One root 0.5 mm deeper; the gap's two sides then turn, the tips stay."""
+def deeper(depth: float) -> list[tuple[float, float]]:
+    """The star with one root deeper, the one on -y; the gap's two sides then turn, the tips stay."""
     corners = star()
-    corners[6] = (corners[6][0], corners[6][1] - 0.5 * math.copysign(1.0, -corners[6][1]))
-    drawing.modelspace().add_lwpolyline(corners, close=True)
-    _, notes = outline_from_dxf(save(drawing), TEETH, centre=(0.0, 0.0))
-    side = math.atan2(40.0 * math.sin(math.pi / 6), 40.0 * math.cos(math.pi / 6) - 20.0)
-    assert f"differ by at most {0.5 * math.sin(side):.2g} mm in shape" in notes[-1]
+    corners[6] = (corners[6][0], corners[6][1] + depth)
+    return corners
+
+
+def aside(depth: float) -> float:
+    """How far the mean of the star's gaps, one of them deeper, leaves that one, at the bottom of a gap."""
+    half, height = 40.0 * math.sin(math.pi / TEETH), 40.0 * math.cos(math.pi / TEETH) - 20.0
+    return (1.0 - 1.0 / TEETH) * depth * math.sin(math.atan2(half, height + depth))
+
+
+@pytest.mark.parametrize("depth", [0.001, 0.01, 0.05])
+def test_a_gap_that_differs_is_told_and_doubted(drawing: Drawing, save: Save, depth: float) -> None:
+    drawing.modelspace().add_lwpolyline(deeper(depth), close=True)
+    _, notes, warnings = outline_from_dxf(save(drawing), TEETH)
+    told = f"by up to {aside(depth):.2g} mm in shape and 0 mm in spacing"
+    assert told in notes[-1]
+    assert [told in text for text in warnings] == [True] * (aside(depth) > 2e-3)
+    assert all("180 degrees from +y" in text for text in warnings)
 
 
 def test_duplicates_short_edges_and_other_kinds_are_passed_over(drawing: Drawing, save: Save) -> None:
@@ -82,7 +95,7 @@ def test_duplicates_short_edges_and_other_kinds_are_passed_over(drawing: Drawing
         space.add_line(b, a)
     space.add_line((0.0, 0.0), (1e-5, 0.0))
     space.add_text("wheel")
-    points, notes = outline_from_dxf(save(drawing), TEETH)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH)
     assert points.shape[0] > 100
     assert "passed over what is no edge: 1 TEXT" in notes
     assert "13 edges drawn twice or too short: passed over" in notes
@@ -92,19 +105,19 @@ def test_open_joints_are_closed_within_the_tolerance(drawing: Drawing, save: Sav
     corners = star()
     for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
         drawing.modelspace().add_line(a, (b[0], b[1] + 5e-4))
-    _, notes = outline_from_dxf(save(drawing), TEETH)
+    _, notes, _ = outline_from_dxf(save(drawing), TEETH)
     assert "ends of edges up to 0.0005 mm apart were joined" in notes
-    with pytest.raises(GeometryError, match=r"0 closed outlines .* 12 open chains"):
+    with pytest.raises(GeometryError, match=r"is open at 12 places, .*dxf_join_tolerance_mm = 0\.0005"):
         outline_from_dxf(save(drawing), TEETH, tolerance=1e-4)
 
 
 def test_spokes_that_end_on_a_polyline_do_not_break_it(drawing: Drawing, save: Save) -> None:
     space = drawing.modelspace()
     space.add_lwpolyline(star(), close=True)
-    alone, _ = outline_from_dxf(save(drawing), TEETH)
+    alone, *_ = outline_from_dxf(save(drawing), TEETH)
     for x, y in star()[1:4]:
         space.add_line((0.0, 0.0), (x, y))
-    spoked, _ = outline_from_dxf(save(drawing), TEETH)
+    spoked, *_ = outline_from_dxf(save(drawing), TEETH)
     np.testing.assert_array_equal(spoked, alone)
 
 
@@ -118,13 +131,13 @@ def test_gap_ends_at_the_near_end_of_a_straight_tip_land(drawing: Drawing, save:
         for radius, at in zip(radii, angles + turn, strict=True)
     ]
     drawing.modelspace().add_lwpolyline(corners, close=True)
-    points, notes = outline_from_dxf(save(drawing), TEETH)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH)
     bottom = int(np.hypot(*points.T).argmin())
     assert np.hypot(*points[[0, -1]].T) == pytest.approx([39.999, 40.002], abs=1e-6)
     wide = np.ptp(np.arctan2(points[:, 1], points[:, 0]))
     assert wide == pytest.approx(2.0 * math.pi / TEETH - 0.2, abs=1e-3)
     assert points[bottom] == pytest.approx((0.0, 20.0), abs=0.05)
-    assert "differ by at most" in notes[-1]
+    assert "differ from their mean by up to 0 mm in shape" in notes[-1]
 
 
 def test_circles_alone_are_no_wheel(drawing: Drawing, save: Save) -> None:
@@ -162,17 +175,16 @@ def test_crossing_outline_is_refused(drawing: Drawing, save: Save) -> None:
     corners[1:1] = [(float(x), float(y)) for x, y in loop]
     drawing.modelspace().add_lwpolyline(corners, close=True)
     with pytest.raises(GeometryError, match="must not cross itself"):
-        outline_from_dxf(save(drawing), TEETH, centre=(0.0, 0.0))
-
-
-def test_uneven_wheel_off_the_origin_is_refused(drawing: Drawing, save: Save) -> None:
-    corners = star()
-    corners[6] = (corners[6][0], corners[6][1] + 1.0)
-    drawing.modelspace().add_lwpolyline(moved(corners, 3.0, 4.0), close=True)
-    with pytest.raises(GeometryError, match=r"centroid is at \(3, .*: move the wheel, or give"):
         outline_from_dxf(save(drawing), TEETH)
-    points, _ = outline_from_dxf(save(drawing), TEETH, centre=(3.0, 4.0))
-    assert points[:, 1].min() == pytest.approx(20.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("shift", [(0.0, 0.0), (3.0, 4.0), (300.0, 40.0)])
+def test_a_wheel_whose_gaps_differ_more_than_made_ones_is_refused(
+    drawing: Drawing, save: Save, shift: tuple[float, float]
+) -> None:
+    drawing.modelspace().add_lwpolyline(moved(deeper(1.0), *shift), close=True)
+    with pytest.raises(GeometryError, match=r"alike within 0.075 mm, but .* up to 0\.\d+ mm in shape"):
+        outline_from_dxf(save(drawing), TEETH)
 
 
 def test_damaged_files_are_refused(tmp_path: Path) -> None:
@@ -189,7 +201,7 @@ def test_damaged_file_is_repaired(drawing: Drawing, save: Save) -> None:
     path = save(drawing)
     text = path.read_text().replace("  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES", "  0\nSECTION\n  2\nENTITIES")
     path.write_text(text)
-    points, notes = outline_from_dxf(path, TEETH)
+    points, notes, _ = outline_from_dxf(path, TEETH)
     assert points.shape[0] > 100
     assert notes[0].startswith("the file was damaged")
 

@@ -19,6 +19,7 @@ from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.faults import Faults
+from wearsim.input.log_file import COLUMNS as LOG_COLUMNS
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.input.schema.study_tables import Distribution
@@ -215,6 +216,7 @@ def written(tmp_path_factory):
         *catalogue_columns(),
         *study_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
+        *LOG_COLUMNS,
         *(
             name
             for path in CALCULATION_CASES

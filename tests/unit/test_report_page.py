@@ -13,6 +13,7 @@ import shapely
 
 import wearsim
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
+from wearsim.files import file_names
 from wearsim.geometry.scene import Circle, Label, Scene, line
 from wearsim.mechanisms.gear_pair.scene import gear_scene
 from wearsim.mechanisms.strand.scene import strand_scene
@@ -25,7 +26,7 @@ from wearsim.report.html import page_content as page
 from wearsim.report.html import page_writer
 from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
-from wearsim.report.html.page_writer import page_names, save_report
+from wearsim.report.html.page_writer import save_report
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
@@ -283,8 +284,8 @@ def test_plotly_knows_all_that_charts_say(strand, wrap, gears):
         assert json.loads(figure.to_json())["data"] == content["data"]
 
 
-def test_names_of_pages_are_safe_and_different():
-    assert page_names(["../x", "x", "X", "index", "привод", ""]) == [
+def test_names_of_files_are_safe_and_different():
+    assert file_names(["../x", "x", "X", "index", "привод", ""]) == [
         "_x",
         "x",
         "X-2",

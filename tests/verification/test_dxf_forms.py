@@ -150,7 +150,7 @@ def test_whole_wheel_of_shuffled_arcs_with_a_bore(
     add_arcs(drawing, arcs, shift)
     for radius in (8.0, 2.0 * form.tip_radius):
         drawing.modelspace().add_circle(shift, radius)
-    points, notes = outline_from_dxf(save(drawing), TEETH)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH)
     assert form.error(points) < 1e-5
     assert points[0, 0] > 0.0 > points[-1, 0]
     np.testing.assert_allclose(np.hypot(*points[[0, -1]].T), form.tip_radius - 1e-3, atol=1e-5)
@@ -172,7 +172,7 @@ def test_one_gap_of_loose_pieces_half_of_them_reversed(
         points = np.column_stack([x + radius * np.cos(at), y + radius * np.sin(at)])
         spline = ezdxf.math.fit_points_to_cad_cv([(u, v, 0.0) for u, v in points])
         drawing.modelspace().add_spline().apply_construction_tool(spline)
-    points, notes = outline_from_dxf(save(drawing), TEETH)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH)
     assert form.error(points) < 2e-5
     assert any("is turned by" in note for note in notes) == (turn != 0.0)
 
@@ -184,7 +184,7 @@ def test_polyline_with_bulges_in_several_units(
 ) -> None:
     drawing = ezdxf.new(units=unit)
     with_bulges(drawing, form, 1.0 / factor)
-    points, notes = outline_from_dxf(save(drawing), TEETH, sagitta=1e-4)
+    points, notes, _ = outline_from_dxf(save(drawing), TEETH, sagitta=1e-4)
     assert form.error(points) < 1e-4
     assert bool(notes) == (unit != 4)
 
@@ -208,7 +208,7 @@ def test_polyline_of_chords_is_read_as_the_curve(
     """Its vertices are exact and few on the flat flanks; what lies between them is a guess."""
     drawing = ezdxf.new(units=4)
     with_chords(drawing, form, tolerance, 0.7)
-    points, _ = outline_from_dxf(save(drawing), TEETH)
+    points, *_ = outline_from_dxf(save(drawing), TEETH)
     gap = gap_from_points(*points.T, 0.0, 401, 0.5 * ROLLER)
     distances = np.abs(form.distances(np.column_stack([gap.x, gap.y])))
     assert distances.max() < error
@@ -226,7 +226,7 @@ def test_even_chords_of_a_whole_wheel(form: Arcs, loose: bool, save: Callable[[D
             drawing.modelspace().add_line(a, b)
     else:
         drawing.modelspace().add_lwpolyline(vertices, close=True)
-    points, _ = outline_from_dxf(save(drawing), TEETH)
+    points, *_ = outline_from_dxf(save(drawing), TEETH)
     gap = gap_from_points(*points.T, 0.0, 401, 0.5 * ROLLER)
     assert form.error(np.column_stack([gap.x, gap.y])) < 1e-4
 

@@ -4,15 +4,11 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+from wearsim.case.log_blocks import log_blocks
 from wearsim.catalogue.catalogues import Chain, regimes
 from wearsim.input.case_record import ChainRecord
-from wearsim.input.csv_tables import read_log
-from wearsim.input.duty_log import LogBin, log_bins, merged
 from wearsim.input.schema import DutyBlock
 from wearsim.input.schema.drive_tables import LOAD_KEYS
-
-BINS = [20, 8]
-"""Bins of tension and speed that a log is sorted into."""
 
 _MAX_BLOCKS = 12
 """Blocks of a log on a wrap, where every block adds its contacts to a cycle."""
@@ -28,11 +24,13 @@ class GivenLoad:
     speed_rpm: float  # of this sprocket
     kind: str  # `tension_N`, `power_kW` or `torque_N_m`
     value: float  # of that key
-    wear_factor: float  # on the wear coefficient of the tooth
+    wear_factor: float  # on the wear coefficient of the tooth; 0 where the other flank bears the load
     joint_factor: float  # on that of the chain's joints
     key: str  # of the case, for faults
     part: float = 1.0  # of the useful pull, for typical regimes
     measured: bool = False  # whether it comes from a log, which may hold idling
+    # whether it loads the other flank of the teeth, so that the tight and the slack strand change places
+    reverse: bool = False
     # shares of the power that driven sprockets take here, by their names; none for those of the drive
     power_share: Mapping[str, float] = field(default_factory=dict)
 
@@ -61,7 +59,7 @@ def complete_duty(case: ChainRecord, kind: str, chain: Chain) -> GivenDuty | Non
     if tables.duty:
         return _given(case, kind)
     if load.duty_file is not None:
-        return _logged(case, load.duty_file, _MAX_BLOCKS if kind == "wrap" else 0, chain)
+        return _logged(case, _MAX_BLOCKS if kind == "wrap" else 0, chain)
     if "load" not in tables.model_fields_set:
         return None
     name = next((key for key in LOAD_KEYS if getattr(load, key) is not None), None)
@@ -177,55 +175,29 @@ def _mean(one: GivenLoad, other: GivenLoad, first: float, second: float) -> floa
     return (one.share * first + other.share * second) / (one.share + other.share)
 
 
-def _logged(case: ChainRecord, name: str, greatest: int, chain: Chain) -> GivenDuty | None:
-    """Return the blocks of a log of tension and speed."""
-    key = "load.duty_file"
-    path = case.path(key, name)
-    log = read_log(path, key, case.faults)
-    bins = case.tables.load.duty_bins
-    if bins is None:
-        bins = BINS
-        case.take("load.duty_bins", bins, "bins of tension and speed of the log")
-    if log is None:
+def _logged(case: ChainRecord, greatest: int, chain: Chain) -> GivenDuty | None:
+    """Return the blocks of a log of load and speed."""
+    logged = log_blocks(case, greatest, chain)
+    if logged is None:
         return None
-    heaviest = int(log.tension.argmax())
-    if chain.tensile and log.tension[heaviest] >= chain.tensile:
-        case.faults.add(
-            key,
-            f"{path.name}:{heaviest + 2}: tension_N must stay below the chain's tensile strength "
-            f"{chain.tensile:g} N (got {log.tension[heaviest]:g})",
-        )
-        return None
-    sorted_in = log_bins(log, bins[0], bins[1])
-    blocks = merged(sorted_in, greatest) if greatest else sorted_in
-    case.assumptions.append(_log_summary(path.name, log.duration, sorted_in, blocks))
+    blocks, ratio = (*logged.blocks, *logged.reverse), case.tables.load.duty_speed_ratio or 1.0
     _say_heaviest(case, len(blocks))
     cycles = math.fsum(block.revolutions for block in blocks)
     found = tuple(
         GivenLoad(
             share=block.revolutions / cycles,
-            speed_rpm=60.0 * block.revolutions / block.time,
-            kind="tension_N",
-            value=block.tension,
-            wear_factor=1.0,
+            speed_rpm=60.0 * ratio * block.revolutions / block.time,
+            kind=logged.kind,
+            value=block.load if logged.kind == "tension_N" else block.load / ratio,
+            wear_factor=float(number < len(logged.blocks)),
             joint_factor=1.0,
-            key=key,
+            key="load.duty_file",
             measured=True,
+            reverse=number >= len(logged.blocks),
         )
-        for block in blocks
+        for number, block in enumerate(blocks)
     )
-    return GivenDuty(found, 60.0 * cycles / math.fsum(block.time for block in blocks), found)
-
-
-def _log_summary(name: str, duration: float, sorted_in: list[LogBin], blocks: list[LogBin]) -> str:
-    text = f"{name}: {duration:.6g} s, every row holds until the next, {len(sorted_in)} blocks"
-    if len(blocks) < len(sorted_in):
-        square = [sum(b.revolutions * b.tension**2 for b in part) for part in (blocks, sorted_in)]
-        text += (
-            f", the smallest joined with their neighbours to {len(blocks)}, which keeps time, cycles and "
-            f"mean tension and takes {100 * (1 - square[0] / square[1]):.2g} % off its mean square"
-        )
-    return text
+    return GivenDuty(found, 60.0 * ratio * cycles / math.fsum(block.time for block in blocks), found)
 
 
 def _say_heaviest(case: ChainRecord, count: int) -> None:

@@ -32,7 +32,7 @@ class LoadBlock:
     speed_rpm: float  # of the sprocket
     tension: float  # of the tight strand without the centrifugal part, on a straight strand the pull [N]
     centrifugal: float  # tension that the chain's own speed adds [N], 0 on a straight strand
-    wear_factor: float  # on the wear coefficient of the tooth
+    wear_factor: float  # on the wear coefficient of the tooth; 0 where the other flank bears the load
     joint_factor: float  # on that of the chain's joints, which a straight strand does not have
 
 
@@ -42,6 +42,11 @@ _Load = TypeVar("_Load", bound=LoadBlock)
 def heaviest_block(blocks: tuple[_Load, ...]) -> _Load:
     """Return the block of the largest tension, the first of them where several are alike."""
     return max(blocks, key=lambda block: block.tension)
+
+
+def on_flank(blocks: tuple[_Load, ...]) -> tuple[_Load, ...]:
+    """Return the blocks that load the flank which wears."""
+    return tuple(block for block in blocks if block.wear_factor > 0.0)
 
 
 class Drive:
@@ -55,7 +60,7 @@ class Drive:
 
     @property
     def duty(self) -> tuple[LoadBlock, ...]:
-        """Blocks of load; none where the load is one and the same."""
+        """Blocks of load on the flank; none where the load is one and the same."""
         return ()
 
     @property

@@ -11,6 +11,9 @@ from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_path import FULL_TURN, Floats
 from wearsim.errors import CaseError, Fault
 
+_ROUNDING = 1e-12
+"""Part of a vector below which a component is what rounding left of none."""
+
 
 @dataclass(frozen=True)
 class SpanLevel:
@@ -109,8 +112,22 @@ class LoopForces:
     @property
     def shaft_directions(self) -> Floats:
         """Direction of the force on each shaft, from x towards y [rad], shape (n,)."""
-        x, y = self.shaft_vectors.T
-        return np.array(np.arctan2(y, x))
+        return direction_angles(self.shaft_vectors)
+
+
+def direction_angles(vectors: Floats) -> Floats:
+    """Return the directions of vectors from x towards y [rad], shape (n,).
+
+    A component that only rounding left counts as none.
+
+    Examples
+    --------
+    >>> direction_angles(np.array([[1000.0, -1e-13], [-1000.0, -1e-13], [3e-14, 500.0]])).tolist()
+    [0.0, 3.141592653589793, 1.5707963267948966]
+    """
+    size = np.hypot(*vectors.T)[:, None]
+    x, y = np.where(np.abs(vectors) > _ROUNDING * size, vectors, 0.0).T
+    return np.array(np.arctan2(y, x))
 
 
 def loop_forces(

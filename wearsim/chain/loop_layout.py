@@ -95,6 +95,11 @@ class LoopLayout:
         """Links more than the loop takes without slack, 0 with a take-up."""
         return self.links - self.loop.links
 
+    @property
+    def braked(self) -> "LoopLayout":
+        """The loop while its drivers are driven: every wheel gives what it takes else."""
+        return replace(self, drive=replace(self.drive, shares=tuple(-share for share in self.drive.shares)))
+
     def sag(self, span: int) -> float:
         """Return sag over span where one span holds the whole excess, sqrt(3 dX p/(8 a)).
 

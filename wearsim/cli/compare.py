@@ -30,12 +30,12 @@ def compare(
 ) -> int:
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
-    The folder holds summary.csv and summary.md and pictures of the flanks, of depth,
-    pressure and sliding along them, and of depth against hours; the workbook a sheet for each
-    case. At least one of both is needed.
+    The table is printed. The folder holds it as summary.csv and summary.md, with pictures of
+    the flanks, of depth, pressure and sliding along them, and of depth against hours; the
+    workbook a sheet for each case.
 
     Whole drives, [[sprocket]] twice, are compared part by part: lives, what is replaced first,
-    ratings, cost. They need no --out.
+    ratings, cost.
     """
     from wearsim.study.whole_drive.command import are_drives, compared
 
@@ -43,8 +43,6 @@ def compare(
         if xlsx is not None:
             raise click.UsageError("whole drives take no --xlsx here: wearsim life writes their workbook")
         return compared(sources, settings, as_json, out, force)
-    if out is None and xlsx is None:
-        raise click.UsageError("give --out DIR, --xlsx FILE or both")
     check_workbook(out, xlsx, force)
     if out is not None:
         from wearsim.files import check_folder

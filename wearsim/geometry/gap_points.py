@@ -216,7 +216,17 @@ class _JointedSpline:
             without = self._spread_score(instead, fewer)
             if without - score < (9.0 + 2.0 * (sum(numbers) - sum(instead))) * self.cost:
                 joints, numbers, score = fewer, instead, without
-        return self._fitted(self._spread(numbers, joints), joints)
+        try:
+            found = self._fitted(self._spread(numbers, joints), joints)
+        except (ValueError, np.linalg.LinAlgError):
+            found = None
+        if found is None or not np.isfinite(found.c).all():
+            raise GeometryError(
+                "gap points: a smooth outline must pass by the points, but none was found, as they turn "
+                f"sharply at {len(self.corners)} places: give points as exact as 0.001 mm, or a larger "
+                "points_noise_mm"
+            )
+        return found
 
     def _joints(self) -> list[float]:
         """Joints found one by one on top of evenly spread knots, all placed anew each time.

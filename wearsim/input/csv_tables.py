@@ -10,14 +10,10 @@ import numpy as np
 
 from wearsim.catalogue.catalogues import nearest
 from wearsim.geometry.profile_points import Vector, chord_lengths
-from wearsim.input.duty_log import DutyLog
 from wearsim.input.faults import Faults
 from wearsim.input.units import LEAST, MAX
 
 _MAX_ROWS = 200_000
-
-_GAP = 10.0
-"""Step of a log over the usual one above which rows must be missing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,36 +153,3 @@ def read_prescribed(path: Path, key: str, faults: Faults) -> PrescribedTable | N
         columns.get("sliding_distance_mm"),
         columns.get("sliding_speed_mm_per_s"),
     )
-
-
-def read_log(path: Path, key: str, faults: Faults) -> DutyLog | None:
-    """Read a log of tension and speed."""
-    columns = read_columns(path, ("time_s", "tension_N", "speed_rpm"), (), key, faults)
-    if not columns:
-        return None
-    before = faults.count
-    time, tension, speed = (columns[name] for name in ("time_s", "tension_N", "speed_rpm"))
-    if time.size < 2:
-        faults.add(key, f"{path.name}: needs at least 2 rows, has {time.size}")
-        return None
-    step = np.diff(time)
-    for index in np.flatnonzero(step <= 0.0):
-        faults.add(key, f"{path.name}:{index + 3}: time_s must increase from row to row")
-    usual = float(np.median(step))
-    for index in np.flatnonzero(step > _GAP * usual):
-        faults.add(
-            key,
-            f"{path.name}:{index + 3}: time_s jumps by {step[index]:g}, the usual step is {usual:g}: "
-            "fill the gap or cut the log there",
-        )
-    for index in np.flatnonzero(tension < 0.0):
-        faults.add(key, f"{path.name}:{index + 2}: tension_N must not be negative (got {tension[index]:g})")
-    for index in np.flatnonzero(speed <= 0.0):
-        faults.add(
-            key,
-            f"{path.name}:{index + 2}: speed_rpm must be above 0 (got {speed[index]:g}): take standstill "
-            "out of the log, hours count running time",
-        )
-    if faults.count == before and not tension[:-1].max() > 0.0:
-        faults.add(key, f"{path.name}: tension_N must be above 0 in some row")
-    return DutyLog(step, tension[:-1], speed[:-1]) if faults.count == before else None

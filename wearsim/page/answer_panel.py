@@ -16,7 +16,18 @@ from wearsim.page.text_elements import (
     used_part,
     warning_list,
 )
-from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
+from wearsim.report.answer import (
+    BAND,
+    LIMITS,
+    OVERLOADED,
+    chain_rows,
+    ending,
+    findings,
+    headline,
+    hours,
+    overload_text,
+    result_events,
+)
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
 from wearsim.report.text_lines import stated_and_defaults
@@ -106,7 +117,7 @@ class AnswerPanel:
         self._life.clear()
         with self._life:
             ui.label(result.title).classes("ws-title").props("role=heading aria-level=2")
-            ui.label(hours(result.life)).classes("ws-hours")
+            ui.label(headline(result)).classes("ws-hours")
             ui.label(ending(result) + ("" if reached else " (limit not reached)"))
             if result.overloaded:
                 ui.label(f"{OVERLOADED} {overload_text(result)}").classes("ws-overloaded")
@@ -135,6 +146,9 @@ class AnswerPanel:
             heading("Findings")
             shown = (BAND, LIMITS, OVERLOADED)
             row_list((label, text) for label, text in findings(result) if label not in shown)
+            if result.practice is not None:
+                heading("What ends first, published rules, events")
+                row_list(chain_rows(result.ends, result.practice, result_events(result)))
             assumption_list(taken, defaults)
 
     def _fill_margins(self, found: Sequence[Margin]) -> None:

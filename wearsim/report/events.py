@@ -90,6 +90,10 @@ def _relubrications(inputs: Mapping[str, Any]) -> list[tuple[float, str, str]]:
     return [(every, "drive", f"relubrication, then every {grouped(every)} h")] if every else []
 
 
+EVENT_HEAD = ("at", "day", "part", "event")
+"""Heads of `event_rows`."""
+
+
 def event_rows(events: Sequence[Event]) -> list[tuple[str, str, str, str]]:
     """Return hours, day, part and what happens in words."""
     return [(f"{grouped(one.hours)} h", one.date or "-", one.part, one.event) for one in events]

@@ -71,7 +71,7 @@ def loads_table(found: ToothLoads) -> str:
     lines += [
         f"  {row + 1:5d} {columns['tension_N'][row]:8.1f} {columns['force_N'][row]:8.1f} "
         f"{columns['load_per_width_N_per_mm'][row]:8.2f} {columns['pressure_angle_deg'][row]:9.2f} "
-        f"{columns['radius_shift_mm'][row]:7.3f} {columns['contact_arc_length_mm'][row]:8.2f}"
+        f"{columns['radius_shift_mm'][row]:z7.3f} {columns['contact_arc_length_mm'][row]:8.2f}"
         for row in range(found.loads.force.size)
     ]
     lines += [

@@ -137,6 +137,10 @@ def ends_json(ends: Sequence[PartEnd]) -> list[dict[str, Any]]:
     ]
 
 
+END_HEAD = ("part", "mode", "hours", "90 % band", "rating")
+"""Heads of `end_rows`."""
+
+
 def end_rows(ends: Sequence[PartEnd]) -> list[tuple[str, str, str, str, str]]:
     """Return part, mode, hours, band and verdict of everything that may end a part, in words."""
     rows = []

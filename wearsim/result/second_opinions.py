@@ -91,6 +91,10 @@ def practice_text(found: SecondOpinions) -> str:
     )
 
 
+RULE_HEAD = ("published rule", "hours", "trust", "note and source")
+"""Heads of `rule_rows`."""
+
+
 def rule_rows(found: SecondOpinions) -> list[tuple[str, str, str, str]]:
     """Return every rule with its hours or why it has none, its trust and its source."""
     return [

@@ -208,6 +208,7 @@ _BELONGS_TO = {
     "points_noise_mm": ("points", "dxf"),
     "dxf_file": ("dxf",),
     "dxf_layer": ("dxf",),
+    "dxf_join_tolerance_mm": ("dxf",),
     "back_flank": ("evolute", "points"),
     "evolute_offset_mm": ("evolute", "points"),
     "contact_start_mm": ("evolute", "points"),
@@ -233,6 +234,7 @@ class SprocketTable(Table):
     points_noise_mm: NotNegative | None = None
     dxf_file: str | None = None
     dxf_layer: str | None = None
+    dxf_join_tolerance_mm: Annotated[Positive, Field(le=0.1)] | None = None
     face_width_mm: Positive | None = None
     evolute_offset_mm: Positive | None = None
     contact_start_mm: Positive | None = None
@@ -382,6 +384,9 @@ class DutyBlock(Table):
 LOAD_KEYS = ("tension_N", "power_kW", "torque_N_m")
 """Keys of which exactly one gives a load."""
 
+_OF_A_LOG = ("duty_bins", "duty_speed_ratio")
+"""Keys that say how a log is taken."""
+
 _MAX_BINS = 100
 
 
@@ -389,7 +394,7 @@ def _bins(value: object) -> object:
     pair = value if isinstance(value, list) and len(value) == 2 else [None]
     if not all(type(entry) is int and 1 <= entry <= _MAX_BINS for entry in pair):
         raise ValueError(
-            f"must be two whole numbers from 1 to {_MAX_BINS}, bins of the tension and of the speed, "
+            f"must be two whole numbers from 1 to {_MAX_BINS}, bins of the load and of the speed, "
             "such as [20, 8]"
         )
     return value
@@ -421,13 +426,14 @@ class LoadTable(Table):
     regime: Regime | None = None
     duty_file: str | None = None
     duty_bins: Annotated[list[int], BeforeValidator(_bins), WithJsonSchema(_BINS)] | None = None
+    duty_speed_ratio: PositiveNumber | None = None
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
         if key == "duty_file":
             return (*LOAD_KEYS, "speed_rpm", "regime")
-        of_a_log = ("duty_file", "duty_bins") if key in (*LOAD_KEYS, "speed_rpm", "regime") else ()
+        of_a_log = ("duty_file", *_OF_A_LOG) if key in (*LOAD_KEYS, "speed_rpm", "regime") else ()
         return (*others_of(key, LOAD_KEYS), *of_a_log)
 
     def conflicts(self) -> list[tuple[str, str]]:
@@ -439,9 +445,9 @@ class LoadTable(Table):
                 for key in keys
                 if getattr(self, key) is not None
             ]
-        found = []
-        if self.duty_bins is not None:
-            found.append(("duty_bins", "belongs to duty_file: remove it"))
+        found = [
+            (key, "belongs to duty_file: remove it") for key in _OF_A_LOG if getattr(self, key) is not None
+        ]
         given = [key for key in LOAD_KEYS if getattr(self, key) is not None]
         if len(given) > 1:
             message = f"give exactly one of {', '.join(LOAD_KEYS)} (got {', '.join(given)})"

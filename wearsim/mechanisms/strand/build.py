@@ -6,7 +6,7 @@ from functools import partial
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.hub_input import hub_input
-from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block
+from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block, on_flank
 from wearsim.case.table_inputs import (
     FLANK_NODES,
     TOLERANCE,
@@ -76,8 +76,9 @@ def _blocks(
         return LoadBlock(load.share, load.speed_rpm, pull, 0.0, load.wear_factor, load.joint_factor)
 
     blocks, rated = (tuple(map(_block, loads)) for loads in (duty.blocks, duty.rated))
-    pull, least = heaviest_block(blocks).tension, min(block.tension for block in blocks)
-    shown = f"{pull:.6g} N" if len(blocks) == 1 else f"{least:.4g} to {pull:.6g} N"
+    loaded = on_flank(blocks)
+    pull, least = heaviest_block(loaded).tension, min(block.tension for block in loaded)
+    shown = f"{pull:.6g} N" if len(loaded) == 1 else f"{least:.4g} to {pull:.6g} N"
     case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
     greatest = heaviest_block(rated)
     key = duty.rated[rated.index(greatest)].key

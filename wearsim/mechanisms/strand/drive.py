@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block
+from wearsim.case.model import Case, Drive, LoadBlock, heaviest_block, on_flank
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space
@@ -37,13 +37,13 @@ class StrandDrive(Drive):
 
     @property
     def duty(self) -> tuple[LoadBlock, ...]:
-        """Blocks of load."""
-        return self.blocks
+        """Blocks of load on the flank."""
+        return on_flank(self.blocks)
 
     @property
     def heaviest(self) -> LoadBlock:
-        """The block of the largest pull."""
-        return heaviest_block(self.blocks)
+        """The block of the largest pull on the flank."""
+        return heaviest_block(self.duty)
 
     @property
     def pull(self) -> float:

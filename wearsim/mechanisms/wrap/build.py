@@ -284,7 +284,7 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float, turni
         base=slack,
         turns=((tight, slack),) * 2,
         turning_factors=(turning,) * 2,
-        spans=(slack, tight),
+        spans=(tight, slack) if load.reverse else (slack, tight),
     )
 
 

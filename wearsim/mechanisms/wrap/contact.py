@@ -41,7 +41,7 @@ class RollerSliding:
 class WrapBlock:
     """A part of the duty of a wrap, in which tensions and speed are constant."""
 
-    share: float  # of the cycles; those of all blocks sum to 1
+    share: float  # of the cycles; those of all blocks sum to 1 where none loads the other side of the gaps
     mechanism: WrapMechanism  # rollers and chain under the tensions of this block
     pitch_time: float  # time in which the chain advances by one pitch [s]
     wear_factor: float  # on the wear coefficient
@@ -51,7 +51,9 @@ class WrapBlock:
 class WrapContact(RestingContact):
     """Contact events of a wrap over one revolution, for the wear engine."""
 
-    blocks: tuple[WrapBlock, ...]  # the duty; they differ in their tensions and speeds only
+    blocks: tuple[
+        WrapBlock, ...
+    ]  # the duty that loads this side of the gaps; they differ in their tensions and speeds only
     face_width: float  # b [mm]
     phases: int  # phases of one pitch
     sliding: RollerSliding  # how far rollers slide

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heaviest_block
+from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heaviest_block, on_flank
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
@@ -128,9 +128,9 @@ class WrapDrive(Drive):
     has_tooth = True
 
     @property
-    def duty(self) -> tuple[LoadBlock, ...]:
-        """Blocks of load."""
-        return self.blocks
+    def duty(self) -> tuple["WrapLoad", ...]:
+        """Blocks of load on the side of the gaps that wears."""
+        return on_flank(self.blocks)
 
     @property
     def wear_coefficients(self) -> Mapping[str, float]:
@@ -291,7 +291,7 @@ class WrapDrive(Drive):
                 pitch_time=60.0 / (block.speed_rpm * own),
                 wear_factor=block.wear_factor,
             )
-            for block in self.blocks
+            for block in self.duty
         )
         engaged, links = self.gaps // math.gcd(self.gaps, case.engaged_every), self.layout.links
         others = sum(own / self.time_share / mate for mate in self.mates)

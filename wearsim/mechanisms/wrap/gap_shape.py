@@ -14,7 +14,9 @@ from wearsim.geometry.forms.gost591 import gost591_gap
 from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import ON_CENTRE_LINE, evolute_gap, gap_from_points, lowest_centre
+from wearsim.geometry.measured.drawing_doubts import EFFECT, rounding_step, rounding_text
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
+from wearsim.geometry.measured.edge_chains import NEAR
 from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
@@ -205,14 +207,23 @@ def _points(case: ChainRecord, key: str, name: str, table: SprocketTable) -> tup
     """Coordinates from the file, None where there was a fault."""
     path = case.path(key, name)
     if table.points_file:
-        return read_points(path, key, case.faults)
+        found = read_points(path, key, case.faults)
+        step = 0.0 if found is None else rounding_step(np.column_stack(found), 1.0)
+        if step > math.sqrt(12.0) * (table.points_noise_mm or POINTS_NOISE):
+            case.warnings.append(f"{name}: {rounding_text(step)}: {EFFECT}")
+        return found
+    tolerance = table.dxf_join_tolerance_mm
+    if tolerance is None:
+        tolerance = NEAR
+        case.take("sprocket.dxf_join_tolerance_mm", tolerance, "default")
     try:
-        points, notes = outline_from_dxf(path, table.teeth, layer=table.dxf_layer)
+        drawn = outline_from_dxf(path, table.teeth, layer=table.dxf_layer, tolerance=tolerance)
     except GeometryError as error:
         case.faults.add(key, str(error))
         return None
-    case.assumptions += [f"drawing {name}: {note}" for note in notes]
-    return points[:, 0], points[:, 1]
+    case.assumptions += [f"drawing {name}: {note}" for note in drawn.notes]
+    case.warnings += [f"drawing {name}: {text}" for text in drawn.warnings]
+    return drawn.points[:, 0], drawn.points[:, 1]
 
 
 def _has_right_size(

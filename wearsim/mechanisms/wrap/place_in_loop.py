@@ -11,7 +11,7 @@ from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointLaw
-from wearsim.chain.loop_forces import LoopForces, SpanLevel
+from wearsim.chain.loop_forces import LoopForces, SpanLevel, direction_angles
 from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_from
 from wearsim.chain.span_tension import centrifugal_tension
 from wearsim.chain.take_up import TakeUp
@@ -117,7 +117,7 @@ def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp |
         at = loop.index(given.wheel)
         pulled = loop.directions[at] - loop.directions[at - 1]
         direction = -float(pulled[0]), -float(pulled[1])
-        degrees = math.degrees(math.atan2(direction[1], direction[0]))
+        degrees = math.degrees(float(direction_angles(-pulled[None, :])[0]))
         case.assumptions.append(
             f"take-up {given.wheel!r} moves against the pull of its two spans, at {degrees:.4g} degrees"
         )
@@ -165,8 +165,9 @@ def loop_loads(
         sag = 0.02
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
-    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag)
-    if not level.force > _NO_TENSION:
+    sides = (layout, layout.braked) if any(load.reverse for load in duty.blocks) else (layout,)
+    levels = [side.level(chain.mass_per_length, table.slack_tension_N, sag) for side in sides]
+    if not min(level.force for level in levels) > _NO_TENSION:
         case.faults.add(
             "drive.slack_tension_N",
             "the loosest span is vertical and has no tension of its own: give this, or take_up with a force",
@@ -174,11 +175,14 @@ def loop_loads(
     if case.faults.count > before:
         return None
     try:
-        found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
-        rated = [_forces(case, chain, layout, load, level, table) for load in duty.rated]
+        found, rated = (
+            [_forces(case, chain, sides[load.reverse], load, levels[load.reverse], table) for load in loads]
+            for loads in (duty.blocks, duty.rated)
+        )
     except CaseError as error:
+        braked = " (loads below 0 of the log swap tight and slack spans)" if len(sides) > 1 else ""
         for fault in error.faults:
-            case.faults.add(LOOP_KEY, fault.message)
+            case.faults.add(LOOP_KEY, f"{fault.message}{braked}")
         return None
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
     spans = ", ".join(
@@ -236,7 +240,7 @@ def _block(layout: LoopLayout, load: GivenLoad, forces: LoopForces, turning: flo
     arriving, leaving = forces.arriving.tolist(), forces.tensions.tolist()
     own = layout.wheel
     order = [own, *(i for i in range(len(leaving)) if i != own)]
-    pull = float(forces.pulls[[share > 0.0 for share in layout.drive.shares]].sum())
+    pull = abs(float(forces.pulls[[share > 0.0 for share in layout.drive.shares]].sum()))
     return WrapLoad(
         share=load.share,
         speed_rpm=load.speed_rpm,

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from markupsafe import Markup
 
@@ -9,8 +10,18 @@ from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
 from wearsim.quantities import grouped
-from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, hours, overload_text
+from wearsim.report.answer import (
+    BAND,
+    LIMITS,
+    OVERLOADED,
+    ending,
+    findings,
+    hours,
+    overload_text,
+    result_events,
+)
 from wearsim.report.comparison import comparison_cells, differing_limits
+from wearsim.report.events import EVENT_HEAD, Event, event_rows
 from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
@@ -23,6 +34,18 @@ from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
+from wearsim.result.ends import END_HEAD, PartEnd, end_rows
+from wearsim.result.second_opinions import RULE_HEAD, SecondOpinions, practice_text, rule_rows
+
+
+class HtmlTable(NamedTuple):
+    """A table under a heading of its own."""
+
+    place: str  # of its element on the page
+    title: str
+    about: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +70,7 @@ class DrivePage:
     # nothing
     rating_head: list[str]
     ratings: list[list[str]]
+    chain_tables: list[HtmlTable]  # what ends first, published rules and events, where a chain wraps it
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # all others
     sketch: Markup  # the drive; empty where nothing is known of it
@@ -98,6 +122,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         margins=margins(result, case),
         rating_head=RATING_HEAD,
         ratings=rating_cells(result.ratings),
+        chain_tables=chain_tables(result.ends, result.practice, result_events(result)),
         tooth=tooth,
         charts=charts,
         sketch=Markup() if brief else sketch(case.drive.scene(case.engaged_every)),
@@ -110,6 +135,26 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         versions=[("page written by", f"wearsim {__version__}"), *result.environment.items()],
         citation=apa(result.environment["wearsim"]),
     )
+
+
+def chain_tables(
+    ends: Sequence[PartEnd], practice: SecondOpinions | None, events: Sequence[Event]
+) -> list[HtmlTable]:
+    """Return what may end the parts of a chain drive, what published rules say, and what happens when."""
+    if practice is None:
+        return []
+    return [
+        HtmlTable("ends", "What ends first", ENDS_NOTE, END_HEAD, end_rows(ends)),
+        HtmlTable(
+            "practice", "Published rules", f"{practice_text(practice)}.", RULE_HEAD, rule_rows(practice)
+        ),
+        HtmlTable("events", "Events", "Until each part is replaced first.", EVENT_HEAD, event_rows(events)),
+    ]
+
+
+ENDS_NOTE = (
+    "Wear by calculation; fatigue and galling by their ratings, with hours only where a slope is published."
+)
 
 
 def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from wearsim._version import __version__
-from wearsim.files import new_folder
+from wearsim.files import file_names, new_folder
 from wearsim.report.html.page_content import comparison_page, drive_page
 from wearsim.result import WearResult
 
@@ -23,7 +23,7 @@ def save_report(
     results: Sequence[WearResult], folder: Path, force: bool, single_file: bool, detail: str
 ) -> list[str]:
     """Write a page for each result, and one that compares them where there are several."""
-    names = page_names([result.case for result in results])
+    names = file_names([result.case for result in results])
     brief = detail == "brief"
     pages = {
         f"{name}.html": ("drive.html.j2", drive_page(result, name, brief))
@@ -77,23 +77,3 @@ def pages_kept(text: str) -> str:
     b'until 21?090?h'
     """
     return re.sub(r"(?<=\d) (?=\d{3}\b|(?:h|mm|N|MPa|%)(?:\W|$))", "\u00a0", text)
-
-
-def page_names(cases: Sequence[str]) -> list[str]:
-    """Return names of files for cases, all different whatever the file system makes of capitals.
-
-    Examples
-    --------
-    >>> page_names(["drive", "Drive", "index", "a/b <c>"])
-    ['drive', 'Drive-2', 'index-2', 'a_b_c_']
-    """
-    taken, found = {"index"}, []
-    for case in cases:
-        stem = re.sub(r"[^\w.-]+", "_", case).lstrip(".") or "drive"
-        number, name = 1, stem
-        while name.lower() in taken:
-            number += 1
-            name = f"{stem}-{number}"
-        taken.add(name.lower())
-        found.append(name)
-    return found

@@ -82,14 +82,13 @@ def export_wheels(
 ) -> None:
     """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
     from wearsim.cad.wheel_formats import export
-    from wearsim.files import new_folder
-    from wearsim.report.html.page_writer import page_names
+    from wearsim.files import file_names, new_folder
 
     check_folder(out, force)
     cases = _titled_cases(loaded_drive(path, settings, False))
     results = lived([path], settings, False)[path].results if "worn" in states else {}
     with new_folder(out, force) as place:
-        for file, (name, case) in zip(page_names(list(cases)), cases.items(), strict=True):
+        for file, (name, case) in zip(file_names(list(cases)), cases.items(), strict=True):
             (place / f"{file}.{form}").write_bytes(export(case, results.get(name), states, form))
     warn(f"written to {out}: {len(cases)} wheels")
 

@@ -36,16 +36,24 @@ def _lock(found: DriveLife, place: Path) -> str:
         for key in _FILES:
             if key in table:
                 file = Path(table[key]).name
-                (place / _INPUTS).mkdir(exist_ok=True)
-                (place / _INPUTS / f"{number}-{file}").write_text(
-                    own[file], encoding="utf-8", errors="surrogateescape"
-                )
-                table[key] = f"{_INPUTS}/{number}-{file}"
+                table[key] = _kept(place, f"{number}-{file}", own[file])
+    load = inputs.get("load", {})
+    if "duty_file" in load:
+        file = Path(load["duty_file"]).name
+        log = found.results[found.drive.driver.name].input_files[file]
+        load["duty_file"] = _kept(place, file, log)
     document = tomlkit.document()
     document.add(tomlkit.comment(f"{found.drive.name} as it was read, with what --set changed"))
     for key, value in inputs.items():
         document.add(key, value)
     return tomlkit.dumps(document)
+
+
+def _kept(place: Path, name: str, text: str) -> str:
+    """Write a file of the input into the folder and return the name that its key takes."""
+    (place / _INPUTS).mkdir(exist_ok=True)
+    (place / _INPUTS / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+    return f"{_INPUTS}/{name}"
 
 
 def _table(found: DriveLife, name: str) -> "pd.DataFrame":

@@ -422,4 +422,7 @@ def _turned(load: Mapping[str, Any], ratio: float) -> dict[str, Any]:
         value = plain_number(load.get(key), unit)
         if value is not None:
             turned[key] = value * factor
+    if "duty_file" in load:
+        # The log stays that of the driver.
+        turned["duty_speed_ratio"] = ratio * (plain_number(load.get("duty_speed_ratio"), "") or 1.0)
     return turned

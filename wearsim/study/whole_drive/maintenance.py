@@ -9,22 +9,17 @@ from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
 from wearsim.study.whole_drive.keys import DriveCase
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.plan import (
-    SAME,
-    STOPS,
-    Prices,
-    ReplacementRule,
-    Stop,
-    cheapest,
-    replacement_rules,
-)
+from wearsim.study.whole_drive.plan import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
+from wearsim.study.whole_drive.renewal import SAME, least_cost_rate
 
 CONVENTIONS = (
-    "a new chain and a new sprocket live as long as the first ones",
-    "parts that end at the same time share a stop; a stop costs the same whatever is replaced in it",
-    "in the long run: no interest, and what is left of a part that is replaced early is lost",
+    "replacement parts last as long as the originals",
+    "parts that are worn out at the same time share a stop; a stop costs the same whatever is replaced in it",
+    "mean of the long run: undiscounted; unused life of a part has no value",
 )
 OF_A_CASSETTE = "a cassette is one part: it is replaced when its first cog is worn"
+
+WITHOUT_PRICES = "without prices the stops shown are those of the plan with the fewest stops, and then parts"
 
 CHAINS, YEARS = 3, 10.0
 """The stops that are shown end with this chain or after these years in service, whichever is sooner."""
@@ -37,6 +32,7 @@ class DrivePlan:
     found: DriveLife
     lives: Mapping[str, Life | LowerBound]  # of the chain and every sprocket; a cassette is one part
     rules: tuple[ReplacementRule, ...]
+    no_less: float | None  # cost in an hour below which no schedule can fall; None without prices
 
     @property
     def drive(self) -> DriveCase:
@@ -50,16 +46,16 @@ class DrivePlan:
 
     @property
     def best(self) -> ReplacementRule:
-        """The cheapest rule; without prices that of sprockets with a chain change, if the chain ends."""
+        """The cheapest rule; without prices that of the fewest stops, if there is one."""
         found = self.cheapest
         return self.rules[min(1, len(self.rules) - 1) if found is None else found[0]]
 
     @property
     def ends(self) -> dict[str, float]:
         """Hours in which the stops that are shown can end, by what they are."""
-        ends, chain = {}, self.lives[CHAIN]
-        if isinstance(chain, Life):
-            ends[f"{CHAINS} chains"] = CHAINS * chain.hours
+        ends = {}
+        if isinstance(self.lives[CHAIN], Life):
+            ends[f"{CHAINS} chains"] = CHAINS * self.best.every[CHAIN]
         service = self.drive.driver.case.inputs.get("service") or {}
         if "hours_per_day" in service:
             ends[f"{YEARS:g} years"] = YEARS * DAYS_OF_YEAR * service["hours_per_day"]
@@ -102,29 +98,24 @@ class DrivePlan:
         """Whether there are more of them until then."""
         return len(self.stops) == STOPS and self.stops[-1].hours < self.until * (1.0 - SAME)
 
-    def chain_at(self, hours: float) -> int:
-        """Return the number of the chain that is replaced at a time, 0 where none is."""
-        chains = hours / self.best.every[CHAIN]
-        ends = CHAIN not in self.best.at_most and abs(chains - round(chains)) <= SAME * chains
-        return round(chains) if ends else 0
-
     @property
     def conventions(self) -> tuple[str, ...]:
         """How parts, stops and cost are counted."""
         cassette = any(wheel.cogs for wheel in self.drive.wheels)
-        return (*CONVENTIONS, *((OF_A_CASSETTE,) if cassette else ()))
+        unpriced = len(self.rules) > 1 and self.cheapest is None
+        more = [text for text, holds in ((OF_A_CASSETTE, cassette), (WITHOUT_PRICES, unpriced)) if holds]
+        return (*CONVENTIONS, *more)
 
 
 def drive_plan(found: DriveLife) -> DrivePlan:
     """Return the rules by which the parts of a drive can be replaced, and their cost if prices are given."""
-    lives = part_lives(found)
-    rules = replacement_rules(
-        lives[CHAIN].hours_run,
-        {name: life.hours_run for name, life in lives.items() if name != CHAIN},
-        _prices(found.drive),
-        frozenset(name for name, life in lives.items() if isinstance(life, LowerBound)),
-    )
-    return DrivePlan(found, lives, tuple(rules))
+    lives, prices = part_lives(found), _prices(found.drive)
+    hours = {name: life.hours_run for name, life in lives.items()}
+    worn_out = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
+    chain = hours.pop(CHAIN)
+    rules = replacement_rules(chain, hours, prices, frozenset(lives.keys() - worn_out.keys()))
+    no_less = least_cost_rate(worn_out, prices.parts, prices.stop) if prices and worn_out else None
+    return DrivePlan(found, lives, tuple(rules), no_less)
 
 
 def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:

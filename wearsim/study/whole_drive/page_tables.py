@@ -270,7 +270,7 @@ def plan_table(plan: DrivePlan) -> PageTable:
             f"{grouped(stop.hours)} h",
             *(_measured(plan.found, Life(0.0, stop.hours), measure) for measure in measures),
             ", ".join(stop.parts),
-            str(plan.chain_at(stop.hours) or "-"),
+            str(plan.best.chain_at(stop.hours) or "-"),
         )
         for stop in plan.stops
     )

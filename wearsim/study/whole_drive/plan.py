@@ -11,13 +11,20 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from wearsim.study.whole_drive.renewal import SAME, SAVES, Cycle, cheapest_cycle, cycles_in_life, fewest_stops
+
 CHAIN = "chain"
+
+WITH_CHAIN, FEWEST_STOPS = "sprockets with a chain change", "fewest stops"
+"""Name of the rule of the fewest stops: where the chain is replaced in all of them, and where it is not."""
+
+LEAST_COST = "grouped for the least cost"
 
 STOPS = 24
 """Stops of a schedule."""
 
-SAME = 1e-9
-"""Relative difference below which two times are one."""
+_JUST_BEFORE = 3.0 * SAME
+"""Part of the hours of a stop by which a time is certainly before it."""
 
 _MOST_APART, _LONGEST_PERIOD = 100, 10_000
 """Ends of a part of which one falls on a stop of the others, and lives after which all repeats.
@@ -33,6 +40,11 @@ class Prices:
     chain: float
     sprockets: Mapping[str, float]  # by name
     stop: float = 0.0  # standstill of one stop
+
+    @property
+    def parts(self) -> dict[str, float]:
+        """Price of every part by its name."""
+        return {**self.sprockets, CHAIN: self.chain}
 
 
 @dataclass(frozen=True)
@@ -55,7 +67,20 @@ class ReplacementRule:
     at_most: frozenset[str] = frozenset()  # parts that outlived their run: replaced so often at most
     stops_at_most: bool = False  # whether some stops are only for such parts
     cost: float | None = None  # in an hour, at most where a part outlived its run; None without prices
-    least_cost: float | None = None  # the same if such parts lived for ever
+    least_cost: float | None = None  # the same if such parts lasted for ever
+    cycle: Cycle | None = (
+        None  # that repeats, of parts that were worn out; None where each goes at its own end
+    )
+
+    def chain_at(self, hours: float) -> int:
+        """Return the number of the chain that is replaced at a time, 0 where none is."""
+        if CHAIN in self.at_most:
+            return 0
+        if self.cycle is None:
+            chains = hours / self.every[CHAIN]
+            return round(chains) if abs(chains - round(chains)) <= SAME * chains else 0
+        number = self.cycle.replaced(CHAIN, hours)
+        return number if number > self.cycle.replaced(CHAIN, hours * (1.0 - _JUST_BEFORE)) else 0
 
 
 def cost_rate(rule: ReplacementRule, prices: Prices) -> float:
@@ -69,7 +94,7 @@ def cost_rate(rule: ReplacementRule, prices: Prices) -> float:
     >>> round(1000 * cost_rate(rule, Prices(40.0, {"roll": 100.0}, 10.0)), 9)
     92.0
     """
-    price = {**prices.sprockets, CHAIN: prices.chain}
+    price = prices.parts
     parts = math.fsum(price[name] / hours for name, hours in rule.every.items())
     return parts + rule.stop_rate * prices.stop
 
@@ -82,8 +107,8 @@ def replacement_rules(
 ) -> list[ReplacementRule]:
     """Return the rules by which the parts of a drive can be replaced.
 
-    Each part at its own end; each sprocket with the last chain change before its end; all sprockets with
-    every m-th chain, for every m that the shortest-lived one allows.
+    Each part at its own end; the fewest stops; all sprockets with every m-th chain, for every m that the
+    shortest-lived one allows; with prices the cheapest cycle too, where it saves over all of these.
 
     Parameters
     ----------
@@ -99,132 +124,110 @@ def replacement_rules(
     Returns
     -------
     list of ReplacementRule
-        Only the first one where the chain outlived its run.
+        Only the first one where no part was worn out, or a single sprocket.
     """
-    found = [_each_at_its_end(chain, sprockets, outlived)]
-    if CHAIN not in outlived:
-        found += [_with_chains(chain, sprockets, outlived), *_together(chain, sprockets)]
+    lives = {CHAIN: chain, **sprockets}
+    lasting = {name: life for name, life in lives.items() if name not in outlived}
+    found, least = _rules(lives, lasting), _rules(lasting, lasting)
+    if CHAIN in lasting:
+        together = _together(chain, sprockets)
+        found, least = [*found, *together], [*least, *together]
     if prices is None:
         return found
-    lasting = {name: life for name, life in sprockets.items() if name not in outlived}
-    for_ever = [_each_at_its_end(chain, lasting, outlived), _with_chains(chain, lasting, outlived)]
+    if len(found) > 1:
+        cycle = cheapest_cycle(lasting, prices.parts, prices.stop)
+        grouped = _in_cycles(LEAST_COST, cycle, lasting)
+        if cost_rate(grouped, prices) < (1.0 - SAVES) * min(cost_rate(rule, prices) for rule in least):
+            found.append(_in_cycles(LEAST_COST, cycle, lives))
+            least.append(grouped)
     return [
-        replace(rule, cost=cost_rate(rule, prices), least_cost=cost_rate(least, prices))
-        for rule, least in zip(found, [*for_ever, *found[2:]], strict=False)
+        replace(rule, cost=cost_rate(rule, prices), least_cost=cost_rate(if_for_ever, prices))
+        for rule, if_for_ever in zip(found, least, strict=True)
     ]
 
 
 def cheapest(rules: list[ReplacementRule]) -> tuple[int, bool] | None:
     """Return the number of the cheapest rule, and whether no other can be cheaper.
 
-    None without prices, and where there is only one rule.
+    Parts that outlived their run count nothing in the choice: what they cost is not known. None without
+    prices, and where there is only one rule.
     """
-    costs = [(rule.cost, number) for number, rule in enumerate(rules) if rule.cost is not None]
+    costs = [rule.least_cost for rule in rules if rule.least_cost is not None]
     if len(costs) < 2:
         return None
-    cost, number = min(costs)
-    least = [rule.least_cost for i, rule in enumerate(rules) if i != number]
-    return number, all(other is not None and other >= cost * (1.0 - SAME) for other in least)
+    most = min(costs) * (1.0 + SAME)
+    number = next(number for number, cost in enumerate(costs) if cost <= most)
+    return number, all(not rule.at_most for rule in rules)
 
 
-def chains_in_life(life: float, chain: float) -> int:
-    """Return how many chains a sprocket wears out in its life, 0 where it does not outlive the first.
+def _rules(lives: Mapping[str, float], lasting: Mapping[str, float]) -> list[ReplacementRule]:
+    """Return the rules that are compared without prices too, for lives some of which may be bounds."""
+    rules = [_each_at_its_end(lives, frozenset(lives.keys() - lasting.keys()))]
+    if len(lasting) < 2 and CHAIN not in lasting:
+        return rules
+    few = fewest_stops(lasting)
+    name = WITH_CHAIN if few.every.get(CHAIN) == 1 else FEWEST_STOPS
+    return [*rules, _in_cycles(name, few, lives)]
 
-    Examples
-    --------
-    >>> chains_in_life(2500.0, 1000.0), chains_in_life(3000.0, 1000.0), chains_in_life(900.0, 1000.0)
-    (2, 3, 0)
-    """
-    return math.floor(life / chain * (1.0 + SAME))
 
-
-def _each_at_its_end(
-    chain: float, sprockets: Mapping[str, float], outlived: frozenset[str]
-) -> ReplacementRule:
-    every = {CHAIN: chain, **sprockets}
+def _each_at_its_end(lives: Mapping[str, float], outlived: frozenset[str]) -> ReplacementRule:
     return ReplacementRule(
         "each part at its own end",
-        every,
-        every,
-        _stop_rate(every.values()),
+        lives,
+        lives,
+        _stop_rate(lives.values()),
         _schedule(
-            (_ends(name, hours) for name, hours in every.items() if name not in outlived),
-            _known(every, outlived),
+            (_ends(name, hours) for name, hours in lives.items() if name not in outlived),
+            _known(lives, outlived),
         ),
         outlived,
         bool(outlived),
     )
 
 
-def _with_chains(chain: float, sprockets: Mapping[str, float], outlived: frozenset[str]) -> ReplacementRule:
-    """Replace sprockets with chains; one that does not live as long as a chain also in between."""
-    every, between = {CHAIN: chain}, {}
-    for name, life in sprockets.items():
-        chains = chains_in_life(life, chain)
-        if chains:
-            every[name] = chains * chain
-        else:
-            between[name] = life
-            every[name] = chain / math.ceil(chain / life * (1.0 - SAME))
-    within = [
-        hours
-        for name, life in between.items()
-        for hours, _ in itertools.takewhile(lambda end: end[0] < chain * (1.0 - SAME), _ends(name, life))
-    ]
+def _in_cycles(name: str, cycle: Cycle, lives: Mapping[str, float]) -> ReplacementRule:
+    """Replace parts in cycles, one that outlived its run at the end of the last cycle that it lasts for sure.
+
+    Where it does not last for one cycle for sure, it needs stops of its own at most.
+    """
+    outlived = frozenset(lives.keys() - cycle.every.keys())
+    cycles = {part: cycles_in_life(lives[part], cycle.hours) for part in outlived}
+    alone = [lives[part] for part, count in cycles.items() if not count]
     return ReplacementRule(
-        "sprockets with a chain change",
-        every,
-        {**every, **between},
-        (1.0 + len(_distinct(within))) / chain,
-        _schedule(
-            (
-                _ends_within(name, between[name], chain) if name in between else _ends(name, hours)
-                for name, hours in every.items()
-                if name not in outlived
-            ),
-            _known(sprockets, outlived),
-        ),
-        outlived & every.keys(),
-        bool(outlived & between.keys()),
+        name,
+        {
+            part: (cycles[part] * cycle.hours or life) if part in outlived else cycle.mean_hours(part)
+            for part, life in lives.items()
+        },
+        {part: cycle.first(part) for part in cycle.every},
+        cycle.stop_rate + sum(1.0 / life for life in alone),
+        _schedule((cycle.ends(part) for part in cycle.every), _known(lives, outlived)),
+        outlived,
+        bool(alone),
+        cycle=cycle,
     )
 
 
 def _together(chain: float, sprockets: Mapping[str, float]) -> list[ReplacementRule]:
+    lives = {CHAIN: chain, **sprockets}
     shortest = min(sprockets.values())
-    most = chains_in_life(shortest, chain)
+    most = cycles_in_life(shortest, chain)
     if not most:
-        return [_all_every("all parts with the first sprocket", shortest, shortest, sprockets)]
+        name = "all parts with the first sprocket"
+        return [_in_cycles(name, Cycle(shortest, (), dict.fromkeys(lives, 1)), lives)]
     return [
-        _all_every(
+        _in_cycles(
             "all sprockets with every chain" if chains == 1 else f"all sprockets every {chains} chains",
-            chain,
-            chains * chain,
-            sprockets,
+            Cycle(chain, (), {**dict.fromkeys(lives, chains), CHAIN: 1}),
+            lives,
         )
         for chains in range(1, most + 1)
     ]
 
 
-def _all_every(name: str, chain: float, hours: float, sprockets: Mapping[str, float]) -> ReplacementRule:
-    every = {CHAIN: chain, **dict.fromkeys(sprockets, hours)}
-    return ReplacementRule(
-        name, every, every, 1.0 / chain, _schedule(_ends(part, one) for part, one in every.items())
-    )
-
-
 def _ends(name: str, hours: float) -> Iterator[tuple[float, str]]:
     """Give the times at which a part is replaced every so many hours."""
     return ((number * hours, name) for number in itertools.count(1))
-
-
-def _ends_within(name: str, life: float, chain: float) -> Iterator[tuple[float, str]]:
-    """Give the times at which a part is replaced that ends before its chain, and goes with it too."""
-    for number in itertools.count():
-        end = life
-        while end < chain * (1.0 - SAME):
-            yield number * chain + end, name
-            end += life
-        yield (number + 1) * chain, name
 
 
 def _known(lives: Mapping[str, float], outlived: frozenset[str]) -> float:
@@ -249,7 +252,10 @@ def _schedule(ends: Iterable[Iterator[tuple[float, str]]], known: float = math.i
 
 def _stop_rate(lives: Iterable[float]) -> float:
     """Return the stops in an hour for parts that are each replaced at their own end."""
-    shortest, *others = _distinct(lives)
+    different = _distinct(lives)
+    if not different:
+        return 0.0
+    shortest, *others = different
     together, period, alone = [Fraction(1)], Fraction(1), 0.0
     for life in others:
         ratio = Fraction(life / shortest).limit_denominator(_MOST_APART)

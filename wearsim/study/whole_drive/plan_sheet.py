@@ -12,7 +12,8 @@ from wearsim.report.text_lines import row, table_lines
 from wearsim.result import LowerBound, life_keys
 from wearsim.study.whole_drive.maintenance import DrivePlan
 from wearsim.study.whole_drive.model import CHAIN
-from wearsim.study.whole_drive.plan import ReplacementRule, Stop, chains_in_life
+from wearsim.study.whole_drive.plan import ReplacementRule, Stop
+from wearsim.study.whole_drive.plan_words import rule_text
 
 _PER = 1000.0
 """Hours for which parts, stops and cost are given."""
@@ -36,6 +37,7 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
         "policies": [
             {
                 **_numbers(rule),
+                "description": rule_text(rule),
                 "parts": _parts(rule),
                 "schedule": [_stop(plan, stop) for stop in rule.schedule],
             }
@@ -43,6 +45,7 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
         ],
         "cheapest": None if best is None else best[0],
         "cheapest_is_certain": None if best is None else best[1],
+        "least_possible_cost_per_1000_h": None if plan.no_less is None else _PER * plan.no_less,
         "assumptions": [*plan.conventions, *plan.drive.assumptions],
         "warnings": list(plan.found.warnings),
     }
@@ -98,7 +101,7 @@ def plan_text(plan: DrivePlan, source: str) -> str:
     lives = ", ".join(f"{name} {hours(life).replace('> ', '>= ')}" for name, life in plan.lives.items())
     rows = [
         *_cheapest(plan),
-        *(("Intervals", text) for text in _intervals(plan)),
+        ("Replace", rule_text(plan.best)),
         ("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
         *(("Not known", text) for text in _not_known(plan)),
         ("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
@@ -145,22 +148,8 @@ def _cheapest(plan: DrivePlan) -> list[tuple[str, str]]:
     most = "at most " if rule.at_most else ""
     text = f"{rule.name}, {most}{grouped(_PER * rule.cost)} in 1000 h"
     certain = "" if best[1] else ", as far as is known: a longer run may name another"
-    return [("Cheapest", text + certain)]
-
-
-def _intervals(plan: DrivePlan) -> list[str]:
-    """Say with which chain a sprocket is replaced where it goes with a chain change."""
-    chain = plan.lives[CHAIN]
-    if isinstance(chain, LowerBound):
-        return []
-    texts = []
-    for name, life in plan.lives.items():
-        chains = chains_in_life(life.hours_run, chain.hours)
-        later = " or later" if isinstance(life, LowerBound) else ""
-        if name != CHAIN:
-            with_chain = "every chain" if chains == 1 else f"every {chains} chains"
-            texts.append(f"{name} with {with_chain}{later}" if chains else f"{name} before its chain")
-    return [f"with a chain change: {', '.join(texts)}"]
+    no_less = f"; no plan costs less than {grouped(_PER * plan.no_less)}" if plan.no_less else ""
+    return [("Cheapest", text + certain + no_less)]
 
 
 def _stops(plan: DrivePlan, rule: ReplacementRule) -> str:
@@ -180,7 +169,5 @@ def _not_known(plan: DrivePlan) -> list[str]:
     outlived = [name for name, life in plan.lives.items() if isinstance(life, LowerBound)]
     if not outlived:
         return []
-    text = f"when to replace {', '.join(outlived)}: worn out in no run; a longer run.horizon_hours may tell"
-    if CHAIN in outlived:
-        text += ", and what goes with a chain change"
-    return [text]
+    text = f"when to replace {', '.join(outlived)}: did not wear out in the simulated time"
+    return [f"{text}; a longer run.horizon_hours may tell"]

@@ -25,7 +25,7 @@ _FOR_ONE_SPROCKET = {
 
 def check_tables(document: Document) -> None:
     """Name the keys that are for the case of one sprocket."""
-    drive, load, duty = (document.data.get(name) for name in ("drive", "load", "duty"))
+    drive, duty = (document.data.get(name) for name in ("drive", "duty"))
     for key, message in _OF_ONE_SPROCKET.items():
         if table_of(document.data, "maintenance").get(key):
             document.faults.add(f"maintenance.{key}", message)
@@ -38,8 +38,6 @@ def check_tables(document: Document) -> None:
         document.faults.add("mechanism.kind", message)
     if isinstance(drive, dict) and GIVEN_BY_WHEELS in drive:
         document.faults.add(f"drive.{GIVEN_BY_WHEELS}", "the other [[sprocket]] gives this: remove it")
-    if isinstance(load, dict) and "duty_file" in load:
-        document.faults.add("load.duty_file", "a drive with [[sprocket]] takes no log of loads: use [[duty]]")
     if isinstance(duty, list) and len(document.data["sprocket"]) == 2:
         for number, block in enumerate(duty, start=1):
             if isinstance(block, dict) and "power_share" in block:

@@ -14,6 +14,7 @@ from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import hours, overload_text
+from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.sketch import sketch
 from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
@@ -34,7 +35,13 @@ from wearsim.study.whole_drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.study.whole_drive.sheet import first_text, jumping_text, taken_for_granted, within_text
+from wearsim.study.whole_drive.sheet import (
+    against_hours,
+    first_text,
+    jumping_text,
+    taken_for_granted,
+    within_text,
+)
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
@@ -90,6 +97,8 @@ class SheetPage:
     lubrication: list[tuple[str, str]]
     lives: PageTable
     bars: Markup
+    chain_tables: list[HtmlTable]
+    against: str  # why the chain may end before its life by wear; empty where nothing says so
     plan: PageTable
     plan_until: str
     plan_rule: str
@@ -165,6 +174,8 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         lubrication=lubrication_rows(found),
         lives=life_table(found),
         bars=lives_bars(plan),
+        chain_tables=chain_tables(found.ends, found.practice, found.events),
+        against=against_hours(found),
         plan=plan_table(plan),
         plan_until=_plan_until(plan),
         plan_rule=plan.best.name,
@@ -173,7 +184,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
             FlankPicture(flank_place(number), name, sketch(_flank(result)))
             for number, (name, result) in enumerate(found.results.items(), start=1)
         ],
-        warnings=found.doubts,
+        warnings=found.warnings,
         assumptions=assumptions,
         defaults=defaults,
     )

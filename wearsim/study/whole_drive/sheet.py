@@ -27,6 +27,7 @@ from wearsim.study.whole_drive.layout import layout_json
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
+from wearsim.study.whole_drive.plan_words import ordinal
 from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
 Lives = Mapping[str, Life | LowerBound]
@@ -197,7 +198,8 @@ def first_stop_text(plan: DrivePlan, first: Stop, parts: str) -> str:
     """Return in words when parts are replaced first, and on which day where that is known."""
     when = _in_service(plan, first.hours)
     text = f"replace {stop_text(plan, first, parts)}" + (f" ({when})" if when else "")
-    return f"{text} and again after each such time" if first.parts == (CHAIN,) else text
+    every = {plan.best.every[name] for name in first.parts}
+    return f"{text}, then every {grouped(first.hours)} h" if every == {first.hours} else text
 
 
 def parts_in_words(stop: Stop) -> str:
@@ -207,8 +209,8 @@ def parts_in_words(stop: Stop) -> str:
 
 def stop_text(plan: DrivePlan, stop: Stop, parts: str) -> str:
     """Return in words when parts are replaced, and with which chain where they go with one."""
-    chain = plan.chain_at(stop.hours)
-    with_chain = f" with chain {chain}" if chain and CHAIN not in stop.parts else ""
+    chain = plan.best.chain_at(stop.hours)
+    with_chain = f" with the {ordinal(chain)} chain" if chain and CHAIN not in stop.parts else ""
     return f"{parts}{with_chain} at {grouped(stop.hours)} h"
 
 
