@@ -8,6 +8,7 @@ from itertools import pairwise
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.chain_length import STRETCH, odd_links_warning
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.loop_forces import LoopForces, SpanLevel
 from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_from
@@ -78,7 +79,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
     if table.links is None:
         case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
     if layout.links % 2:
-        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+        case.warnings.append(odd_links_warning(layout.links))
     if drive.take_up is not None:
         case.assumptions.append(
             f"take-up {drive.take_up.wheel!r} stands {layout.travel:.4g} mm from its place for a new chain"
@@ -148,7 +149,7 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
 
 
 def loop_loads(
-    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty
+    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty, link_stiffness: float
 ) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
     """Return the blocks of the duty and the rated loads with the tensions on both sides of the sprocket."""
     table = case.tables.drive or DriveTable()
@@ -163,7 +164,7 @@ def loop_loads(
         sag = 0.02
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
-    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag)
+    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag, link_stiffness)
     if not level.force > _NO_TENSION:
         case.faults.add(
             "drive.slack_tension_N",
@@ -171,6 +172,12 @@ def loop_loads(
         )
     if case.faults.count > before:
         return None
+    taut = layout.drive.take_up is None and layout.excess < STRETCH * layout.links
+    if taut and table.slack_tension_N is None:
+        case.assumptions.append(
+            f"the chain fits without slack, {layout.excess * layout.pitch:+.3g} mm: by its stretch, from "
+            f"drive.link_stiffness_N_per_mm, it has {level.force:.4g} N at rest, and the loosest span in motion"
+        )
     try:
         found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
         rated = [_forces(case, chain, layout, load, level, table) for load in duty.rated]
