@@ -176,7 +176,7 @@ def loop_loads(
     if taut and table.slack_tension_N is None:
         case.assumptions.append(
             f"the chain fits without slack, {layout.excess * layout.pitch:+.3g} mm: by its stretch, from "
-            f"drive.link_stiffness_N_per_mm, it has {level.force:.4g} N at rest, and the loosest span in motion"
+            f"drive.link_stiffness_N_per_mm, it has {level.force:.4g} N at rest, which its loosest span keeps"
         )
     try:
         found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
