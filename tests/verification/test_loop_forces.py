@@ -149,18 +149,50 @@ def test_a_span_that_holds_all_slack_sags_by_its_length() -> None:
     slope = 8.0 * sag * x / span
     length = float(np.trapezoid(np.sqrt(1.0 + slope**2), x))
     assert length - span == pytest.approx(layout.excess * PITCH, rel=0.02)
-    level = layout.level(0.7e-6, None, None)
-    assert level.force == pytest.approx(catenary_tension(0.7e-6, span, sag), rel=1e-12)
+    stiff, soft = (layout.level(0.7e-6, None, None, stiffness).force for stiffness in (1e15, 5e4))
+    assert stiff == pytest.approx(catenary_tension(0.7e-6, span, sag), rel=1e-9)
+    # The chain stretches by 102 T/5e4, which hangs with the rest: sag and T by steps.
+    stretched = catenary_tension(0.7e-6, span, sag)
+    for _ in range(50):
+        more = layout.excess * PITCH + layout.links * stretched / 5e4
+        stretched = catenary_tension(0.7e-6, span, math.sqrt(0.375 * more / span))
+    assert soft == pytest.approx(stretched, rel=1e-9)
+
+
+@pytest.mark.parametrize("short", [-1e-9, 1e-9, 0.02, 0.08])
+def test_a_chain_that_fits_without_slack_is_stretched(short: float) -> None:
+    """Two equal wheels further apart by `short`/2: the stretch of all links less the sag's length."""
+    wheels = Wheel("driver", (0.0, 0.0), 20), Wheel("driven", (50 * PITCH + 0.5 * short, 0.0), 20)
+    layout = loop_layout(LoopDrive(ChainLoop(PITCH, wheels), (1.0, -1.0)))
+    assert layout.links == 120
+    tension = layout.level(0.7e-6, None, None, 5e4).force
+    sag = 0.7e-6 * 9806.65 * wheels[1].centre[0] / (8.0 * tension)
+    hanging = 8.0 / 3.0 * sag**2 * wheels[1].centre[0]
+    assert 120 * tension / 5e4 - hanging == pytest.approx(short, abs=1e-6)
+
+
+def test_what_does_not_fit_is_told_with_what_would() -> None:
+    """Equal wheels: X = 2 a/p + 20; 100.2 pitches of spans are 0.2 short of 120 links, 1.8 over for 122."""
+    wheels = Wheel("driver", (0.0, 0.0), 20), Wheel("driven", (50.1 * PITCH, 0.0), 20)
+    drive = LoopDrive(ChainLoop(PITCH, wheels), (1.0, -1.0))
+    with pytest.raises(
+        CaseError, match=r"take 120\.2 links; 120 are 2\.54 mm too short, 0\.17 % of"
+    ) as error:
+        loop_layout(drive, 120)
+    assert str(error.value).endswith(f"or set the wheels apart by {50 * PITCH:.3f} mm for 120")
+    with pytest.raises(CaseError, match=r"too short.*; 122 let the span 'driver' to 'driven' sag by 11\.6 %"):
+        loop_layout(drive)
+    assert loop_layout(drive, 121).links == 121
 
 
 def test_a_placed_drive_of_two_is_laid_out_as_by_its_links() -> None:
-    """Handbook links against tangents: the centre distance that the take-up finds."""
+    """One formula: the centre distance that the take-up finds."""
     expected = layout_with_links(PITCH, 19, 25, 120)
     wheels = Wheel("driver", (0.0, 0.0), 19), Wheel("driven", (expected.centre_distance - 4.0, 0.0), 25)
     take_up = TakeUp("driven", (1.0, 0.0), -10.0, 10.0)
     layout = loop_layout(LoopDrive(ChainLoop(PITCH, wheels), (1.0, -1.0), take_up), 120)
-    assert layout.travel == pytest.approx(4.0, abs=0.01)
-    assert layout.wrap_angle == pytest.approx(expected.wrap_angle_1, rel=1e-5)
+    assert layout.travel == pytest.approx(4.0, abs=1e-9)
+    assert layout.wrap_angle == pytest.approx(expected.wrap_angle_1, rel=1e-12)
 
 
 WILSON = {24: (94.2, 96.2, 97.4, 98.1), 19: (94.1, 96.4, 97.6, 98.4), 13: (92.1, 94.9, 96.9, 97.8)}

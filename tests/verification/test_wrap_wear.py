@@ -100,6 +100,7 @@ def test_teeth_told_apart() -> None:
     assert contact(*even).bodies == 2
     assert contact(*even, "sprocket.teeth=19").bodies == 1
     assert contact("drive.links=113").bodies == 1
+    assert contact("joint.pitch='alternating'", "drive.links=113").bodies == 1
     assert contact("drive.links=114").bodies == 1
     assert contact(*even, "drive.mate_teeth=33").bodies == 2
 

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from wearsim.chain.chain_length import even_links, handbook_centre, handbook_links
+from wearsim.chain.chain_length import STRETCH, belt_centre, belt_links, even_links, polygon_swing
 from wearsim.errors import GeometryError
 from wearsim.geometry.gap import pitch_diameter
 
@@ -98,10 +98,10 @@ class DriveLayout:
 
     def __post_init__(self) -> None:
         _refuse_sprockets(self.pitch, self.teeth_1, self.teeth_2, self.centre_distance)
-        needed = handbook_links(self.teeth_1, self.teeth_2, self.centre_distance / self.pitch)
-        if not self.links > needed - 1e-6:
+        needed = belt_links(self.teeth_1, self.teeth_2, self.centre_distance / self.pitch)
+        if not self.links * (1.0 + STRETCH) >= needed:
             raise GeometryError(
-                f"drive layout: a centre distance of {self.centre_distance:.6g} mm needs {needed:.6g} "
+                f"drive layout: a centre distance of {self.centre_distance:.6g} mm needs {needed:.7g} "
                 f"links, are {self.links}: use {even_links(needed)}"
             )
 
@@ -134,6 +134,11 @@ class DriveLayout:
     def pitch_diameter_2(self) -> float:
         """Pitch diameter of sprocket 2 [mm]."""
         return pitch_diameter(self.pitch, self.teeth_2)
+
+    @property
+    def polygon_swing(self) -> float:
+        """Variation of the centre distance of the taut chain to both sides as a tooth passes [mm]."""
+        return self.pitch * polygon_swing(self.teeth_1, self.teeth_2, self.links)
 
     @property
     def inclination(self) -> float:
@@ -172,18 +177,18 @@ class DriveLayout:
 
 
 def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> DriveLayout:
-    """Return the layout of a chain of given links, centre distance by `handbook_centre`.
+    """Return the layout of a chain of given links, centre distance by `belt_centre`.
 
     Examples
     --------
     >>> round(layout_with_links(25.4, 27, 51, 100).centre_distance, 2)
-    768.58
+    768.57
     """
     _refuse_numbers(pitch, teeth_1, teeth_2)
-    centre = pitch * handbook_centre(teeth_1, teeth_2, links)
+    centre = pitch * belt_centre(teeth_1, teeth_2, links)
     least = least_centre(pitch, teeth_1, teeth_2)
     if centre < least:
-        needed = even_links(handbook_links(teeth_1, teeth_2, least / pitch))
+        needed = 2 * math.ceil(0.5 * belt_links(teeth_1, teeth_2, least / pitch))
         raise GeometryError(
             f"drive layout: the sprockets must not overlap, but {links} links leave a centre "
             f"distance of {centre:.6g} mm of the {least:.6g} mm needed: use {needed} links or more"
@@ -194,15 +199,19 @@ def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> D
 def layout_with_centre(pitch: float, teeth_1: int, teeth_2: int, centre_distance: float) -> DriveLayout:
     """Return the layout nearest above a wished centre distance that has an even number of links.
 
+    A wish within `STRETCH` of the chain above that of a taut one counts as met by it.
+
     Examples
     --------
     >>> layout = layout_with_centre(44.45, 17, 34, 25 * 44.45)
     >>> layout.links, round(layout.centre_distance / 44.45, 4)
-    (76, 25.1042)
+    (76, 25.1041)
     """
     _refuse_sprockets(pitch, teeth_1, teeth_2, centre_distance)
-    links = handbook_links(teeth_1, teeth_2, centre_distance / pitch)
-    return layout_with_links(pitch, teeth_1, teeth_2, even_links(links))
+    links = even_links(belt_links(teeth_1, teeth_2, centre_distance / pitch))
+    if pitch * belt_centre(teeth_1, teeth_2, links) < least_centre(pitch, teeth_1, teeth_2):
+        links += 2  # what stretch would take up is the room between the tips
+    return layout_with_links(pitch, teeth_1, teeth_2, links)
 
 
 def least_centre(pitch: float, teeth_1: int, teeth_2: int) -> float:

@@ -1,12 +1,13 @@
 """A chain with a whole number of links round the wheels of a drive: who turns, who takes up, what hangs."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from wearsim.chain.chain_length import even_links
+from wearsim.chain.chain_length import STRETCH, belt_centre, even_links
 from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_forces import LoopForces, SpanLevel, inclination, loop_forces, looser_span
-from wearsim.chain.span_tension import catenary_tension
+from wearsim.chain.span_tension import catenary_tension, fitted_tension
 from wearsim.chain.take_up import TakeUp, fitting_travel
 from wearsim.errors import CaseError, Fault, GeometryError
 
@@ -108,7 +109,9 @@ class LoopLayout:
         excess = max(self.excess, 0.0) * self.pitch
         return math.sqrt(0.375 * excess / float(self.loop.span_lengths[span]))
 
-    def level(self, mass_per_length: float, slack_tension: float | None, sag: float | None) -> SpanLevel:
+    def level(
+        self, mass_per_length: float, slack_tension: float | None, sag: float | None, link_stiffness: float
+    ) -> SpanLevel:
         """Return what sets the tensions: a given tension, a force of the take-up, or a span that sags.
 
         Parameters
@@ -119,6 +122,8 @@ class LoopLayout:
             Tension of the loosest span [N]; None where it follows.
         sag : float or None
             Sag of the loosest span over its length; None for that of the excess of links.
+        link_stiffness : float
+            Stiffness of a link [N/mm], by which a chain stretches that has no excess.
         """
         loosest = looser_span(self.loop, self.drive.shares)
         take_up = self.drive.take_up
@@ -129,9 +134,11 @@ class LoopLayout:
                 self.drive.take_up_force, wheel=self.loop.index(take_up.wheel), direction=take_up.unit
             )
         slope = inclination(self.loop, loosest)
-        found = self.sag(loosest) if sag is None else sag
         span = float(self.loop.span_lengths[loosest])
-        return SpanLevel(catenary_tension(mass_per_length, span, found, slope), span=loosest)
+        if sag is None:
+            excess, yielding = self.excess * self.pitch, self.links / link_stiffness
+            return SpanLevel(fitted_tension(mass_per_length, span, excess, yielding, slope), span=loosest)
+        return SpanLevel(catenary_tension(mass_per_length, span, sag, slope), span=loosest)
 
     def forces(
         self,
@@ -184,22 +191,46 @@ def loop_layout(drive: LoopDrive, links: int | None = None) -> LoopLayout:
                 continue
             return LoopLayout(drive, take_up.moved(drive.loop, travel), number, travel)
         raise refused[0]
-    number = links if links is not None else even_links(fits)
-    layout = LoopLayout(drive, drive.loop, number, 0.0)
-    loosest = looser_span(drive.loop, drive.shares)
-    sag = layout.sag(loosest)
-    if layout.excess < -1e-6 or sag > LARGEST_SAG:
-        message = (
-            f"a whole number of links must fit: the wheels as they stand take {fits:.2f} links, {number} "
-            + (
-                "are too few"
-                if layout.excess < 0.0
-                else f"let the span {drive.loop.span_name(loosest)} sag by {100.0 * sag:.3g} % of its length"
-            )
-            + ": give one wheel a take_up, or move one"
+    layout = LoopLayout(drive, drive.loop, links if links is not None else even_links(fits), 0.0)
+    numbers = [layout.links] if links is not None else [layout.links - 2, layout.links]
+    if not _misfit(layout):
+        return layout
+    found = "; ".join(_misfit(replace(layout, links=number)) for number in numbers)
+    message = (
+        f"a whole number of links must fit: the wheels as they stand take {fits:.7g} links; {found}: "
+        f"{_remedy(drive.loop, numbers)}"
+    )
+    raise CaseError([Fault(f"chain loop: {message}")])
+
+
+def _misfit(layout: LoopLayout) -> str:
+    """Return by how much a chain is too short or too long for wheels that stand; empty where it fits."""
+    loop, short = layout.loop, -layout.excess / layout.links
+    if short > STRETCH:
+        return (
+            f"{layout.links} are {-layout.excess * layout.pitch:.3g} mm too short, {100.0 * short:.2g} % of "
+            f"their length of which stretch may take up {100.0 * STRETCH:g} %"
         )
-        raise CaseError([Fault(f"chain loop: {message}")])
-    return layout
+    loosest = looser_span(loop, layout.drive.shares)
+    sag = layout.sag(loosest)
+    if sag > LARGEST_SAG:
+        span = loop.span_name(loosest)
+        return f"{layout.links} let the span {span} sag by {100.0 * sag:.3g} % of its length"
+    return ""
+
+
+def _remedy(loop: ChainLoop, numbers: Sequence[int]) -> str:
+    """Return how wheels come to stand where a whole number of links fits; of two, how far apart."""
+    take_up = "give one wheel a take_up"
+    if len(loop.wheels) > 2:
+        return f"{take_up}, or move one"
+    one, two = (wheel.teeth for wheel in loop.wheels)
+    fitting = (
+        f"{loop.pitch * belt_centre(one, two, number):.3f} mm for {number}"
+        for number in numbers
+        if number > max(one, two)
+    )
+    return f"{take_up}, or set the wheels apart by {' or '.join(fitting)}"
 
 
 def _even_near(links: float) -> list[int]:

@@ -326,11 +326,30 @@ def warning(finding: RatingFinding) -> str:
     >>> warning(RatingFinding("plate fatigue", 30.0, 29.33, "kW", "ANSI B29.1, H1"))
     'outside a rating: plate fatigue 30 kW, allowed at most 29.33 kW (ANSI B29.1, H1)'
     """
+    return f"outside a rating: {_compared(finding)}"
+
+
+def _compared(finding: RatingFinding) -> str:
     side = "least" if finding.at_least else "most"
     unit = f" {finding.unit}" if finding.unit else ""
     source = f"{finding.source}; indicative here" if finding.note else finding.source
     of = f" of {finding.load}" if finding.load else ""
     return (
-        f"outside a rating: {finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
+        f"{finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
         f"{finding.limit:.4g}{unit} ({source})"
     )
+
+
+def overload_fault(findings: Sequence[RatingFinding]) -> str:
+    """Return in words that a load is outside the ratings that decide, all of them; empty where it is not.
+
+    Examples
+    --------
+    >>> overload_fault([RatingFinding("plate fatigue", 30.0, 24.0, "kW", "ANSI B29.1, H1")])[:77]
+    'the load must keep to its ratings: plate fatigue 30 kW, allowed at most 24 kW'
+    """
+    outside = overloading(findings)
+    if not outside:
+        return ""
+    found = "; ".join(f"{_compared(one)}: {100.0 * one.used:.4g} % of it" for one in outside)
+    return f"the load must keep to its ratings: {found}: take a larger chain, more strands or less power"

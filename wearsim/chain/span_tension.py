@@ -76,6 +76,57 @@ def catenary_tension(mass_per_length: float, span: float, sag: float = 0.02, slo
     return mass_per_length * STANDARD_GRAVITY * span * math.cos(slope) / (8.0 * sag)
 
 
+def fitted_tension(
+    mass_per_length: float, span: float, excess: float, yielding: float, slope: float = 0.0
+) -> float:
+    """Return the tension at rest of a chain fitted on fixed centres, of its one span that hangs.
+
+    What a chain has too much of, and what it stretches by, hangs as a parabola:
+    (q g cos(psi))^2 a^3/(24 T^2) = e + c T. Without stretch that is the catenary of the excess e; a chain
+    that is too short by -e has the tension that stretches it.
+
+    Equation physics.md (D10).
+
+    Parameters
+    ----------
+    mass_per_length : float
+        q [t/mm], above 0.
+    span : float
+        Length of the span a [mm].
+    excess : float
+        e, length of the chain less that of the taut one [mm]; below 0 for a chain that is too short.
+    yielding : float
+        c, by which the whole chain stretches [mm/N], links over the stiffness of one, above 0.
+    slope : float
+        Angle psi of the span to the horizontal [rad].
+
+    Returns
+    -------
+    float
+        Tension [N].
+
+    Examples
+    --------
+    A chain too short by 0.1 mm, of 100 links of 50 000 N/mm, next to weightless: 0.1 * 50 000/100 N.
+
+    >>> round(fitted_tension(1e-15, 500.0, -0.1, 100 / 5e4), 9)
+    50.0
+    """
+    from scipy.optimize import brentq
+
+    weight = mass_per_length * STANDARD_GRAVITY * math.cos(slope)
+    hanging = weight**2 * span**3 / 24.0
+    least = max(-excess, 0.0) / yielding
+    most = least + (hanging / yielding) ** (1.0 / 3.0)
+    if not most > least:
+        return least
+    return float(
+        brentq(
+            lambda pull: pull**2 * (excess + yielding * pull) - hanging, least, most, xtol=1e-12, rtol=1e-14
+        )
+    )
+
+
 def shaft_load(tight: float, slack: float, inclination: float) -> float:
     """Return the force of both spans of a chain on either shaft.
 

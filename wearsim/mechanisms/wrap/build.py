@@ -9,7 +9,7 @@ from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain
-from wearsim.chain.chain_length import even_links, handbook_links
+from wearsim.chain.chain_length import belt_links, even_links, odd_links_warning
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_layout import LoopLayout
@@ -21,7 +21,7 @@ from wearsim.input.document import Document
 from wearsim.input.schema import DriveTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
-from wearsim.mechanisms.wrap.joints import alternates, joint_input, joint_law_of, with_teeth_alike
+from wearsim.mechanisms.wrap.joints import joint_input, joint_law_of, with_teeth_alike
 from wearsim.mechanisms.wrap.place_in_loop import (
     PlaceInLoop,
     check_travel,
@@ -78,7 +78,7 @@ def wrapped_drive(
     driver = table.role != "driven"
     law = joint_law_of(case)
     if isinstance(layout, LoopLayout):
-        loads = loop_loads(case, chain, layout, duty, law)
+        loads = loop_loads(case, chain, layout, duty, law, _link_stiffness(case, chain))
     else:
         loads = _tensions(case, chain, layout, duty, law)
     if loads is None:
@@ -115,7 +115,7 @@ def wrapped_drive(
         face_width=width,
         blocks=blocks,
         rated=rated,
-        link_stiffness=_link_stiffness(case, chain),
+        link_stiffness=_taken_stiffness(case, chain),
         bush_radius=0.5 * _bush_diameter(case, chain),
         phases=mechanism.phases or PHASES,
         slip_fraction=slip_fraction(case, SLIP_FRACTION),
@@ -200,7 +200,7 @@ def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout |
             )
         else:
             if links is None:
-                links = even_links(handbook_links(teeth_1, teeth_2, CENTRE_IN_PITCHES))
+                links = even_links(belt_links(teeth_1, teeth_2, CENTRE_IN_PITCHES))
                 case.take("drive.links", links, "about 40 pitches between the sprockets")
             layout = layout_with_links(chain.pitch, teeth_1, teeth_2, links)
     except GeometryError as error:
@@ -208,14 +208,7 @@ def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout |
         case.faults.add(f"drive.{key}", str(error))
         return None
     if layout.needs_offset_link:
-        if alternates(case):
-            case.faults.add(
-                "drive.links",
-                f"must be even where inner and outer links alternate (got {layout.links}): use "
-                f"{layout.links + 1}, or joint.pitch = 'uniform'",
-            )
-            return None
-        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+        case.warnings.append(odd_links_warning(layout.links))
     return layout
 
 
@@ -318,11 +311,14 @@ def _slack(case: ChainRecord, chain: Chain, layout: DriveLayout, pull: float) ->
 
 def _link_stiffness(case: ChainRecord, chain: Chain) -> float:
     given = (case.tables.drive or DriveTable()).link_stiffness_N_per_mm
-    if given is not None:
-        return given
-    stiffness = float(f"{LINK_STIFFNESS_PER_PITCH * chain.pitch:.3g}")
-    why = "5e4 N/mm at a pitch of 12.7 mm, in proportion to the pitch"
-    case.take("drive.link_stiffness_N_per_mm", stiffness, why)
+    return float(f"{LINK_STIFFNESS_PER_PITCH * chain.pitch:.3g}") if given is None else given
+
+
+def _taken_stiffness(case: ChainRecord, chain: Chain) -> float:
+    stiffness = _link_stiffness(case, chain)
+    if (case.tables.drive or DriveTable()).link_stiffness_N_per_mm is None:
+        why = "5e4 N/mm at a pitch of 12.7 mm, in proportion to the pitch"
+        case.take("drive.link_stiffness_N_per_mm", stiffness, why)
     return stiffness
 
 

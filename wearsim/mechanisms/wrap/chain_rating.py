@@ -75,7 +75,8 @@ def _laid_out(layout: DriveLayout | LoopLayout) -> str:
         return f"{layout.links} links; wrap {wraps}"
     return (
         f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
-        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
+        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut, within {layout.polygon_swing:.2f} mm "
+        "as a tooth passes), wrap "
         f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
         f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket"
     )

@@ -16,7 +16,7 @@ from wearsim.chain.joint_wear import JointLaw, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
-from wearsim.chain.selection import RatedDrive, RatingFinding
+from wearsim.chain.selection import RatedDrive, RatingFinding, overload_fault
 from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
@@ -354,15 +354,24 @@ class WrapDrive(Drive):
         )
 
     def check(self, case: Case) -> None:
-        """Raise where the chain jumps on new teeth, at no or at its limit of elongation."""
+        """Raise where the chain jumps on new teeth, at no or at its limit of elongation.
+
+        The ratings that such a drive is outside of are among the faults: a slack tension is not all it lacks.
+        """
         limits = (0.0, self.joint.elongation_limit)
-        if not all(self.rollers.holds(elongation) for elongation in limits):
-            raise CaseError([Fault(self._jumping(limits), "drive.slack_tension_N", case.name)])
         least = case.more_limits.get("min_slack_tension_N")
-        if least is not None and not self.rollers.with_slack(least).holds(0.0):
+        if not all(self.rollers.holds(elongation) for elongation in limits):
+            message, key = self._jumping(limits), "drive.slack_tension_N"
+        elif least is not None and not self.rollers.with_slack(least).holds(0.0):
             needed = 1.005 * self.rollers.smallest_slack_tension(0.0)  # rounded up
             message = f"must be above what a new drive needs not to jump, {needed:.3g} N (got {least:g})"
-            raise CaseError([Fault(message, "stop.min_slack_tension_N", case.name)])
+            key = "stop.min_slack_tension_N"
+        else:
+            return
+        faults = [Fault(message, key, case.name)]
+        if overload := overload_fault(self.ratings(case)):
+            faults.append(Fault(overload, "duty" if case.inputs.get("duty") else "load", case.name))
+        raise CaseError(faults)
 
     def _jumping(self, limits: tuple[float, float]) -> str:
         """Say which slack tension holds the chain, new and stretched."""

@@ -96,9 +96,8 @@ def with_teeth_alike(
 
 def _teeth_alike(case: ChainRecord, law: JointLaw) -> bool:
     """Return whether teeth and joints take the rates of one condition by a law that is not constant."""
-    table, of_teeth = _table(case), case.tables.wear.condition
-    own = table.specific_wear_rate_mm2_per_N is not None
-    return of_teeth is not None and table.condition in (None, of_teeth) and not own and not law.is_constant
+    of_teeth = case.tables.wear.condition
+    return of_teeth is not None and _table(case).condition in (None, of_teeth) and not law.is_constant
 
 
 def joint_state(chain: Chain, blocks: Sequence[WrapLoad], own_teeth: float, small: int) -> JointState:

@@ -8,6 +8,7 @@ from itertools import pairwise
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
+from wearsim.chain.chain_length import STRETCH, odd_links_warning
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointLaw
@@ -80,7 +81,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
     if table.links is None:
         case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
     if layout.links % 2:
-        case.warnings.append(f"{layout.links} links need a cranked link, which is weaker")
+        case.warnings.append(odd_links_warning(layout.links))
     if drive.take_up is not None:
         case.assumptions.append(
             f"take-up {drive.take_up.wheel!r} stands {layout.travel:.4g} mm from its place for a new chain"
@@ -150,7 +151,7 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
 
 
 def loop_loads(
-    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty, law: JointLaw
+    case: ChainRecord, chain: Chain, layout: LoopLayout, duty: GivenDuty, law: JointLaw, link_stiffness: float
 ) -> tuple[tuple[WrapLoad, ...], tuple[WrapLoad, ...]] | None:
     """Return the blocks of the duty and the rated loads with the tensions on both sides of the sprocket."""
     table = case.tables.drive or DriveTable()
@@ -166,7 +167,7 @@ def loop_loads(
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
     sides = (layout, layout.braked) if any(load.reverse for load in duty.blocks) else (layout,)
-    levels = [side.level(chain.mass_per_length, table.slack_tension_N, sag) for side in sides]
+    levels = [side.level(chain.mass_per_length, table.slack_tension_N, sag, link_stiffness) for side in sides]
     if not min(level.force for level in levels) > _NO_TENSION:
         case.faults.add(
             "drive.slack_tension_N",
@@ -174,6 +175,13 @@ def loop_loads(
         )
     if case.faults.count > before:
         return None
+    taut = layout.drive.take_up is None and layout.excess < STRETCH * layout.links
+    if taut and table.slack_tension_N is None:
+        case.assumptions.append(
+            f"the chain fits without slack, {layout.excess * layout.pitch:+.3g} mm: by its stretch, from "
+            f"drive.link_stiffness_N_per_mm, it has {levels[0].force:.4g} N at rest, which its loosest span "
+            "keeps"
+        )
     try:
         found, rated = (
             [_forces(case, chain, sides[load.reverse], load, levels[load.reverse], table) for load in loads]

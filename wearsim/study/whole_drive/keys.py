@@ -332,11 +332,11 @@ def _case(
     except CaseError as error:
         for fault in error.faults:
             key, message = _key(fault, wheels, number), fault.message
-            if case is not None:
+            # Of loop and load each sprocket has the same fault in other numbers.
+            alike = fault.key == LOOP_KEY or key.partition(".")[0] in ("load", "duty")
+            if case is not None and not alike:
                 message = f"{wheels[number].name!r}: {message}"
                 key = _slack_key(key, wheels)
-            # Of loop and load each sprocket has the same fault in other numbers.
-            alike = fault.key == LOOP_KEY or key.startswith(("load.", "duty."))
             same = (key, "" if alike else message)
             if same not in seen:
                 document.faults.add(key, message)
