@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from wearsim.chain.practice import RULES, geometric_mean, opinions
 
@@ -44,8 +45,14 @@ def recomputed(row) -> dict[str, float]:
     inch = pitch / 25.4
     plates = 0.004 * z**1.08 * n**0.9 * inch ** (3 - 0.07 * inch)
     rated = 745.7 * min(plates, 17e3 * z**1.5 * inch**0.8 / n**1.5)  # in W
-    rest, arc = links - (z + row["mate_teeth"]) / 2, ((row["mate_teeth"] - z) / (2 * math.pi)) ** 2
-    centre = (rest + math.sqrt(rest**2 - 8 * arc)) / 4
+    radii = [0.5 / math.sin(math.pi / teeth) for teeth in (z, row["mate_teeth"])]
+
+    def excess(a: float) -> float:
+        slope = math.asin((radii[1] - radii[0]) / a)
+        arcs = z * (0.5 - slope / math.pi) + row["mate_teeth"] * (0.5 + slope / math.pi)
+        return 2 * a * math.cos(slope) + arcs - links
+
+    centre = brentq(excess, radii[1] - radii[0], links, xtol=1e-12)
     supply = 1.2 if v <= 1.5 else 1.5 if v <= 3 else 2.5
     vorobyev = 3 * supply / v**0.5 * z**0.5 * (centre * i / v) ** (1 / 3) / p / 1000
     chain = links / 120 * i / (i + 1) / 0.75

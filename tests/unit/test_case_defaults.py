@@ -190,9 +190,7 @@ def test_a_rate_that_was_measured_is_not_argued_with(load):
 
 
 def test_a_source_needs_its_rate(load):
-    with pytest.raises(
-        wearsim.CaseError, match=r"joint\.source: says where specific_wear_rate"
-    ):
+    with pytest.raises(wearsim.CaseError, match=r"joint\.source: says where specific_wear_rate"):
         load(WRAPPED + '[joint]\nsource = "read on the drive"\n')
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.catalogue.catalogues import catalogue_rows
-from wearsim.chain.chain_length import handbook_centre
+from wearsim.chain.chain_length import belt_centre
 from wearsim.chain.joint_pressure import allowable_joint_pressure
 from wearsim.chain.power_rating import RATED_HOURS, power_rating, strand_factor
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
@@ -104,7 +104,7 @@ def _by_vorobyev(constant: float) -> Callable[[PracticeDrive, float], float | st
         if not _SLOWEST <= speed <= _FASTEST:
             return f"in use from about {_SLOWEST:g} to {_FASTEST:g} m/s"
         try:
-            centre = handbook_centre(round(drive.teeth), round(drive.teeth * drive.ratio), drive.links)
+            centre = belt_centre(round(drive.teeth), round(drive.teeth * drive.ratio), drive.links)
         except GeometryError:
             return "two wheels of this ratio need more links: no centre distance to reckon with"
         supply = 1.2 if speed <= 1.5 else 1.5 if speed <= 3.0 else 2.5

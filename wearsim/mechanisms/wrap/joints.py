@@ -148,7 +148,7 @@ def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
     if given is None:
         _say_law(case, law, condition, state)
     else:
-        _say_own_law(case, law, condition)
+        _say_own_law(case, law, condition, state)
     if table.band_factor is not None or given is not None:
         factor = table.band_factor or DEFAULT_BAND
         if table.band_factor is None:
@@ -182,12 +182,12 @@ def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: 
         case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
 
 
-def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition) -> None:
+def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:
     source = _table(case).source
     if source is not None:
         case.assumptions.append(f"{JOINT_COEFFICIENT} = {law.coefficient:.4g} comes from: {source}")
     elif _named(case):
-        _warn_of_rate(case, condition, law.coefficient)
+        _warn_of_rate(case, condition, law.coefficient, state)
     if law.is_constant:
         case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
     else:
@@ -208,13 +208,17 @@ def _at(state: JointState) -> str:
     return f"at {state.pressure:.3g} MPa and {state.speed:.4g} rpm"
 
 
-def _warn_of_rate(case: ChainRecord, state: WearCondition, given: float) -> None:
-    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed."""
+def _warn_of_rate(case: ChainRecord, state: WearCondition, given: float, at: JointState) -> None:
+    """Warn where the joints' rate is one of dry joints and the teeth are lubricated, or reversed.
+
+    A rate that lubricated joints have where these run, by their law, is no contradiction.
+    """
     of = {state.machine, "any"} if state.machine != "any" else {"any"}
     alike = [
         row for row in wear_conditions().values() if row.lubricated == state.lubricated and row.machine in of
     ]
-    low, high = min(row.joint_low for row in alike), max(row.joint_high for row in alike)
+    low = min(row.joint_low for row in alike)
+    high = max(row.joint_high * max(1.0, joint_law(row).rate(*at) / row.joint_typical) for row in alike)
     if given <= high if state.lubricated else given >= low:
         return
     kinds = ("dry or contaminated", "lubricated")
