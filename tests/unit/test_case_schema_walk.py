@@ -122,9 +122,23 @@ PHASES = [
     {"km": 200.0, "relubrications": 3},
 ]
 
+JOINT_LAW = {
+    "specific_wear_rate_mm2_per_N": 1e-9,
+    "law": "pressure_speed",
+    "pressure_exponent": 2.0,
+    "speed_exponent": 0.7,
+    "pitch_exponent": 0.3,
+    "reference_pressure_MPa": 20.0,
+    "reference_speed_rpm": 400.0,
+    "reference_pitch_mm": 25.4,
+}
+
 BASES = {
     "strand": STRAND,
     "wrap": WRAP,
+    "joint law": edited(WRAP, joint=JOINT_LAW),
+    "joint state": edited(WRAP, joint={"condition": "normalised, greased"}),
+    "short chain": edited(WRAP, stop={"critical_depth_mm": 0.05, "elongation_percent": 0.01}),
     "own wrap": edited(
         WRAP, chain=OWN_CHAIN, drive={"mate_teeth": 20, "links": 60}, load={"power_kW": 0.4, "speed_rpm": 200}
     ),
@@ -461,6 +475,15 @@ CHANGES = {
         ("strand", 1e-9, "joint.specific_wear_rate_mm2_per_N"),
     ],
     "joint.source": [("strand", "a rig", "joint.source")],
+    "joint.condition": [("joint state", "hardened, dry"), ("joint state", "oily", "joint.condition")],
+    "joint.law": [("joint state", "constant"), ("joint law", "constant", "joint.pressure_exponent")],
+    "joint.pressure_exponent": [("joint law", 1.6), ("wrap", 1.6, "joint.pressure_exponent")],
+    "joint.speed_exponent": [("joint law", 0.5), ("wrap", 0.5, "joint.speed_exponent")],
+    "joint.pitch_exponent": [("joint law", 0.5), ("wrap", 0.5, "joint.pitch_exponent")],
+    "joint.reference_pressure_MPa": [("joint law", 25.0), ("wrap", 25.0, "joint.reference_pressure_MPa")],
+    "joint.reference_speed_rpm": [("joint law", 600.0), ("wrap", 600.0, "joint.reference_speed_rpm")],
+    "joint.reference_pitch_mm": [("joint law", 38.1), ("wrap", 38.1, "joint.reference_pitch_mm")],
+    "joint.band_factor": [("short chain", 5.0), ("wrap", 0.5, "joint.band_factor")],
     "joint.pitch": [("wrap", "uniform")],
     "stop.elongation_percent": [("wrap", 0.01), ("strand", 1.0, "stop.elongation_percent")],
     "wear.case_depth_mm": [("layers", 0.03), ("wrap layers", 0.001), ("strand", 0.03, "wear.core_factor")],
