@@ -193,21 +193,32 @@ def plain_selection(need: DriveRequirements) -> list[tuple[float, int, int, str,
     return sorted(found)
 
 
+def links_at(centre, p, d1, d2, z1, z2):
+    """Two tangents, and of each wheel the teeth that they leave."""
+    beta = math.asin((d2 - d1) / (2 * centre))
+    teeth = z1 * (0.5 - beta / math.pi) + z2 * (0.5 + beta / math.pi)
+    return 2 * centre * math.cos(beta) / p + teeth
+
+
+def taut_centre(links, *wheels):
+    """The centre distance of so many links, by halving what it lies in."""
+    low, high = (wheels[2] - wheels[1]) / 2 + 1e-9, links * wheels[0]
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if links_at(middle, *wheels) < links else (low, middle)
+    return low
+
+
 def plain_drive(need, series, strands, name, z1, z2):
     chain = chains()[name]
     p, n, K = chain.pitch, need.speed, STRANDS[strands - 1]
     d1, d2 = p / math.sin(math.pi / z1), p / math.sin(math.pi / z2)
     # The shortest even number of links with 40 pitches, or the room that there is, or more; then two less.
-    term = ((z2 - z1) / (2 * math.pi)) ** 2
-    links, centre = 0, 0.0
-    for links in range(2 * math.ceil((z1 + z2) / 2), 1000, 2):
-        m = links - (z1 + z2) / 2
-        centre = p * (m + math.sqrt(max(0.0, m * m - 8 * term))) / 4
-        if centre >= min(40 * p, need.centre_max or math.inf):
-            break
+    wish = min(40 * p, need.centre_max or math.inf)
+    links = 2 * math.ceil(links_at(wish, p, d1, d2, z1, z2) / 2.0002)
+    centre = taut_centre(links, p, d1, d2, z1, z2)
     if need.centre_max and centre > need.centre_max:
-        m = links - 2 - (z1 + z2) / 2
-        links, centre = links - 2, p * (m + math.sqrt(m * m - 8 * term)) / 4
+        links, centre = links - 2, taut_centre(links - 2, p, d1, d2, z1, z2)
         if centre > need.centre_max:
             return None
     q = MASSES[series][strands - 1]
