@@ -103,7 +103,13 @@ class LoopLayout:
         excess = max(self.excess, 0.0) * self.pitch
         return math.sqrt(0.375 * excess / float(self.loop.span_lengths[span]))
 
-    def level(self, mass_per_length: float, slack_tension: float | None, sag: float | None) -> SpanLevel:
+    def level(
+        self,
+        mass_per_length: float,
+        slack_tension: float | None,
+        sag: float | None,
+        shares: tuple[float, ...] = (),
+    ) -> SpanLevel:
         """Return what sets the tensions: a given tension, a force of the take-up, or a span that sags.
 
         Parameters
@@ -114,8 +120,10 @@ class LoopLayout:
             Tension of the loosest span [N]; None where it follows.
         sag : float or None
             Sag of the loosest span over its length; None for that of the excess of links.
+        shares : tuple of float
+            Of each wheel in the power, by which one span is the loosest; by default those of the drive.
         """
-        loosest = looser_span(self.loop, self.drive.shares)
+        loosest = looser_span(self.loop, shares or self.drive.shares)
         take_up = self.drive.take_up
         if slack_tension is not None:
             return SpanLevel(slack_tension, span=loosest)

@@ -163,8 +163,13 @@ def loop_loads(
         sag = 0.02
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
-    level = layout.level(chain.mass_per_length, table.slack_tension_N, sag)
-    if not level.force > _NO_TENSION:
+    loads = (*duty.blocks, *duty.rated)
+    # Where blocks share the power in other ways, other spans are the loosest.
+    levels = [
+        layout.level(chain.mass_per_length, table.slack_tension_N, sag, _shares(layout, load.power_share))
+        for load in loads
+    ]
+    if not all(level.force > _NO_TENSION for level in levels):
         case.faults.add(
             "drive.slack_tension_N",
             "the loosest span is vertical and has no tension of its own: give this, or take_up with a force",
@@ -172,12 +177,14 @@ def loop_loads(
     if case.faults.count > before:
         return None
     try:
-        found = [_forces(case, chain, layout, load, level, table) for load in duty.blocks]
-        rated = [_forces(case, chain, layout, load, level, table) for load in duty.rated]
+        forces = [
+            _forces(case, chain, layout, load, level, table) for load, level in zip(loads, levels, strict=True)
+        ]
     except CaseError as error:
         for fault in error.faults:
             case.faults.add(LOOP_KEY, fault.message)
         return None
+    found, rated = forces[: len(duty.blocks)], forces[len(duty.blocks) :]
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
     spans = ", ".join(
         f"{layout.loop.span_name(i)} {tension:.4g}" for i, tension in enumerate(heaviest.tensions)
@@ -191,8 +198,8 @@ def loop_loads(
     if not within_strength(case, strained, chain, key):
         return None
     blocks, ratings = (
-        tuple(_block(layout, load, forces) for load, forces in zip(loads, of, strict=True))
-        for loads, of in ((duty.blocks, found), (duty.rated, rated))
+        tuple(_block(layout, load, one) for load, one in zip(given, of, strict=True))
+        for given, of in ((duty.blocks, found), (duty.rated, rated))
     )
     return blocks, ratings
 
